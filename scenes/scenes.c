@@ -596,6 +596,11 @@ static bool shadowed(struct demo *d, float radius, lam_error *error)
 }
 
 static bool shadows_hard(struct demo *d, lam_error *error) { return shadowed(d, 0, error); }
+static bool shadows_soft(struct demo *d, lam_error *error)
+{
+    d->params.shadow_samples = 24;
+    return shadowed(d, 0.3f, error);
+}
 static bool shadows_gouraud(struct demo *d, lam_error *error)
 {
     d->params.shading = LAM_SHADING_GOURAUD;
@@ -650,6 +655,8 @@ const struct demo_row demos[] = {
     {"textured-gouraud", "lit at the vertices: the diffuse map stays sharp", textured_gouraud},
     {"masked", "leaves: left out below half opacity to the left, blended to the right", textured_masked},
     {"shadows", "a ball, a box and a knot: hard shadows of a directional, a point and a spot light", shadows_hard},
+    {"shadows-soft", "the same lights with a size", shadows_soft},
+    {"shadows-leaves", "the leaves again: light falls through holes, and in part through glass", textured_shadows},
     {"shadows-gouraud", "the same, lit at the vertices", shadows_gouraud},
     {"samples-1", "no antialiasing", samples_1},
     {"samples-2", "2 samples a pixel", samples_2},

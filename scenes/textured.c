@@ -162,3 +162,19 @@ bool textured_masked(struct demo *d, lam_error *error)
     lam_texture_free(t);
     return ok;
 }
+
+// The same balls over a floor: light falls through what is left out or blended.
+bool textured_shadows(struct demo *d, lam_error *error)
+{
+    lam_material m = lam_material_default();
+    d->params.shadows = true;
+    if (!textured_masked(d, error) || !add_textured(d, "plane", &m, (lam_vec3){-0.8, -1.05, -0.6}, error) ||
+        !add_textured(d, "plane", &m, (lam_vec3){1.0, -1.05, -0.6}, error))
+        return false;
+    lam_light l = lam_light_default(LAM_LIGHT_DIRECTIONAL);
+    l.direction = (lam_vec3){0.1, -1, -0.5};
+    l.diffuse = (lam_rgb){0.7f, 0.7f, 0.7f};
+    lam_view view = {.from_angles = true, .elevation_rad = 0.6};
+    d->camera = lam_camera_fit(d->scene, d->width, d->height, &view);
+    return lam_scene_add_light(d->scene, &l, error) >= 0;
+}

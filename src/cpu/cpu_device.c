@@ -6,6 +6,7 @@
 #include "fail.h"
 #include "hierarchy.h"
 #include "isa.h"
+#include "light_pattern.h"
 #include "output.h"
 #include "recorder.h"
 #include "srgb.h"
@@ -25,6 +26,7 @@ struct cpu_device {
     struct frame_memory memory;
     struct visible_buffers visible;
     struct hierarchy_memory hierarchy;
+    struct light_pattern light_pattern;
     float decode_srgb[256], decode_linear[256];
 };
 
@@ -181,6 +183,9 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     if (frame->shadows &&
         !(cpu.shade.hierarchy = hierarchy_of_frame(&device->hierarchy, frame, device->pool, call, &built, error)))
         return false;
+    if (frame->shadows && device->light_pattern.count != frame->shadow_samples)
+        light_pattern_fill(&device->light_pattern, frame->shadow_samples);
+    cpu.shade.light_pattern = &device->light_pattern;
     base->report.hierarchy_ms = built ? milliseconds_since(&clock) : 0;
     cpu.kernels->resolve_empty(&cpu.target);
     if (!lam_output_is_light(frame->output))

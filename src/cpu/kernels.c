@@ -15,6 +15,7 @@
 #include "arena.h"
 #include "triples.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "vertex_transform.inc"

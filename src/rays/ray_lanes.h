@@ -141,8 +141,13 @@ LANE_FN mask meets_box(const struct box_rays *b, const float low[3], const float
 
 // --- the walk
 
-// The lanes of `active` whose rays have a triangle in their way.
-LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray, unsigned active)
+// Decides about the rays that a triangle is in the way of: returns those of `lanes` that end there.
+typedef unsigned ray_filter(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
+                            const struct ray_view *view, unsigned lanes);
+
+// The lanes of `active` whose rays have a triangle in their way. `filter` NULL: every triangle ends a ray.
+LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray, unsigned active, ray_filter *filter,
+                         void *user)
 {
     struct {
         uint32_t child, count;
@@ -181,6 +186,8 @@ LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray,
         } else {
             for (uint32_t i = 0; i < count && lanes; i++) {
                 unsigned found = mask_bits(crosses(&h->triangles[child + i], ray, &view)) & lanes;
+                if (filter && found)
+                    found = filter(user, &h->triangles[child + i], ray, &view, found);
                 hit |= found;
                 lanes &= ~found;
             }
@@ -200,8 +207,11 @@ LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray,
 
 #if LANES == 1
 // The nearest triangle in the way of a ray, by its number in the frame, of several at the same place the lowest; *t: where.
-// NO_TRIANGLE: none is.
-LANE_FN uint32_t nearest_hit(const struct hierarchy *h, const struct ray_lanes *ray, double *t)
+// NO_TRIANGLE: none is. `counts`: whether a triangle does.
+LANE_FN uint32_t nearest_hit(const struct hierarchy *h, const struct ray_lanes *ray,
+                             bool (*counts)(void *user, const struct ray_triangle *triangle,
+                                            const struct ray_lanes *ray, const struct ray_view *view),
+                             void *user, double *t)
 {
     uint32_t found = (uint32_t)NO_TRIANGLE, stack[2 * HIERARCHY_DEPTH][2] = {{0, 0}};
     struct box_rays boxes = box_rays_of(ray);
@@ -218,7 +228,7 @@ LANE_FN uint32_t nearest_hit(const struct hierarchy *h, const struct ray_lanes *
         for (uint32_t i = child; i < child + count; i++) {
             const struct ray_triangle *triangle = &h->triangles[i];
             struct crossing c = crossing_of(triangle, ray, &view);
-            if (!c.hit || ray->own == (int32_t)triangle->twin)
+            if (!c.hit || ray->own == (int32_t)triangle->twin || !counts(user, triangle, ray, &view))
                 continue;
             double at = c.t / c.det;
             if (found == (uint32_t)NO_TRIANGLE || at < *t || (at == *t && triangle->number < found)) {

@@ -166,7 +166,8 @@ static void check_rays(const struct soup *s, int rounds)
 {
     for (int i = 0; i < rounds; i++) {
         struct ray_lanes ray = random_rays(s, i & 1);
-        unsigned active = i % 3 ? 0xff : (unsigned)(uniform() * 256), hit = any_hit(s->hierarchy, &ray, active);
+        unsigned active = i % 3 ? 0xff : (unsigned)(uniform() * 256),
+                 hit = any_hit(s->hierarchy, &ray, active, NULL, NULL);
         assert_int_equal(hit, every_triangle(s, &ray, active));
         found += __builtin_popcount(hit);
         missed += __builtin_popcount(active & ~hit);
@@ -322,7 +323,7 @@ static void test_watertight(void **unused)
             ray.own[i] = NO_TRIANGLE;
         }
         ray.end = dnum_of(HUGE_VAL);
-        assert_int_equal(any_hit(soup.hierarchy, &ray, 0xff), 0xff);
+        assert_int_equal(any_hit(soup.hierarchy, &ray, 0xff, NULL, NULL), 0xff);
     }
     drop(&soup);
 }
@@ -378,7 +379,7 @@ static void test_nothing(void **unused)
     struct hierarchy none = {.scale = 1};
     struct ray_lanes ray = {.end = dnum_of(1), .own = inum_of(NO_TRIANGLE)};
     ray.direction[1] = dnum_of(1);
-    assert_int_equal(any_hit(&none, &ray, 0xff), 0);
+    assert_int_equal(any_hit(&none, &ray, 0xff, NULL, NULL), 0);
 }
 
 int main(void)

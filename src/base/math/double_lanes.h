@@ -25,6 +25,7 @@ LANE_FN void dnum_store(double *at, dnum x) { *at = x; }
 LANE_FN dnum dpick(dmask m, dnum a, dnum b) { return m ? a : b; }
 LANE_FN mask mask_of_dmask(dmask m) { return (mask)m; }
 LANE_FN num num_of_dnum(dnum x) { return (float)x; }
+LANE_FN double dlane(dnum x, int i) { return (void)i, x; }
 #else
 LANE_FN dnum dnum_of(double x) { return x - (dnum){0}; }
 LANE_FN dnum dnum_load(const double *at) { return (dnum) * (const dnum_memory *)at; }
@@ -32,6 +33,7 @@ LANE_FN void dnum_store(double *at, dnum x) { *(dnum_memory *)at = (dnum_memory)
 LANE_FN dnum dpick(dmask m, dnum a, dnum b) { return (dnum)(((dmask)a & m) | ((dmask)b & ~m)); }
 LANE_FN mask mask_of_dmask(dmask m) { return __builtin_convertvector(m, mask); }
 LANE_FN num num_of_dnum(dnum x) { return __builtin_convertvector(x, num); }
+LANE_FN double dlane(dnum x, int i) { return x[i]; }
 #endif
 // |x|: clears the sign bit.
 LANE_FN dnum dabsolute(dnum x)

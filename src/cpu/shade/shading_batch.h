@@ -5,6 +5,8 @@
 #include "light_cull.h"
 #include "tile.h"
 
+#include <stdbool.h>
+
 // Rows are a little longer than a batch: the same entries of several rows then lie in different sets of the
 // processor's cache.
 enum { BATCH_MAX = 512, BATCH_ROW = BATCH_MAX + 16 };
@@ -55,13 +57,25 @@ struct vertex_cache {
 // Where the shadow rays of a batch start, in the space of the hierarchy, and the triangles that they start on.
 struct shadow_rows {
     double origin[3][BATCH_ROW];
-    int32_t own[BATCH_ROW]; // as in ray_lanes
+    int32_t own[BATCH_ROW];   // as in ray_lanes
+    uint32_t turn[BATCH_ROW]; // of the pattern of lights with a size (light_pattern.h)
+};
+
+// The translucent triangles in the way of rays that travel together.
+struct shadow_layers {
+    struct shadow_layer {
+        uint32_t lane, number; // the ray, and the triangle in the frame
+        float passed;          // share of the light
+    } *list;                   // grows; freed with the thread's state
+    int count, capacity;
+    bool failed; // out of memory
 };
 
 // Scratch memory of one thread's shading, and its counters.
 struct shading {
     struct shading_batch *batch;
     struct shadow_rows *shadows; // NULL: the frame has none
+    struct shadow_layers shadow_layers;
     struct vertex_cache vertices;
     struct light_list lights;
     uint64_t points_lit, lights_evaluated, rays;

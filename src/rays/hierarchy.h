@@ -19,9 +19,9 @@ struct ray_triangle {
 
 // A node: the boxes of its two children, conservative floats. 64 bytes, a cache line.
 struct ray_node {
-    float low[2][3], high[2][3];
-    uint32_t child[2]; // count 0: the number of a node; else the first triangle
-    uint32_t count[2]; // triangles of a leaf
+    float low[2][3], high[2][3]; // side by side: ray_lanes.h reads them as 12 floats
+    uint32_t child[2];           // count 0: the number of a node; else the first triangle
+    uint32_t count[2];           // triangles of a leaf
 };
 
 enum {

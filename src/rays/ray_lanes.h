@@ -15,80 +15,101 @@
 #include "hierarchy.h"
 
 struct ray_lanes {
-    dnum origin[3], direction[3]; // the direction's length is the unit of t
-    dnum end;                     // may be infinite
-    inum own; // the twin of the triangle that the ray starts on, which is not in its way; NO_TRIANGLE
+    _Alignas(64) double origin[3][LANES], direction[3][LANES]; // the direction's length is the unit of t
+    double end[LANES];                                         // may be infinite
+    // The twin of the triangle that the ray starts on, which is not in its way; NO_TRIANGLE: of none.
+    int32_t own[LANES];
 };
 
-// A ray seen along its direction d, of which component k is the largest: x = p_i − (d_i/d_k) p_k,
-// y = p_j − (d_j/d_k) p_k and z = p_k/d_k with i, j after k. One of the three rows' factors is 1 and one 0, which are
-// exact, so that lanes of different k go through the same operations.
+// Rays seen along their directions d, of which component k is the largest: x = p_i − (d_i/d_k) p_k, y = p_j − (d_j/d_k) p_k
+// and z = p_k/d_k with i, j after k. One of the three factors of a row is 1 and one 0, which are exact: rays of different k
+// can go through the same operations, and those that have k in common through fewer, with the same results.
 struct ray_view {
-    dnum x[3], y[3], z[3];
+    _Alignas(64) double x[3][LANES], y[3][LANES], z[3][LANES];
+    int k; // of all active rays, which then have row k alone; −1: they differ
 };
 
-LANE_FN struct ray_view view_along(const dnum direction[3])
+LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray, unsigned active)
 {
-    struct ray_view v;
-    dnum size[3] = {dabsolute(direction[0]), dabsolute(direction[1]), dabsolute(direction[2])};
+    unsigned of_k[3] = {0, 0, 0};
     dnum zero = dnum_of(0), one = dnum_of(1);
-    dmask on_x = (size[0] >= size[1]) & (size[0] >= size[2]), on_y = (size[1] >= size[2]) & (on_x == 0);
-    dmask on[3] = {on_x, on_y, (on_x == 0) & (on_y == 0)};
-    for (int k = 0; k < 3; k++) {
-        v.x[k] = v.y[k] = zero;
-        v.z[k] = dpick(on[k], one / direction[k], zero);
+    for (int at = 0; at < LANES; at += DLANES) {
+        dnum d[3], size[3];
+        for (int i = 0; i < 3; i++) {
+            d[i] = dnum_load(ray->direction[i] + at);
+            size[i] = dabsolute(d[i]);
+        }
+        dmask on_x = (size[0] >= size[1]) & (size[0] >= size[2]), on_y = (size[1] >= size[2]) & (on_x == 0);
+        dmask on[3] = {on_x, on_y, (on_x == 0) & (on_y == 0)};
+        dnum inverse = one / dpick(on_x, d[0], dpick(on_y, d[1], d[2]));
+        dnum to_x = -(dpick(on_x, d[1], dpick(on_y, d[2], d[0])) * inverse);
+        dnum to_y = -(dpick(on_x, d[2], dpick(on_y, d[0], d[1])) * inverse);
+        for (int k = 0; k < 3; k++) {
+            int before = (k + 2) % 3, after = (k + 1) % 3; // i is after, j before k
+            of_k[k] |= dmask_bits(on[k]) << at;
+            dnum_store(v->x[k] + at, dpick(on[k], to_x, dpick(on[before], one, zero)));
+            dnum_store(v->y[k] + at, dpick(on[k], to_y, dpick(on[after], one, zero)));
+            dnum_store(v->z[k] + at, dpick(on[k], inverse, zero));
+        }
     }
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-        v.x[i] = dpick(on[k], one, v.x[i]);
-        v.y[j] = dpick(on[k], one, v.y[j]);
-        v.x[k] = dpick(on[k], -(direction[i] / direction[k]), v.x[k]);
-        v.y[k] = dpick(on[k], -(direction[j] / direction[k]), v.y[k]);
-    }
-    return v;
+    v->k = -1;
+    for (int k = 0; k < 3; k++)
+        v->k = (of_k[k] & active) == active ? k : v->k;
 }
 
-LANE_FN dnum along(const dnum row[3], const dnum p[3]) { return (row[0] * p[0] + row[1] * p[1]) + row[2] * p[2]; }
-
-// Where a ray crosses the plane of a triangle.
-struct crossing {
-    dmask hit;      // inside of the triangle, in front of the end
-    dnum weight[3]; // of the corners, all times det
-    dnum t, det;    // the ray's t, times det, which is positive where there is a hit
-};
-
-LANE_FN struct crossing crossing_of(const struct ray_triangle *triangle, const struct ray_lanes *ray,
-                                    const struct ray_view *view)
+LANE_FN dnum along(const double row[3][LANES], int at, const dnum p[3])
 {
-    dnum x[3], y[3], z[3];
-    for (int k = 0; k < 3; k++) {
-        dnum p[3];
-        for (int i = 0; i < 3; i++)
-            p[i] = triangle->p[k][i] - ray->origin[i];
-        x[k] = along(view->x, p);
-        y[k] = along(view->y, p);
-        z[k] = along(view->z, p);
-    }
-    struct crossing c;
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-        c.weight[k] = x[j] * y[i] - y[j] * x[i];
-    }
-    dnum zero = dnum_of(0);
-    c.det = (c.weight[0] + c.weight[1]) + c.weight[2];
-    c.t = (c.weight[0] * z[0] + c.weight[1] * z[1]) + c.weight[2] * z[2];
-    dmask positive = (c.weight[0] >= zero) & (c.weight[1] >= zero) & (c.weight[2] >= zero) & (c.det > zero);
-    dmask negative = (c.weight[0] <= zero) & (c.weight[1] <= zero) & (c.weight[2] <= zero) & (c.det < zero);
-    c.t = dpick(negative, -c.t, c.t);
-    c.det = dpick(negative, -c.det, c.det);
-    c.hit = (positive | negative) & (c.t > zero) & (c.t < ray->end * c.det);
-    return c;
+    return (dnum_load(row[0] + at) * p[0] + dnum_load(row[1] + at) * p[1]) + dnum_load(row[2] + at) * p[2];
 }
 
-// Whether a triangle is in the way of its rays.
-LANE_FN mask crosses(const struct ray_triangle *triangle, const struct ray_lanes *ray, const struct ray_view *view)
+// The lanes of `active` whose rays a triangle is in the way of. `weights` (may be NULL) gets the weights of its corners, each
+// times their sum, and `t` the rays' t.
+LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_lanes *ray, const struct ray_view *view,
+                         unsigned active, double weights[3][LANES], double t[LANES])
 {
-    return both(mask_of_dmask(crossing_of(triangle, ray, view).hit), ray->own != (int32_t)triangle->twin);
+    unsigned hit = 0;
+    for (int part = 0; part < DPARTS; part++) {
+        int at = part * DLANES;
+        dnum p[3][3], x[3], y[3], w[3], zero = dnum_of(0);
+        for (int k = 0; k < 3; k++)
+            for (int i = 0; i < 3; i++)
+                p[k][i] = triangle->p[k][i] - dnum_load(ray->origin[i] + at);
+        if (view->k < 0) {
+            for (int k = 0; k < 3; k++) {
+                x[k] = along(view->x, at, p[k]);
+                y[k] = along(view->y, at, p[k]);
+            }
+        } else {
+            int i = view->k == 2 ? 0 : view->k + 1, j = view->k == 0 ? 2 : view->k - 1;
+            dnum to_x = dnum_load(view->x[view->k] + at), to_y = dnum_load(view->y[view->k] + at);
+            for (int k = 0; k < 3; k++) {
+                x[k] = p[k][i] + to_x * p[k][view->k];
+                y[k] = p[k][j] + to_y * p[k][view->k];
+            }
+        }
+        w[0] = x[1] * y[2] - y[1] * x[2];
+        w[1] = x[2] * y[0] - y[2] * x[0];
+        w[2] = x[0] * y[1] - y[0] * x[1];
+        dmask positive = (w[0] >= zero) & (w[1] >= zero) & (w[2] >= zero);
+        dmask negative = (w[0] <= zero) & (w[1] <= zero) & (w[2] <= zero);
+        if (!(dmask_bits(positive | negative) << at & active))
+            continue;
+        dnum z[3], det = (w[0] + w[1]) + w[2];
+        for (int k = 0; k < 3; k++)
+            z[k] = view->k < 0 ? along(view->z, at, p[k]) : dnum_load(view->z[view->k] + at) * p[k][view->k];
+        dnum depth = (w[0] * z[0] + w[1] * z[1]) + w[2] * z[2];
+        depth = dpick(positive, depth, -depth);
+        dnum size = dpick(positive, det, -det);
+        dmask inside =
+            (positive | negative) & (size > zero) & (depth > zero) & (depth < dnum_load(ray->end + at) * size);
+        hit |= dmask_bits(inside) << at;
+        for (int k = 0; k < 3 && weights; k++)
+            dnum_store(weights[k] + at, w[k]);
+        if (t)
+            dnum_store(t + at, depth / size);
+    }
+    hit &= active;
+    return hit ? hit & mask_bits(inum_load(ray->own) != (int32_t)triangle->twin) : 0;
 }
 
 // --- boxes
@@ -101,42 +122,70 @@ struct box_rays {
     num low[3], high[3]; // the origin, to be taken from a box's low and high planes
     num inverse[3];
     num end;
+    int first[3]; // of all active rays: 0: they meet the low plane of the axis first; 1: the high one
+    bool apart;   // the rays differ in that
 };
 
-LANE_FN struct box_rays box_rays_of(const struct ray_lanes *ray)
+LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray, unsigned active)
 {
-    struct box_rays b;
-    dnum size = dabsolute(ray->direction[0]);
-    for (int i = 1; i < 3; i++) {
-        dnum other = dabsolute(ray->direction[i]);
-        size = dpick(other > size, other, size);
-    }
+    _Alignas(64) float origin[3][LANES], direction[3][LANES], end[LANES];
     num reach = num_of(1.0f);
-    for (int i = 0; i < 3; i++)
-        reach = max_of(reach, 1.0f + absolute(num_of_dnum(ray->origin[i])));
+    for (int at = 0; at < LANES; at += DLANES) {
+        dnum d[3], size;
+        for (int i = 0; i < 3; i++) {
+            d[i] = dnum_load(ray->direction[i] + at);
+            dnum own = dabsolute(d[i]);
+            size = i ? dpick(own > size, own, size) : own;
+            dnum_store_float(origin[i] + at, dnum_load(ray->origin[i] + at));
+        }
+        dnum inverse = 1 / size;
+        for (int i = 0; i < 3; i++)
+            dnum_store_float(direction[i] + at, d[i] * inverse);
+        dnum_store_float(end + at, dnum_load(ray->end + at) * size);
+    }
+    b->apart = false;
+    for (int i = 0; i < 3; i++) {
+        reach = max_of(reach, 1.0f + absolute(num_load(origin[i])));
+        unsigned down = mask_bits(num_load(direction[i]) < 0.0f) & active;
+        b->first[i] = down != 0;
+        b->apart |= down && down != active;
+    }
     reach = reach * 0x1p-21f;
     for (int i = 0; i < 3; i++) {
-        num origin = num_of_dnum(ray->origin[i]), direction = num_of_dnum(ray->direction[i] / size);
-        b.low[i] = origin + reach;
-        b.high[i] = origin - reach;
+        num d = num_load(direction[i]);
+        b->low[i] = num_load(origin[i]) + reach;
+        b->high[i] = num_load(origin[i]) - reach;
         // A direction along the planes: the ray never reaches them, or so far away that it does not matter.
-        mask none = absolute(direction) < 1e-30f;
-        b.inverse[i] = 1.0f / pick(none, pick(direction < 0.0f, num_of(-1e-30f), num_of(1e-30f)), direction);
+        num least = pick(d < 0.0f, num_of(-1e-30f), num_of(1e-30f));
+        b->inverse[i] = 1.0f / pick(absolute(d) < 1e-30f, least, d);
     }
-    b.end = num_of_dnum(ray->end * size) * (1.0f + 0x1p-20f);
-    return b;
+    b->end = num_load(end) * (1.0f + 0x1p-20f);
 }
 
-LANE_FN mask meets_box(const struct box_rays *b, const float low[3], const float high[3], num *near_t)
+// The rays that meet a child of a node, and where.
+LANE_FN mask meets_box(const struct box_rays *b, const struct ray_node *node, int child, num *entry)
 {
     num near = num_of(0.0f), far = b->end;
     for (int i = 0; i < 3; i++) {
-        num a = (low[i] - b->low[i]) * b->inverse[i], c = (high[i] - b->high[i]) * b->inverse[i];
+        num a = (node->low[child][i] - b->low[i]) * b->inverse[i],
+            c = (node->high[child][i] - b->high[i]) * b->inverse[i];
         near = max_of(min_of(a, c), near);
         far = min_of(max_of(a, c), far);
     }
-    *near_t = near;
+    *entry = near;
     return near <= far;
+}
+
+// The same where all rays meet the same plane of each axis first. `near` and `far` name the planes of the left child among
+// the floats of a node.
+LANE_FN mask meets_planes(const float *planes, const int near[3], const int far[3], const num near_origin[3],
+                          const num far_origin[3], const struct box_rays *b, num *entry)
+{
+    num x = (planes[near[0]] - near_origin[0]) * b->inverse[0], to_x = (planes[far[0]] - far_origin[0]) * b->inverse[0];
+    num y = (planes[near[1]] - near_origin[1]) * b->inverse[1], to_y = (planes[far[1]] - far_origin[1]) * b->inverse[1];
+    num z = (planes[near[2]] - near_origin[2]) * b->inverse[2], to_z = (planes[far[2]] - far_origin[2]) * b->inverse[2];
+    *entry = max_of(max_of(x, y), max_of(z, num_of(0.0f)));
+    return *entry <= min_of(min_of(to_x, to_y), min_of(to_z, b->end));
 }
 
 // --- the walk
@@ -158,34 +207,53 @@ LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray,
     unsigned hit = 0, lanes = active;
     if (!h->triangle_count || !active)
         return 0;
-    struct box_rays boxes = box_rays_of(ray);
-    struct ray_view view = view_along(ray->direction);
+    struct box_rays boxes;
+    struct ray_view view;
+    box_rays_of(&boxes, ray, active);
+    view_along(&view, ray, active);
+    num near_origin[3], far_origin[3];
+    int near[3], far[3];
+    for (int i = 0; i < 3; i++) {
+        near[i] = i + (boxes.first[i] ? 6 : 0);
+        far[i] = i + (boxes.first[i] ? 0 : 6);
+        near_origin[i] = boxes.first[i] ? boxes.high[i] : boxes.low[i];
+        far_origin[i] = boxes.first[i] ? boxes.low[i] : boxes.high[i];
+    }
     for (;;) {
         if (!count) {
             const struct ray_node *node = &h->nodes[child];
             num t[2];
-            unsigned left = mask_bits(meets_box(&boxes, node->low[0], node->high[0], &t[0])) & lanes;
-            unsigned right = mask_bits(meets_box(&boxes, node->low[1], node->high[1], &t[1])) & lanes;
-            if (left && right) {
-                // The nearer child first, by the first ray.
-                int first = lane(t[1], __builtin_ctz(left)) < lane(t[0], __builtin_ctz(left));
+            unsigned sides[2];
+            const float *planes = node->low[0];
+            if (boxes.apart) {
+                sides[0] = lanes & mask_bits(meets_box(&boxes, node, 0, &t[0]));
+                sides[1] = lanes & mask_bits(meets_box(&boxes, node, 1, &t[1]));
+            } else {
+                sides[0] = lanes & mask_bits(meets_planes(planes, near, far, near_origin, far_origin, &boxes, &t[0]));
+                sides[1] =
+                    lanes & mask_bits(meets_planes(planes + 3, near, far, near_origin, far_origin, &boxes, &t[1]));
+            }
+            if (sides[0] && sides[1]) {
+                // First the child that more of the rays meet first.
+                unsigned common = sides[0] & sides[1], right = mask_bits(t[1] < t[0]) & common;
+                int first = 2 * __builtin_popcount(right) > __builtin_popcount(common);
                 stack[waiting].child = node->child[!first];
                 stack[waiting].count = node->count[!first];
-                stack[waiting++].lanes = first ? left : right;
+                stack[waiting++].lanes = sides[!first];
                 child = node->child[first];
                 count = node->count[first];
-                lanes = first ? right : left;
+                lanes = sides[first];
                 continue;
             }
-            if (left || right) {
-                child = node->child[!left];
-                count = node->count[!left];
-                lanes = left | right;
+            if (sides[0] || sides[1]) {
+                child = node->child[!sides[0]];
+                count = node->count[!sides[0]];
+                lanes = sides[0] | sides[1];
                 continue;
             }
         } else {
             for (uint32_t i = 0; i < count && lanes; i++) {
-                unsigned found = mask_bits(crosses(&h->triangles[child + i], ray, &view)) & lanes;
+                unsigned found = crosses(&h->triangles[child + i], ray, &view, lanes, NULL, NULL);
                 if (filter && found)
                     found = filter(user, &h->triangles[child + i], ray, &view, found);
                 hit |= found;
@@ -214,23 +282,24 @@ LANE_FN uint32_t nearest_hit(const struct hierarchy *h, const struct ray_lanes *
                              void *user, double *t)
 {
     uint32_t found = (uint32_t)NO_TRIANGLE, stack[2 * HIERARCHY_DEPTH][2] = {{0, 0}};
-    struct box_rays boxes = box_rays_of(ray);
-    struct ray_view view = view_along(ray->direction);
+    struct box_rays boxes;
+    struct ray_view view;
+    box_rays_of(&boxes, ray, 1);
+    view_along(&view, ray, 1);
     *t = 0;
     for (int waiting = h->triangle_count ? 1 : 0; waiting;) {
         uint32_t child = stack[--waiting][0], count = stack[waiting][1];
         num entry;
         for (int i = 0; i < 2 && !count; i++)
-            if (meets_box(&boxes, h->nodes[child].low[i], h->nodes[child].high[i], &entry)) {
+            if (meets_box(&boxes, &h->nodes[child], i, &entry)) {
                 stack[waiting][0] = h->nodes[child].child[i];
                 stack[waiting++][1] = h->nodes[child].count[i];
             }
         for (uint32_t i = child; i < child + count; i++) {
             const struct ray_triangle *triangle = &h->triangles[i];
-            struct crossing c = crossing_of(triangle, ray, &view);
-            if (!c.hit || ray->own == (int32_t)triangle->twin || !counts(user, triangle, ray, &view))
+            double at;
+            if (!crosses(triangle, ray, &view, 1, NULL, &at) || !counts(user, triangle, ray, &view))
                 continue;
-            double at = c.t / c.det;
             if (found == (uint32_t)NO_TRIANGLE || at < *t || (at == *t && triangle->number < found)) {
                 found = triangle->number;
                 *t = at;

@@ -147,16 +147,18 @@ static struct ray_lanes random_rays(const struct soup *s, bool inside)
             ray.direction[k][i] = d[k];
         }
     }
-    ray.end = dnum_of(kind == 1 ? HUGE_VAL : kind == 3 ? 1.001 : 1);
+    for (int i = 0; i < LANES; i++)
+        ray.end[i] = kind == 1 ? HUGE_VAL : kind == 3 ? 1.001 : 1;
     return ray;
 }
 
 static unsigned every_triangle(const struct soup *s, const struct ray_lanes *ray, unsigned active)
 {
-    struct ray_view view = view_along(ray->direction);
+    struct ray_view view;
     unsigned hit = 0;
+    view_along(&view, ray, active);
     for (uint32_t i = 0; i < s->count; i++)
-        hit |= mask_bits(crosses(&s->hierarchy->triangles[i], ray, &view)) & active;
+        hit |= crosses(&s->hierarchy->triangles[i], ray, &view, active, NULL, NULL);
     return hit;
 }
 
@@ -322,7 +324,8 @@ static void test_watertight(void **unused)
             }
             ray.own[i] = NO_TRIANGLE;
         }
-        ray.end = dnum_of(HUGE_VAL);
+        for (int i = 0; i < LANES; i++)
+            ray.end[i] = HUGE_VAL;
         assert_int_equal(any_hit(soup.hierarchy, &ray, 0xff, NULL, NULL), 0xff);
     }
     drop(&soup);
@@ -335,7 +338,7 @@ static void test_exact(void **unused)
     int hits = 0;
     for (int round = 0; round < 20000; round++) {
         struct ray_triangle triangle = {.twin = 3};
-        struct ray_lanes ray = {.own = inum_of(NO_TRIANGLE), .end = dnum_of(1)};
+        struct ray_lanes ray;
         int64_t p[3][3], o[3], d[3];
         for (int k = 0; k < 3; k++) {
             for (int c = 0; c < 3; c++)
@@ -343,8 +346,12 @@ static void test_exact(void **unused)
             o[k] = (int64_t)(uniform() * 8) - 4;
             d[k] = (int64_t)(uniform() * 4) * 2 - 4; // powers of two or 0: divisions are exact
             d[k] = d[k] == 0 || d[k] == 2 || d[k] == -2 || d[k] == -4 ? d[k] : 4;
-            ray.origin[k] = dnum_of((double)o[k]);
-            ray.direction[k] = dnum_of((double)d[k]);
+            for (int i = 0; i < LANES; i++) {
+                ray.origin[k][i] = (double)o[k];
+                ray.direction[k][i] = (double)d[k];
+                ray.own[i] = NO_TRIANGLE;
+                ray.end[i] = 1;
+            }
         }
         if (!d[0] && !d[1] && !d[2])
             continue;
@@ -364,10 +371,13 @@ static void test_exact(void **unused)
         bool inside =
             (w[0] >= 0 && w[1] >= 0 && w[2] >= 0 && det > 0) || (w[0] <= 0 && w[1] <= 0 && w[2] <= 0 && det < 0);
         bool wanted = inside && (det > 0 ? t > 0 && t < det : t < 0 && t > det);
-        struct ray_view view = view_along(ray.direction);
-        assert_int_equal(mask_bits(crosses(&triangle, &ray, &view)), wanted ? 0xff : 0);
-        ray.own = inum_of(3);
-        assert_int_equal(mask_bits(crosses(&triangle, &ray, &view)), 0);
+        struct ray_view view;
+        view_along(&view, &ray, 0xff);
+        assert_int_equal(crosses(&triangle, &ray, &view, 0xff, NULL, NULL), wanted ? 0xff : 0);
+        view.k = -1; // the same by the operations of rays that differ
+        assert_int_equal(crosses(&triangle, &ray, &view, 0xff, NULL, NULL), wanted ? 0xff : 0);
+        ray.own[2] = 3;
+        assert_int_equal(crosses(&triangle, &ray, &view, 0xff, NULL, NULL), wanted ? 0xfb : 0);
         hits += wanted;
     }
     assert_true(hits > 100);
@@ -377,8 +387,7 @@ static void test_nothing(void **unused)
 {
     (void)unused;
     struct hierarchy none = {.scale = 1};
-    struct ray_lanes ray = {.end = dnum_of(1), .own = inum_of(NO_TRIANGLE)};
-    ray.direction[1] = dnum_of(1);
+    struct ray_lanes ray = {.end = {1}, .direction = {{0}, {1}}};
     assert_int_equal(any_hit(&none, &ray, 0xff, NULL, NULL), 0);
 }
 

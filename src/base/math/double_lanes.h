@@ -1,48 +1,62 @@
-// double_lanes.h: LANES doubles, beside the floats of lanes.h.
+// double_lanes.h: doubles beside the floats of lanes.h.
 //
-//   dnum   LANES doubles          dmask   LANES truths of them; mask_of_dmask makes a mask of num
+//   dnum   DLANES doubles: those of one register, half as many as a num has floats; DPARTS of them cover LANES
+//   dmask  DLANES truths, from comparing
 //
-// GCC's and Clang's vector types, two registers where a num is one. As in lanes.h: + − × ÷ and comparisons alone, each
-// correctly rounded, so every width gives the same bits.
+// As in lanes.h: + − × ÷ and comparisons alone, each correctly rounded, so every width gives the same bits. (Vectors twice as
+// wide as the registers would spare the parts, but compilers take their comparisons apart into single numbers.)
 #ifndef DOUBLE_LANES_H
 #define DOUBLE_LANES_H
 
 #include "lanes.h"
 
 #if LANES == 1
+#define DLANES 1
 typedef double dnum;
 typedef int64_t dmask; // 0 or 1
 #else
-typedef double dnum __attribute__((vector_size(LANES * 8)));
-typedef int64_t dmask __attribute__((vector_size(LANES * 8))); // each lane 0 or −1
-typedef double dnum_memory __attribute__((vector_size(LANES * 8), aligned(8), may_alias));
+#define DLANES (LANES / 2)
+typedef double dnum __attribute__((vector_size(DLANES * 8)));
+typedef int64_t dmask __attribute__((vector_size(DLANES * 8))); // each lane 0 or −1
+typedef double dnum_memory __attribute__((vector_size(DLANES * 8), aligned(8), may_alias));
 #endif
+#define DPARTS (LANES / DLANES)
 
 #if LANES == 1
+LANE_FN dnum dabsolute(dnum x) { return __builtin_fabs(x); }
+LANE_FN void dnum_store_float(float *at, dnum x) { *at = (float)x; }
 LANE_FN dnum dnum_of(double x) { return x; }
 LANE_FN dnum dnum_load(const double *at) { return *at; }
 LANE_FN void dnum_store(double *at, dnum x) { *at = x; }
 LANE_FN dnum dpick(dmask m, dnum a, dnum b) { return m ? a : b; }
-LANE_FN mask mask_of_dmask(dmask m) { return (mask)m; }
-LANE_FN num num_of_dnum(dnum x) { return (float)x; }
-LANE_FN double dlane(dnum x, int i) { return (void)i, x; }
+LANE_FN unsigned dmask_bits(dmask m) { return m != 0; }
 #else
+LANE_FN dnum dabsolute(dnum x) { return (dnum)((dmask)x & INT64_MAX); } // clears the sign bit
+LANE_FN void dnum_store_float(float *at, dnum x)
+{
+    typedef float part __attribute__((vector_size(DLANES * 4)));
+    part f = __builtin_convertvector(x, part);
+    memcpy(at, &f, sizeof f);
+}
 LANE_FN dnum dnum_of(double x) { return x - (dnum){0}; }
 LANE_FN dnum dnum_load(const double *at) { return (dnum) * (const dnum_memory *)at; }
 LANE_FN void dnum_store(double *at, dnum x) { *(dnum_memory *)at = (dnum_memory)x; }
 LANE_FN dnum dpick(dmask m, dnum a, dnum b) { return (dnum)(((dmask)a & m) | ((dmask)b & ~m)); }
-LANE_FN mask mask_of_dmask(dmask m) { return __builtin_convertvector(m, mask); }
-LANE_FN num num_of_dnum(dnum x) { return __builtin_convertvector(x, num); }
-LANE_FN double dlane(dnum x, int i) { return x[i]; }
-#endif
-// |x|: clears the sign bit.
-LANE_FN dnum dabsolute(dnum x)
+LANE_FN unsigned dmask_bits(dmask m) // bit i: lane i
 {
-#if LANES == 1
-    return __builtin_fabs(x);
+#if LANES == 16 && defined(__AVX512DQ__)
+    return (unsigned)_mm512_movepi64_mask((__m512i)m);
+#elif LANES == 8 && defined(__AVX__)
+    return (unsigned)_mm256_movemask_pd((__m256d)m);
+#elif LANES == 4 && defined(__SSE2__)
+    return (unsigned)_mm_movemask_pd((__m128d)m);
 #else
-    return (dnum)((dmask)x & INT64_MAX);
+    unsigned bits = 0;
+    for (int i = 0; i < DLANES; i++)
+        bits |= (unsigned)(m[i] & 1) << i;
+    return bits;
 #endif
 }
+#endif
 
 #endif

@@ -129,6 +129,16 @@ typedef enum lam_output {
     // How far each channel of the picture leaves 0…1, negative below. 8 bits: red where a channel is above, blue where
     // one is below, else the picture in dark grey.
     LAM_OUTPUT_CLIPPED,
+    // What the material is at the point, whatever the shading method: the base colour of a physical material or the diffuse
+    // colour of a classic one, times maps and vertex colours. A classic reflection model does not turn physical materials into
+    // its own kind here, LAM_REFLECTION_GGX turns classic ones. 8 bits: sRGB-encoded.
+    LAM_OUTPUT_BASE_COLOR,
+    LAM_OUTPUT_ROUGHNESS, // of lit physical materials, as given; 0 of others
+    LAM_OUTPUT_METALLIC,  // likewise
+    LAM_OUTPUT_OCCLUSION, // the factor of a map for light from everywhere; 1: no map
+    // Level of detail of the diffuse map, else of the first map that the material has; 0: no map. Below 0 the map is
+    // magnified, by -50 where it has no footprint. 8 bits: level / 10.
+    LAM_OUTPUT_LOD,
     LAM_OUTPUT_COUNT,
 } lam_output;
 

@@ -56,7 +56,12 @@ typedef struct lam_explained_light {
     int shadow_object;
     uint32_t shadow_triangle; // index in its mesh
     float shadow_distance;    // from the point to that triangle, world units
-    LAM_RESERVED(5);
+    // Of microfacet models, 0 of others: D(h), the share of mirrors that face h, and V, their visibility.
+    // S = pi D(h) V max(n.l, 0).
+    float distribution, visibility;
+    // F, Fresnel's factor with the light that mirrors send to one another; ks_Ls = F ⊙ Ls. 0 of other models.
+    lam_rgb fresnel;
+    LAM_RESERVED(3);
 } lam_explained_light;
 
 // A hemisphere light at a lit point.
@@ -104,8 +109,40 @@ typedef struct lam_explained_point {
     float environment_level;                   // prefiltered: 0 (a mirror) to 11 (roughness 1)
     float environment_scale, environment_bias; // of the split sum
     lam_rgb irradiance, prefiltered;           // light that falls in, linear
-    LAM_RESERVED(3);
+    lam_rgb environment_diffuse;               // the part of the reflection term that `irradiance` gives
+    LAM_RESERVED(1);
 } lam_explained_point;
+
+// A map that was read for a fragment.
+typedef struct lam_explained_map {
+    lam_map map;         // which of the material's
+    const char *texture; // its name; NULL: unnamed
+    int width, height;   // of the texture, texels
+    float s, t;          // texture coordinates of the mesh
+    // Where they are in the texture, after the map's transform and wrapping: texels of level 0 from its upper left corner.
+    float column, row;
+    float level; // of detail; 0 and less: level 0, magnified
+    // Filtered, before scale and offset. Of a bump map the heights one texel of level 0 before and behind the point, along
+    // rows and along columns.
+    lam_rgba texel;
+    LAM_RESERVED(4);
+} lam_explained_map;
+
+// What the material is at a fragment that is lit by itself (Phong shading).
+typedef struct lam_explained_values {
+    // The diffuse colour, or the base colour of a physical material: its own times maps and vertex colours.
+    lam_rgb base_color;
+    // Of a physical material, as given: smoother than 0.045 is lit as 0.045. 0 of others.
+    float metallic, roughness;
+    // Factor of ambient, hemisphere and environment light; 1: no map.
+    float occlusion;
+    float shininess; // of a classic material; else 0
+    // The interpolated normal before a map bends it, unit; and the mesh's tangent, of any length, zero where no map and no
+    // model reads it.
+    lam_vec3 mesh_normal, tangent;
+    float bitangent_sign; // the bitangent is this times n × t
+    LAM_RESERVED(8);
+} lam_explained_values;
 
 // A triangle that the pixel shows.
 typedef struct lam_explained_fragment {
@@ -113,7 +150,8 @@ typedef struct lam_explained_fragment {
     int object, mesh, part;
     // Their names; NULL: unnamed.
     const char *object_name, *mesh_name, *part_name;
-    uint32_t triangle;         // index in the mesh; of a line or point, where `corners` says so
+    // Index in the mesh; of a line or point, where `corners` says so.
+    uint32_t triangle;
     bool back;                 // the back side is seen
     bool flipped;              // the back side is seen and lit with −n
     int material;              // index in the scene; −1: the default material
@@ -136,7 +174,12 @@ typedef struct lam_explained_fragment {
     float weight;
     // Of what the mesh consists of: 3 triangles; 2 lines, 1 points, each drawn as two triangles, whose corners have the weights.
     int corners;
-    LAM_RESERVED(12);
+    // The maps that were read, in the order of reading.
+    const lam_explained_map *maps;
+    // What they make of the material; NULL: Gouraud and flat shading.
+    const lam_explained_values *values;
+    int map_count; // elements of `maps`
+    LAM_RESERVED(9);
 } lam_explained_fragment;
 
 // One pixel of a picture.

@@ -52,6 +52,12 @@ static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
         case LAM_OUTPUT_DEPTH:
             out[c] = code_byte(depth_code(frame, v[c]));
             break;
+        case LAM_OUTPUT_BASE_COLOR:
+            out[c] = code_byte(lane(encoded_channel(num_of(v[c]), frame->color == LAM_COLOR_RAW), 0));
+            break;
+        case LAM_OUTPUT_LOD:
+            out[c] = code_byte(v[c] * 0.1f);
+            break;
         case LAM_OUTPUT_OVERDRAW:
             out[c] = code_byte(v[c] / (v[c] + 3.0f));
             break;

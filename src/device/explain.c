@@ -66,6 +66,34 @@ static void leave_eye_space(const lam_camera *camera, const lam_object *object, 
     point->mesh_position = mat4_point(&to_mesh, point->world_position);
 }
 
+// A coordinate as a place in the picture, 0…1.
+static double wrapped(double s, lam_wrap wrap)
+{
+    if (wrap == LAM_WRAP_CLAMP)
+        return s > 1 ? 1 : s > 0 ? s : 0;
+    if (!(s > -1e15 && s < 1e15))
+        return 0;
+    int64_t whole = (int64_t)s - ((double)(int64_t)s > s);
+    double part = s - (double)whole;
+    return wrap == LAM_WRAP_MIRROR && (whole & 1) ? 1 - part : part;
+}
+
+static void complete_map(lam_explained_map *map, const lam_texture_map *given)
+{
+    double s = (double)map->s, t = (double)map->t;
+    const float(*m)[3] = given->transform;
+    bool turned = false;
+    for (int i = 0; i < 6; i++)
+        turned |= m[i / 3][i % 3] != 0;
+    double at_s = turned ? (double)m[0][0] * s + (double)m[0][1] * t + (double)m[0][2] : s;
+    double at_t = turned ? (double)m[1][0] * s + (double)m[1][1] * t + (double)m[1][2] : t;
+    map->texture = lam_texture_name(given->texture);
+    map->width = lam_texture_width(given->texture, 0);
+    map->height = lam_texture_height(given->texture, 0);
+    map->column = (float)(wrapped(at_s, given->wrap_s) * map->width);
+    map->row = (float)(wrapped(at_t, given->wrap_t) * map->height);
+}
+
 // Adds values that follow from the recorded ones.
 static void complete(struct recorder *recorder, const lam_scene *scene, const lam_camera *camera)
 {
@@ -75,6 +103,10 @@ static void complete(struct recorder *recorder, const lam_scene *scene, const la
         const lam_mesh *mesh = lam_scene_mesh(scene, object->mesh);
         fragment->object_name = object->name;
         fragment->mesh = object->mesh;
+        for (int k = 0; k < fragment->map_count; k++) {
+            lam_explained_map *map = (lam_explained_map *)(uintptr_t)&fragment->maps[k];
+            complete_map(map, fragment->surface.maps[map->map]);
+        }
         fragment->corners = mesh->line_count ? 2 : mesh->point_count ? 1 : 3;
         if (mesh_is_strokes(mesh))
             fragment->triangle /= 2;

@@ -25,6 +25,9 @@ struct recorder {
     float weight_1, weight_2;
     int lit_sample;
     float picture_x, picture_y;
+    lam_explained_map maps[LAM_MAP_COUNT];
+    int map_count;
+    lam_explained_values values;
 };
 
 // Adds a fragment, zeroed; NULL: out of memory.

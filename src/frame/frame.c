@@ -441,7 +441,9 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
 {
     if (!check_camera(camera, error) || !check_params(params, error))
         return false;
-    frame->reflection = params->reflection;
+    bool of_material = output_is_material(params->output);
+    frame->reflection =
+        of_material && !frame_is_physical(params->reflection) ? LAM_REFLECTION_AUTO : params->reflection;
     if (!allocate_arrays(frame, scene, call, error))
         return false;
     frame->token = scene->token;
@@ -453,8 +455,9 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->background = params->background;
     frame->color = params->color;
     frame->exposure = rounded(math_exp2(params->exposure));
-    frame->shading = params->shading;
-    frame->stage = params->stage                            ? params->stage
+    frame->shading = of_material ? LAM_SHADING_PHONG : params->shading;
+    frame->stage = of_material                              ? LAM_STAGE_FRAGMENT
+                   : params->stage                          ? params->stage
                    : params->shading == LAM_SHADING_GOURAUD ? LAM_STAGE_VERTEX
                                                             : LAM_STAGE_FRAGMENT;
     frame->orthographic = camera->ortho_half_height > 0;
@@ -533,7 +536,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     // Flat shading has the normals of the faces; coverage and overdraw need no normals.
     if (lam_output_is_light(frame->output)
             ? frame->shading == LAM_SHADING_FLAT && frame->flat_normal == LAM_FLAT_NORMAL_FACE
-            : frame->output == LAM_OUTPUT_COVERAGE || frame->output == LAM_OUTPUT_OVERDRAW)
+            : frame->output == LAM_OUTPUT_COVERAGE || frame->output == LAM_OUTPUT_OVERDRAW || of_material)
         frame->makes_normals = false;
     // Values are those of the nearest surface, whatever its alpha.
     if (!lam_output_is_light(frame->output) && frame->output != LAM_OUTPUT_CLIPPED)

@@ -185,6 +185,16 @@ static inline bool output_is_picture(lam_output output)
     return output == LAM_OUTPUT_PICTURE || output == LAM_OUTPUT_CLIPPED;
 }
 
+// What a material is at a point: no light, whatever the shading method.
+static inline bool output_is_material(lam_output output)
+{
+    return output >= LAM_OUTPUT_BASE_COLOR && output <= LAM_OUTPUT_LOD;
+}
+
+// The maps of which LAM_OUTPUT_LOD shows the first that a material has.
+enum { LOD_MAPS = 9 };
+extern const lam_map frame_lod_maps[LOD_MAPS];
+
 // Vectors and cosines, evaluated where the lighting is: the shading method decides about interpolation.
 static inline bool output_is_vector(lam_output output)
 {

@@ -4,6 +4,10 @@
 
 #include "frame.h"
 
+const lam_map frame_lod_maps[LOD_MAPS] = {LAM_MAP_DIFFUSE,   LAM_MAP_ROUGHNESS, LAM_MAP_METALLIC,
+                                          LAM_MAP_OCCLUSION, LAM_MAP_EMISSION,  LAM_MAP_AMBIENT,
+                                          LAM_MAP_SPECULAR,  LAM_MAP_SHININESS, LAM_MAP_OPACITY};
+
 bool frame_is_physical(lam_reflection model) { return lobe_properties((int)model) & LOBE_MICROFACET; }
 
 lam_reflection frame_reflection(const struct frame *frame, const lam_material *material)

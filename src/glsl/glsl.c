@@ -20,6 +20,8 @@ static bool check(const struct glsl_choices *c, const struct glsl_facts *f, lam_
         return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no %s",
                     c->output == LAM_OUTPUT_IDS ? "gl_VertexID"
                                                 : "array textures, expected a cube map as the environment");
+    if (c->version == GLSL_120 && c->output == LAM_OUTPUT_LOD)
+        return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no textureSize, which levels of detail need");
     if (c->version == GLSL_120 && c->layer != GLSL_NO_LAYERS)
         return fail(error, LAM_BAD_ARGUMENT, "GLSL 120 has no integer textures, which depth peeling needs");
     if (f->shading == LAM_SHADING_PHONG && !f->per_fragment)
@@ -84,6 +86,28 @@ static const char *output_term(const struct glsl_choices *c)
     }
 }
 
+// What the material is at the point.
+static void add_output_material(struct text *text, const struct glsl_facts *f)
+{
+    lam_output output = f->choices->output;
+    const char *map = output == LAM_OUTPUT_OCCLUSION ? "occlusion" : output == LAM_OUTPUT_LOD ? "level" : NULL;
+    if (output == LAM_OUTPUT_BASE_COLOR) {
+        text_add(text, "sum.diffuse");
+    } else if (map) {
+        text_print(text, glsl_maps_have(f, map) ? "vec3(maps.%s)" : "vec3(%s)",
+                   glsl_maps_have(f, map)           ? map
+                   : output == LAM_OUTPUT_OCCLUSION ? "1.0"
+                                                    : "0.0");
+    } else {
+        text_add(text, "vec3(");
+        if (glsl_is_physical(f))
+            glsl_add_parameter(text, f, output == LAM_OUTPUT_ROUGHNESS ? "roughness" : "metallic");
+        else
+            text_add(text, "0.0");
+        text_add(text, ")");
+    }
+}
+
 static void add_output_vector(struct text *text, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
@@ -117,7 +141,8 @@ static const char *list_parameter(const struct glsl_facts *f)
 static void add_alpha_rule(struct text *text, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
-    for (int side = 0; side <= f->back_material && !f->output_geometry && !f->output_vector; side++) {
+    bool colors = !f->output_geometry && !f->output_vector && !f->output_material;
+    for (int side = 0; side <= f->back_material && colors; side++) {
         static const char *const conditions[] = {"!gl_FrontFacing && ", "gl_FrontFacing && "};
         bool both = !f->back_material || c->alpha[0] == c->alpha[1];
         const char *p = side ? "back_" : "";
@@ -146,7 +171,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     bool eye = surface || c->output == LAM_OUTPUT_DEPTH;
     bool triangle_ids = c->output == LAM_OUTPUT_IDS || c->layer != GLSL_NO_LAYERS;
     struct text groups = {0}, vector = {0}, attributes = {0}, chosen = {0}, metallic = {0}, roughness = {0},
-                alpha = {0};
+                alpha = {0}, of_material = {0};
     bool samples = fragment && f->mapped, reads_maps = f->mapped && !f->output_vector;
     if (fragment)
         add_alpha_rule(&alpha, f);
@@ -170,6 +195,8 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"per_fragment", f->per_fragment},
         {"output_geometry", f->output_geometry},
         {"output_vector", f->output_vector},
+        {"output_material", f->output_material},
+        {"shows_level", f->output_material && c->output == LAM_OUTPUT_LOD},
         {"unlit", f->unlit},
         {"needs_surface", surface && (f->lights || f->hemispheres || f->environment || f->output_vector)},
         {"fragment", fragment},
@@ -213,8 +240,8 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"triangle_ids", triangle_ids},
         {"depth_ids", c->layer != GLSL_NO_LAYERS},
         {"peels", c->layer == GLSL_PEELS},
-        {"exposed", c->exposes && !f->output_vector},
-        {"toned", c->tone > LAM_TONE_NONE && !f->output_vector && !f->output_geometry},
+        {"exposed", c->exposes && !f->output_vector && !f->output_material},
+        {"toned", c->tone > LAM_TONE_NONE && !f->output_vector && !f->output_geometry && !f->output_material},
         {"encoded", c->encoding == GLSL_ENCODED},
         {"premultiplied", c->encoding == GLSL_PREMULTIPLIED},
         {NULL, false},
@@ -263,6 +290,8 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     }
     if (f->output_vector)
         add_output_vector(&vector, f);
+    if (f->output_material)
+        add_output_material(&of_material, f);
     struct text sizes = {0}, starts = {0};
     for (int i = 0; i <= ENVIRONMENT_LEVELS; i++) {
         int size = i == 0 ? 0 : i < ENVIRONMENT_LEVELS ? prefiltered_size(i) : IRRADIANCE_SIZE;
@@ -299,6 +328,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"metallic", metallic.bytes ? metallic.bytes : ""},
         {"roughness", roughness.bytes ? roughness.bytes : ""},
         {"output_term", output_term(c)},
+        {"output_material", of_material.bytes ? of_material.bytes : ""},
         {"output_vector", vector.bytes ? vector.bytes : ""},
         {"texture_cube", glsl_120 ? "textureCube" : "texture"},
         {"varying", varying},
@@ -314,8 +344,8 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     };
     const struct preprocess_words words = {flags, values};
     const struct text *parts[] = {&groups,    &vector, &attributes, &chosen, &metallic,
-                                  &roughness, &alpha,  &sizes,      &starts};
-    for (int i = 0; i < 9; i++)
+                                  &roughness, &alpha,  &sizes,      &starts, &of_material};
+    for (int i = 0; i < 10; i++)
         if (parts[i]->failed) {
             text->failed = true;
             text->error = parts[i]->error;
@@ -337,6 +367,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     free(alpha.bytes);
     free(sizes.bytes);
     free(starts.bytes);
+    free(of_material.bytes);
 }
 
 // --- the shader

@@ -30,6 +30,11 @@ static size_t name_length(const char *at) { return strspn(at, "abcdefghijklmnopq
 
 bool glsl_lobe_reads(const struct glsl_facts *f, const char *parameter)
 {
+    if (f->output_material && glsl_is_physical(f) &&
+        strcmp(parameter, f->choices->output == LAM_OUTPUT_ROUGHNESS  ? "roughness"
+                          : f->choices->output == LAM_OUTPUT_METALLIC ? "metallic"
+                                                                      : "") == 0)
+        return true;
     if (f->environment_light && (strcmp(parameter, "roughness") == 0 || strcmp(parameter, "metallic") == 0))
         return true;
     if (!f->adds_lights || !f->lights)

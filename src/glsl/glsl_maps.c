@@ -90,9 +90,39 @@ void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4
 
 // --- facts
 
-// Whether the shader's output depends on a map.
-static bool reads(const struct glsl_facts *f, lam_map map)
+bool glsl_is_physical(const struct glsl_facts *f) { return frame_is_physical(f->choices->reflection); }
+
+// The map of a side whose level of detail is shown; LAM_MAP_COUNT: none.
+static lam_map lod_map(const struct glsl_facts *f, int side)
 {
+    for (int i = 0; i < LOD_MAPS; i++)
+        if (f->choices->maps[side][frame_lod_maps[i]].used)
+            return frame_lod_maps[i];
+    return LAM_MAP_COUNT;
+}
+
+// Whether what a material is at a point depends on a map of that side.
+static bool material_reads(const struct glsl_facts *f, int side, lam_map map)
+{
+    switch (f->choices->output) {
+    case LAM_OUTPUT_BASE_COLOR:
+        return map == LAM_MAP_DIFFUSE;
+    case LAM_OUTPUT_ROUGHNESS:
+        return map == LAM_MAP_ROUGHNESS && glsl_is_physical(f);
+    case LAM_OUTPUT_METALLIC:
+        return map == LAM_MAP_METALLIC && glsl_is_physical(f);
+    case LAM_OUTPUT_OCCLUSION:
+        return map == LAM_MAP_OCCLUSION;
+    default:
+        return map == lod_map(f, side);
+    }
+}
+
+// Whether the shader's output depends on a map.
+static bool reads(const struct glsl_facts *f, int side, lam_map map)
+{
+    if (f->output_material)
+        return material_reads(f, side, map);
     bool sums = f->adds_lights, surface = f->lit && !f->unlit;
     switch (map) {
     case LAM_MAP_DIFFUSE:
@@ -121,7 +151,8 @@ void glsl_find_maps(struct glsl_facts *f)
     }
     for (int side = 0; side <= f->back_material && f->lit; side++)
         for (int i = 0; i < LAM_MAP_COUNT; i++) {
-            if (!c->maps[side][i].used || !f->per_fragment || f->shading != LAM_SHADING_PHONG || !reads(f, (lam_map)i))
+            if (!c->maps[side][i].used || !f->per_fragment || f->shading != LAM_SHADING_PHONG ||
+                !reads(f, side, (lam_map)i))
                 continue;
             f->maps[side][i] = f->mapped = true;
             f->texcoords[c->maps[side][i].texcoords] = true;
@@ -158,6 +189,7 @@ enum {
     SLOPES,
     ACROSS,
     DOWN,
+    LEVEL,
     MEMBERS
 };
 static const struct {
@@ -177,10 +209,14 @@ static const struct {
     [SLOPES] = {"slopes", "vec2", "by how much the surface rises along the next two"},
     [ACROSS] = {"across", "vec3", "the direction of the picture's rows in eye space, not unit"},
     [DOWN] = {"down", "vec3", "the direction of its columns"},
+    [LEVEL] = {"level", "float", "level of detail"},
 };
 
 static bool has_member(const struct glsl_facts *f, int member)
 {
+    bool level = f->output_material && f->choices->output == LAM_OUTPUT_LOD;
+    if (level || member == LEVEL)
+        return level && member == LEVEL && f->mapped;
     static const lam_map maps[MEMBERS] = {[COLOR] = LAM_MAP_DIFFUSE,       [AMBIENT] = LAM_MAP_AMBIENT,
                                           [SPECULAR] = LAM_MAP_SPECULAR,   [EMISSION] = LAM_MAP_EMISSION,
                                           [BEND] = LAM_MAP_NORMAL,         [OPACITY] = LAM_MAP_OPACITY,
@@ -272,7 +308,7 @@ static void add_sampling(struct text *text, const struct glsl_facts *f, const st
 
 static void add_texels(struct text *text, const struct glsl_facts *f, int side)
 {
-    for (int i = 0; i < LAM_MAP_COUNT; i++) {
+    for (int i = 0; i < LAM_MAP_COUNT && !has_member(f, LEVEL); i++) {
         if (!f->maps[side][i] || i == LAM_MAP_BUMP || glsl_map_owner(f, side, (lam_map)i) != (lam_map)i)
             continue;
         const char *name = lam_map_name((lam_map)i), *p = prefix(side);
@@ -372,6 +408,16 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
                    prefix(side));
     } else if (has_member(f, BEND)) {
         text_add(text, "    maps.bend = vec3(0.0, 0.0, 1.0);\n");
+    }
+    if (has_member(f, LEVEL)) {
+        lam_map map = lod_map(f, side);
+        const char *p = prefix(side), *name = map < LAM_MAP_COUNT ? lam_map_name(map) : NULL;
+        if (name)
+            text_print(text, "    maps.level = map_level(%s%s_map, %s%s_map_s, %s%s_map_t, %s);\n", p,
+                       lam_map_name(glsl_map_owner(f, side, map)), p, name, p, name,
+                       f->choices->maps[side][map].texcoords ? "second" : "first");
+        else
+            text_add(text, "    maps.level = 0.0;\n");
     }
     add_slopes(text, f, side);
     add_opacity(text, f, side);

@@ -15,7 +15,8 @@ struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
     f.per_vertex = c->stage == LAM_STAGE_VERTEX && !f.output_geometry;
     f.per_fragment = !f.application && !f.per_vertex;
     f.lit = !f.application && !f.output_geometry;
-    f.unlit = f.lit && c->reflection == LAM_REFLECTION_NONE && !f.output_vector;
+    f.output_material = f.lit && output_is_material(c->output);
+    f.unlit = f.lit && (c->reflection == LAM_REFLECTION_NONE || f.output_material) && !f.output_vector;
     bool sums = f.lit && !f.unlit && !f.output_vector;
     f.lights = c->light_count > 0 && (sums || f.output_one_light);
     f.hemispheres = c->hemisphere_count > 0 && sums;

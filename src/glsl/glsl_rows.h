@@ -56,6 +56,7 @@ struct glsl_facts {
     bool application, per_vertex, per_fragment;
     bool output_geometry, output_vector;
     bool output_one_light;       // an output_vector of one light
+    bool output_material;        // what the material is at the point; the surface is unlit
     bool unlit;                  // the surface has its diffuse colour
     bool lit;                    // the shader has a function light_point
     bool adds_lights;            // light_point sums terms of lights
@@ -89,6 +90,8 @@ void glsl_add_parameters(struct text *text, const struct glsl_facts *facts);
 void glsl_find_maps(struct glsl_facts *facts);
 // The map whose sampler another one uses: itself, or the first one of its side with the same texels.
 lam_map glsl_map_owner(const struct glsl_facts *facts, int side, lam_map map);
+// Whether the reflection model lights physical materials.
+bool glsl_is_physical(const struct glsl_facts *facts);
 // Whether the maps' struct has a member of this name.
 bool glsl_maps_have(const struct glsl_facts *facts, const char *member);
 // Appends the struct of what maps say of a point, and the functions that fill it.

@@ -361,6 +361,12 @@ vec4 light_point(@lit_parameters@)
 //@if vertex_colors
     sum = tint_terms(sum, tint.rgb);
 //@end
+//@if output_material
+//@if selects_parameters
+@parameters@
+//@end
+    return vec4(@output_material@, 1.0);
+//@else
     vec3 color = @output_term@;
 //@if clamped
     // As in OpenGL 1, the colour of a vertex is clamped to 0...1.
@@ -381,6 +387,7 @@ vec4 light_point(@lit_parameters@)
     opacity = saturate(opacity);
 //@end
     return vec4(color, opacity);
+//@end
 //@end
 }
 //@if tangent_field

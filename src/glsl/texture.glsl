@@ -127,6 +127,18 @@ void picture_axes(vec3 p, vec4 s, vec4 t, footprint f, out vec3 across, out vec3
 }
 
 //@end
+//@if shows_level
+// The level of detail of a map at one probe.
+float map_level(sampler2D map, vec4 s, vec4 t, footprint f)
+{
+    vec2 dx = vec2(s.x * f.dx.x + s.y * f.dx.y, t.x * f.dx.x + t.y * f.dx.y);
+    vec2 dy = vec2(s.x * f.dy.x + s.y * f.dy.y, t.x * f.dy.x + t.y * f.dy.y);
+    vec2 size = vec2(textureSize(map, 0));
+    float longer = max(dot(dx * size, dx * size), dot(dy * size, dy * size));
+    return longer > 1.0e-30 ? 0.5 * log2(min(longer, 1.0e30)) : -50.0;
+}
+
+//@end
 // A texel of a map. s and t are rows of the matrix from the mesh's texture coordinates to the picture's.
 vec4 map_texel(sampler2D map, vec4 s, vec4 t, footprint f, sampling how)
 {

@@ -4,12 +4,28 @@
 #include <lambent/device.h>
 
 static const char *const names[LAM_OUTPUT_COUNT] = {
-    [LAM_OUTPUT_PICTURE] = "picture",   [LAM_OUTPUT_AMBIENT] = "ambient",   [LAM_OUTPUT_DIFFUSE] = "diffuse",
-    [LAM_OUTPUT_SPECULAR] = "specular", [LAM_OUTPUT_EMISSION] = "emission", [LAM_OUTPUT_REFLECTION] = "reflection",
-    [LAM_OUTPUT_LIGHT] = "light",       [LAM_OUTPUT_NORMALS] = "normals",   [LAM_OUTPUT_TANGENTS] = "tangents",
-    [LAM_OUTPUT_DEPTH] = "depth",       [LAM_OUTPUT_N_L] = "n.l",           [LAM_OUTPUT_N_H] = "n.h",
-    [LAM_OUTPUT_FACING] = "facing",     [LAM_OUTPUT_IDS] = "ids",           [LAM_OUTPUT_COVERAGE] = "coverage",
-    [LAM_OUTPUT_OVERDRAW] = "overdraw", [LAM_OUTPUT_CLIPPED] = "clipped",
+    [LAM_OUTPUT_PICTURE] = "picture",
+    [LAM_OUTPUT_AMBIENT] = "ambient",
+    [LAM_OUTPUT_DIFFUSE] = "diffuse",
+    [LAM_OUTPUT_SPECULAR] = "specular",
+    [LAM_OUTPUT_EMISSION] = "emission",
+    [LAM_OUTPUT_REFLECTION] = "reflection",
+    [LAM_OUTPUT_LIGHT] = "light",
+    [LAM_OUTPUT_NORMALS] = "normals",
+    [LAM_OUTPUT_TANGENTS] = "tangents",
+    [LAM_OUTPUT_DEPTH] = "depth",
+    [LAM_OUTPUT_N_L] = "n.l",
+    [LAM_OUTPUT_N_H] = "n.h",
+    [LAM_OUTPUT_FACING] = "facing",
+    [LAM_OUTPUT_IDS] = "ids",
+    [LAM_OUTPUT_COVERAGE] = "coverage",
+    [LAM_OUTPUT_OVERDRAW] = "overdraw",
+    [LAM_OUTPUT_CLIPPED] = "clipped",
+    [LAM_OUTPUT_BASE_COLOR] = "base-color",
+    [LAM_OUTPUT_ROUGHNESS] = "roughness",
+    [LAM_OUTPUT_METALLIC] = "metallic",
+    [LAM_OUTPUT_OCCLUSION] = "occlusion",
+    [LAM_OUTPUT_LOD] = "lod",
 };
 
 const char *lam_output_name(lam_output output) { return (unsigned)output < LAM_OUTPUT_COUNT ? names[output] : NULL; }

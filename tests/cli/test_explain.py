@@ -1,5 +1,6 @@
 # test_explain.py: the command `explain`: the explained pixel equals the picture's, as text and as JSON.
 import json
+import math
 import random
 import re
 import unittest
@@ -90,6 +91,29 @@ class Explain(Case):
         self.assertEqual(landed, pixel(self.png("teapot", "-s", 64, "--rig", "headlight"), 31, 34))
         self.assertIn("Only the background is visible here", self.good("explain", "teapot", "0,0", "-s", 64).stdout.decode())
         self.assertEqual(self.new_files(), set())
+
+    def test_physical(self):
+        """Every part of a microfacet lobe and of environment light, as text and as JSON."""
+        words = ("sphere", "20,20", "-s", "41", "--samples", "1", "--view", "front", "--material", "#ffc356,metallic=0.5,roughness=0.4")
+        lit = (*words, "--light", "directional:direction=0/0/-1")
+        text = self.good("explain", *lit).stdout.decode()
+        for part in ("D(h)", "V  ", "F  ", "π D(h) V max(n·l, 0)", "base colour", "roughness                       0.4"):
+            self.assertIn(part, text)
+        triangle = json.loads(self.good("explain", *lit, "--json").stdout)["triangles"][0]
+        light = triangle["points"][0]["lights"][0]
+        self.assertAlmostEqual(light["distribution"], 1 / (math.pi * 0.4 ** 4), places=1)  # the middle: n = h, 1 / (pi alpha^2)
+        self.assertAlmostEqual(light["S"], math.pi * light["distribution"] * light["visibility"] * light["n_dot_l"], places=3)
+        self.assertEqual(triangle["values"]["metallic"], 0.5)
+        self.assertEqual((triangle["maps"], triangle["values"]["tangent"]), ([], None))
+        text = self.good("explain", *words, "--environment", "studio").stdout.decode()
+        for part in ("diffuse part", "mirrored part", "of the prefiltered environment for the roughness: "):
+            self.assertIn(part, text)
+        point = json.loads(self.good("explain", *words, "--environment", "studio", "--json").stdout)["triangles"][0]["points"][0]
+        around = point["environment"]
+        for c, base in enumerate(json.loads(self.good("explain", *words, "--environment", "studio", "--json").stdout)["triangles"][0]["values"]["base_color"]):
+            glass = 0.04 * around["scale"] + around["bias"]
+            self.assertAlmostEqual(around["diffuse_part"][c], base * 0.5 * around["irradiance"][c] * (1 - glass), places=5)
+            self.assertGreater(point["terms"]["reflection"][c], around["diffuse_part"][c])
 
     def test_wrong(self):
         for place in ("5", "5,", ",5", "a,b", "1,2,3", "1.5,2", "0x1,2", "", "9999999999,1"):

@@ -38,6 +38,19 @@ class Show(Case):
         self.assertEqual(middle["overdraw"], (102, 102, 102, 255))  # front and back
         self.assertEqual(middle["n.l"][0], middle["n.l"][2])
 
+    def test_materials(self):
+        """What a material is: colours by the sRGB curve, numbers as they are; classic materials have no roughness."""
+        gold = ("sphere", "--view", "front", "-s", SIZE + 1, "--material", "#ffc356,metallic=0.6,roughness=0.4")
+        at = lambda what, *more: pixel(self.png(*gold, "--show", what, *more), 20, 20)
+        self.assertEqual(at("base-color"), (255, 195, 86, 255))
+        self.assertEqual(at("base-color", "--color-mode", "raw")[0], 255)
+        for shading in ("flat", "gouraud", "phong"):
+            self.assertEqual((at("roughness", "--shading", shading), at("metallic", "--shading", shading)), ((102, 102, 102, 255), (153, 153, 153, 255)))
+        self.assertEqual(at("roughness", "--reflection", "phong"), (102, 102, 102, 255))
+        self.assertEqual((at("occlusion"), at("lod")), ((255, 255, 255, 255), (0, 0, 0, 255)))
+        self.assertEqual(pixel(self.png("sphere", "--view", "front", "-s", SIZE + 1, "--show", "roughness"), 20, 20), (0, 0, 0, 255))
+        self.assertEqual(self.floats(*gold[:-2], "--material", "#ffc356,metallic=0.6,roughness=0.4", "--show", "roughness")[SIZE * SIZE // 2 * 3 + 60], struct.unpack("f", struct.pack("f", 0.4))[0])
+
     def test_background(self):
         """It is the picture's wherever a number is of a surface, and on the sheets; numbers of pixels have no background."""
         names = {"normals": 1, "depth": 1, "facing": 1, "ids": 1, "n.l": 1, "n.h": 1, "diffuse": 1, "picture": 1, "coverage": 0, "overdraw": 0}

@@ -41,11 +41,11 @@ static void single_choices(struct visitor *v, const struct glsl_choices *base)
     for (int output = LAM_OUTPUT_PICTURE; output < LAM_OUTPUT_COUNT; output++) {
         struct glsl_choices c = *base;
         c.output = (lam_output)output;
-        if (output != LAM_OUTPUT_IDS || c.version != GLSL_120)
-            call(v, &c);
+        if (c.version == GLSL_120 && (output == LAM_OUTPUT_IDS || output == LAM_OUTPUT_LOD))
+            continue;
+        call(v, &c);
         c.reflection = LAM_REFLECTION_NONE;
-        if (output != LAM_OUTPUT_IDS || c.version != GLSL_120)
-            call(v, &c);
+        call(v, &c);
     }
     static const int some[] = {0, 1, 2, 4, 8, 16, 32, 63};
     for (int i = 0; i < 8; i++) {
@@ -106,6 +106,10 @@ static void maps(struct visitor *v, const struct glsl_choices *base)
         call(v, &c);
         c.output = LAM_OUTPUT_NORMALS;
         call(v, &c);
+        for (int output = LAM_OUTPUT_BASE_COLOR; output < LAM_OUTPUT_LOD + (c.version != GLSL_120); output++) {
+            c.output = (lam_output)output;
+            call(v, &c);
+        }
     }
 }
 

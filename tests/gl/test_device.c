@@ -172,8 +172,8 @@ static void test_shows(void **state)
 {
     (void)state;
     lam_device *gl = device_or_skip(LAM_GL_ES);
-    static const char *const names[] = {"lights", "translucent"};
-    for (int n = 0; n < 2; n++) {
+    static const char *const names[] = {"lights", "translucent", "textured", "textured-classic"};
+    for (int n = 0; n < 4; n++) {
         struct demo demo;
         build(names[n], &demo);
         lam_draw_params params = demo.params;

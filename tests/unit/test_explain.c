@@ -339,6 +339,66 @@ static void test_ways(void **state)
     lam_device_free(device);
 }
 
+// Maps, and what they make of a material: the numbers of the pictures of them (--show), and S = pi D V n.l.
+static void test_values(void **state)
+{
+    (void)state;
+    lam_device *device = make_device(LAM_ISA_AUTO);
+    struct demo demo;
+    assert_true(demo_build_named("textured", &demo, NULL));
+    demo.params.samples = 1;
+    static const lam_output outputs[] = {LAM_OUTPUT_BASE_COLOR, LAM_OUTPUT_ROUGHNESS, LAM_OUTPUT_METALLIC,
+                                         LAM_OUTPUT_OCCLUSION, LAM_OUTPUT_LOD};
+    lam_image images[5] = {{0}};
+    for (int i = 0; i < 5; i++) {
+        lam_draw_params params = demo.params;
+        params.output = outputs[i];
+        params.shading = (lam_shading)(i % 3); // of no matter
+        params.reflection = i % 2 ? LAM_REFLECTION_PHONG : LAM_REFLECTION_AUTO;
+        assert_true(lam_image_make(&images[i], demo.width, demo.height, LAM_RGBA32F, NULL));
+        assert_true(lam_draw(device, demo.scene, &demo.camera, &params, &images[i], NULL, NULL));
+    }
+    int seen = 0;
+    for (int k = 0; k < 60; k++) {
+        int x = random_below(demo.width), y = random_below(demo.height);
+        size_t at = 4 * ((size_t)y * (size_t)demo.width + (size_t)x);
+        lam_explanation *e = lam_explain(device, demo.scene, &demo.camera, &demo.params, demo.width, demo.height,
+                                         LAM_RGBA8, x, y, NULL, NULL);
+        assert_non_null(e);
+        const lam_explained_fragment *f = e->fragment_count ? &e->fragments[0] : NULL;
+        if (f) {
+            const lam_explained_values *v = f->values;
+            assert_memory_equal(&v->base_color, (float *)images[0].pixels + at, 12);
+            assert_true(v->roughness == ((float *)images[1].pixels)[at] &&
+                        v->metallic == ((float *)images[2].pixels)[at]);
+            assert_true(v->occlusion == ((float *)images[3].pixels)[at]);
+            assert_int_equal(f->map_count, 6);
+            for (int i = 0; i < f->map_count; i++) {
+                const lam_explained_map *m = &f->maps[i];
+                assert_true(m->column >= 0 && m->column <= 48 && m->row >= 0 && m->row <= 48 && m->width == 48);
+                if (m->map == LAM_MAP_DIFFUSE) {
+                    assert_true(m->level == ((float *)images[4].pixels)[at]);
+                    assert_memory_equal(&m->texel, &v->base_color, 12); // the material's own is white
+                }
+                if (m->map == LAM_MAP_ROUGHNESS)
+                    assert_true(m->texel.g == v->roughness);
+            }
+            assert_true(fabs(dot(v->mesh_normal, v->mesh_normal) - 1) < 1e-5 && dot(v->tangent, v->tangent) > 0.1);
+            const lam_explained_light *l = &f->points[0].lights[0];
+            float product = 3.14159265f * l->distribution * l->visibility * l->n_dot_l;
+            assert_true(l->S == 0 ? l->distribution == 0 : fabsf(product / l->S - 1) < 1e-5f);
+            assert_true(l->fresnel.r >= 0.04f && l->fresnel.r < 2.5f);
+            seen++;
+        }
+        lam_explanation_free(e);
+    }
+    assert_true(seen > 15);
+    for (int i = 0; i < 5; i++)
+        lam_image_free(&images[i]);
+    lam_scene_free(demo.scene);
+    lam_device_free(device);
+}
+
 // A picture full of one surface: each pixel of a tile is one fragment, and stands in no sum while it is drawn.
 static void test_filled(void **state)
 {
@@ -440,8 +500,9 @@ static void test_device_unchanged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_scenes), cmocka_unit_test(test_models), cmocka_unit_test(test_ways),
-        cmocka_unit_test(test_filled), cmocka_unit_test(test_known),  cmocka_unit_test(test_device_unchanged),
+        cmocka_unit_test(test_scenes),           cmocka_unit_test(test_models), cmocka_unit_test(test_ways),
+        cmocka_unit_test(test_values),           cmocka_unit_test(test_filled), cmocka_unit_test(test_known),
+        cmocka_unit_test(test_device_unchanged),
     };
     return cmocka_run_group_tests_name("explain", tests, NULL, NULL);
 }

@@ -89,7 +89,8 @@ static void check_scene(const char *name, lam_scene *scene, const lam_camera *ca
     for (int show = LAM_OUTPUT_AMBIENT; show <= LAM_OUTPUT_REFLECTION; show++)
         add(sums, draw_show(scene, camera, params, (lam_output)show, 0));
     check_sums(name, sums, &picture);
-    if (params.reflection == LAM_REFLECTION_NONE) {
+    // What is unlit is no light's: lines without normals too.
+    if (params.reflection == LAM_REFLECTION_NONE || strcmp(name, "lines") == 0) {
         lam_image_free(&picture);
         return;
     }

@@ -104,6 +104,11 @@ static void write_light(struct json *json, const lam_explained_light *l)
     real(json, "power", l->power);
     real(json, "D", l->D);
     real(json, "S", l->S);
+    if (l->visibility > 0) {
+        real(json, "distribution", l->distribution);
+        real(json, "visibility", l->visibility);
+        color(json, "fresnel", l->fresnel);
+    }
     color(json, "kd_Ld", l->kd_Ld);
     color(json, "ks_Ls", l->ks_Ls);
     json_flag(json, "left_out", l->skipped);
@@ -160,6 +165,7 @@ static void write_point(struct json *json, const lam_explained_point *p)
             color(json, "irradiance", p->irradiance);
             real(json, "scale", p->environment_scale);
             real(json, "bias", p->environment_bias);
+            color(json, "diffuse_part", p->environment_diffuse);
         }
         json_close(json, '}');
     }
@@ -189,6 +195,49 @@ static void write_field(struct json *json, const lam_field *field, const lam_mat
         json_number(json, field->key, numbers[0]);
     else if (!in_matrix)
         triple(json, field->key, numbers[0], numbers[1], numbers[2]);
+}
+
+static void write_maps(struct json *json, const lam_explained_fragment *f)
+{
+    json_open(json, "maps", '[');
+    for (int i = 0; i < f->map_count; i++) {
+        const lam_explained_map *m = &f->maps[i];
+        json_open(json, NULL, '{');
+        json_text(json, "map", lam_map_name(m->map));
+        json_text(json, "texture", m->texture);
+        json_count(json, "width", (uint64_t)m->width);
+        json_count(json, "height", (uint64_t)m->height);
+        json_open(json, "coordinates", '[');
+        real(json, NULL, m->s);
+        real(json, NULL, m->t);
+        json_close(json, ']');
+        json_open(json, "place", '[');
+        real(json, NULL, m->column);
+        real(json, NULL, m->row);
+        json_close(json, ']');
+        real(json, "level", m->level);
+        color4(json, "texel", m->texel);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+    const lam_explained_values *v = f->values;
+    if (!v) {
+        json_none(json, "values");
+        return;
+    }
+    json_open(json, "values", '{');
+    color(json, "base_color", v->base_color);
+    real(json, "metallic", v->metallic);
+    real(json, "roughness", v->roughness);
+    real(json, "shininess", v->shininess);
+    real(json, "occlusion", v->occlusion);
+    vector(json, "mesh_normal", v->mesh_normal);
+    if (is_zero(v->tangent))
+        json_none(json, "tangent");
+    else
+        vector(json, "tangent", v->tangent);
+    real(json, "bitangent_sign", v->bitangent_sign);
+    json_close(json, '}');
 }
 
 static void write_fragment(struct json *json, const lam_explained_fragment *f)
@@ -228,6 +277,7 @@ static void write_fragment(struct json *json, const lam_explained_fragment *f)
     for (int i = 0; lam_material_field(i); i++)
         write_field(json, lam_material_field(i), m);
     json_close(json, '}');
+    write_maps(json, f);
     json_open(json, "points", '[');
     for (int i = 0; i < f->point_count; i++)
         write_point(json, &f->points[i]);

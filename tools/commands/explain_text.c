@@ -103,7 +103,10 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
     if (!model->base)
         return;
     if (model->microfacet) {
-        snprintf(remark, sizeof remark, "%s%s", gate, model->base);
+        number(4, "D(h)", (double)l->distribution, "how many mirrors face h: α² / (π (|n × h|² + (n·h)² α²)²)");
+        number(4, "V", (double)l->visibility, "how many of them are in sight of light and eye");
+        color(4, "F", l->fresnel, "how much they reflect: f0 + (1 − f0) (1 − v·h)⁵");
+        snprintf(remark, sizeof remark, "%sπ D(h) V max(n·l, 0)", gate);
         number(4, "S", (double)l->S, remark);
         return;
     }
@@ -223,7 +226,7 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
     vector(2, "position in eye space", p->position, "");
     vector(2, "n", p->n, f->flipped ? "reversed: the back is visible" : "");
     vector(2, "v", p->v, e->distant_viewer ? "to the eye, infinitely far" : "to the eye");
-    if (!is_zero(p->t))
+    if (!is_zero(p->t) && lam_reflection_describe(f->reflection)->tangents)
         vector(2, "t", p->t, "along the threads");
     bool colored = p->color.r != 1 || p->color.g != 1 || p->color.b != 1;
     const char *tinting = f->surface.maps[LAM_MAP_DIFFUSE] ? "texture and vertex colour" : "vertex colour";
@@ -239,11 +242,20 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
         vector(4, "direction", p->environment_direction, "R in the environment's own axes");
         color(4, "light from there", p->environment_light, "");
         if (p->environment_scale + p->environment_bias > 0) {
-            number(4, "level", (double)p->environment_level, "of the prefiltered environment, for the roughness");
+            char text[100];
+            int level = (int)p->environment_level;
+            int share = (int)((p->environment_level - (float)level) * 100 + 0.5f);
+            snprintf(text, sizeof text, "of the prefiltered environment for the roughness: %d %% of %d, %d %% of %d",
+                     100 - share, level, share, level + 1);
+            number(4, "level", (double)p->environment_level, text);
             color(4, "prefiltered", p->prefiltered, "around R, at that level");
             color(4, "irradiance ÷ π", p->irradiance, "above the surface");
             number(4, "scale", (double)p->environment_scale, "");
             number(4, "bias", (double)p->environment_bias, "the lobe's integral is f0 scale + bias");
+            lam_rgb diffuse = p->environment_diffuse;
+            lam_rgb mirrored = {p->reflection.r - diffuse.r, p->reflection.g - diffuse.g, p->reflection.b - diffuse.b};
+            color(4, "diffuse part", diffuse, "base (1 − metallic) ⊙ irradiance/π (1 − (0.04 scale + bias))");
+            color(4, "mirrored part", mirrored, "prefiltered ⊙ (f0 scale + bias)");
         }
     }
 
@@ -332,6 +344,51 @@ static const char *item_of(const lam_explained_fragment *f, char out[32])
     return out;
 }
 
+static void print_map(const lam_explained_map *m)
+{
+    char text[200];
+    printf("  map '%s'", lam_map_name(m->map));
+    named(m->texture);
+    printf(", %d×%d texels\n", m->width, m->height);
+    label(4, "coordinates");
+    printf("%13.7g %13.7g   of the mesh\n", (double)m->s, (double)m->t);
+    label(4, "place");
+    printf("%13.7g %13.7g   texels from the upper left corner\n", (double)m->column, (double)m->row);
+    snprintf(text, sizeof text, "%s", m->level > 0 ? "texels of level 0 that a pixel spans: 2^level" : "magnified");
+    number(4, "level of detail", (double)m->level, text);
+    label(4, m->map == LAM_MAP_BUMP ? "heights" : "texel");
+    printf("%13.7g %13.7g %13.7g %13.7g   %s\n", (double)m->texel.r, (double)m->texel.g, (double)m->texel.b,
+           (double)m->texel.a, m->map == LAM_MAP_BUMP ? "left, right, above, below" : "filtered");
+    printf("\n");
+}
+
+// What the maps make of the material.
+static void print_values(const lam_explained_fragment *f)
+{
+    const lam_explained_values *v = f->values;
+    const lam_material *m = &f->surface;
+    for (int i = 0; i < f->map_count; i++)
+        print_map(&f->maps[i]);
+    if (!v || (!m->physical && !f->map_count))
+        return;
+    printf("  the material here\n");
+    color(4, m->physical ? "base colour" : "diffuse kd", v->base_color, "with maps and vertex colour");
+    if (m->physical) {
+        number(4, "metallic", (double)v->metallic, "");
+        number(4, "roughness", (double)v->roughness, v->roughness < 0.045f ? "lit as 0.045" : "");
+    } else {
+        number(4, "shininess α", (double)v->shininess, "");
+    }
+    if (v->occlusion != 1)
+        number(4, "occlusion", (double)v->occlusion, "factor of light from everywhere");
+    if (!is_zero(v->tangent)) {
+        vector(4, "n of the mesh", v->mesh_normal, "interpolated");
+        vector(4, "tangent", v->tangent, "interpolated, of any length");
+        number(4, "bitangent's sign", (double)v->bitangent_sign, "bitangent = sign · n × t");
+    }
+    printf("\n");
+}
+
 static void print_fragment(const lam_explanation *e, const lam_explained_fragment *f)
 {
     char name[32];
@@ -358,6 +415,7 @@ static void print_fragment(const lam_explanation *e, const lam_explained_fragmen
     three(2, "weights of the corners", (double)f->weights[0], (double)f->weights[1], (double)f->weights[2],
           "barycentric, perspective-correct");
     print_material(e, f);
+    print_values(f);
     for (int i = 0; i < f->point_count; i++)
         print_point(e, f, &f->points[i]);
     if (f->point_count == 3)

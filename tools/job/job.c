@@ -308,6 +308,9 @@ static bool draw(struct job *job, struct progress *progress, lam_error *error)
     return ok;
 }
 
+// Whether 8 bits hold sRGB-encoded colours.
+static bool is_color(lam_output output) { return lam_output_is_light(output) || output == LAM_OUTPUT_BASE_COLOR; }
+
 static bool write_output(struct job *job, lam_error *error)
 {
     lam_control control;
@@ -320,7 +323,7 @@ static bool write_output(struct job *job, lam_error *error)
                               .control = &control,
                               .compress = (lam_compress)o->compress,
                               .quality = o->quality,
-                              .raw = o->color_mode == LAM_COLOR_RAW || !lam_output_is_light(show_option_what(o->show))};
+                              .raw = o->color_mode == LAM_COLOR_RAW || !is_color(show_option_what(o->show))};
     bool ok;
     if (show_is_all(o)) {
         ok = output_make_folder(job->output, error) && show_all_write(job, &control, error);

@@ -71,6 +71,11 @@ static const struct word show_words[] = {
     {"coverage", LAM_OUTPUT_COVERAGE, "the fraction of covered samples"},
     {"overdraw", LAM_OUTPUT_OVERDRAW, "the number of triangles over a pixel: c/(c + 3)"},
     {"clipped", LAM_OUTPUT_CLIPPED, "pixels outside 0 to 1: above red, below blue"},
+    {"base-color", LAM_OUTPUT_BASE_COLOR, "the base or diffuse colour, with maps and vertex colours"},
+    {"roughness", LAM_OUTPUT_ROUGHNESS, "of physical materials"},
+    {"metallic", LAM_OUTPUT_METALLIC, "of physical materials"},
+    {"occlusion", LAM_OUTPUT_OCCLUSION, "of an occlusion map"},
+    {"lod", LAM_OUTPUT_LOD, "level of detail of the base colour's map: level / 10"},
     {"all", LAM_OUTPUT_PICTURE, "the picture, every term and every light, as layers of a .exr"},
     {NULL, 0, NULL}};
 

@@ -43,7 +43,7 @@ bool store_show(const struct option *option, const char *value, struct options *
         options->show = value;
         return true;
     }
-    char known[256] = "";
+    char known[400] = "";
     struct suggestion nearest = suggest_start(value);
     for (const struct word *w = option->words; w->name; w++) {
         strncat(known, w == option->words ? "" : w[1].name ? ", " : " or ", sizeof known - strlen(known) - 1);

@@ -77,6 +77,8 @@ uninstall: $(build)/build.ninja
 docs: $(build)/lambent
 	@ninja -C $(build) docs/reference.md
 	@python3 scripts/docs.py $(build)/lambent
+	@ninja -C $(build)
+	@python3 scripts/tone_plot.py $(build)
 
 gallery: docs
 	@ninja -C $(build) docs/mistakes

@@ -22,7 +22,7 @@ class Info(GltfCase):
         row = self.info(model)[0]
         self.assertEqual((row["format"], row["version"], row["generator"], row["copyright"]), ("gltf", "2.0", "by\x1bhand", "nobody"))
         self.assertEqual((row["unit"], row["up"], row["size"]), ("metre", "y", [2, 2, 0]))
-        self.assertEqual(row["counts"], {"triangles": 2, "vertices": 4, "objects": 1, "meshes": 1, "parts": 1,
+        self.assertEqual(row["counts"], {"triangles": 2, "lines": 0, "points": 0, "vertices": 4, "objects": 1, "meshes": 1, "parts": 1,
                                          "stored_triangles": 2, "stored_vertices": 4})
         self.assertEqual(row["scenes"], [{"name": "day", "read": True}, {"name": "night", "read": False}])
         self.assertEqual(row["variants"], ["plain", "mint"])
@@ -41,6 +41,14 @@ class Info(GltfCase):
                       "1 'night'", "0 unlit: base 1/0/0", "1 'mint'", "0 'near', perspective, 5.73 degrees high, at 0 0 9", "KHR_materials_sheen: ignored",
                       "NO_such: unknown", "0 'skin.png', png; not read"):
             self.assertIn(words, text)
+
+    def test_drawing_memory(self):
+        """What drawing takes besides the model: at least the picture, more with more threads; none within a limit that it exceeds."""
+        rows = [self.info("teapot", "--threads", n)[0]["drawing"] for n in (1, 3)]
+        self.assertEqual([(r["width"], r["height"], r["threads"]) for r in rows], [(1024, 1024, 1), (1024, 1024, 3)])
+        self.assertTrue(4 << 20 < rows[0]["memory_bytes"] < rows[1]["memory_bytes"] < 64 << 20, rows)
+        self.assertRegex(self.good("info", "teapot").stdout.decode(), r"MB more to draw 1024×1024 pixels by \d+ thread")
+        self.assertIsNone(self.info("teapot", "--memory-limit", "9M")[0]["drawing"])
 
     def test_required_extensions(self):
         """What drawing refuses is still looked into."""

@@ -28,6 +28,25 @@ static bool load(struct info *info, struct job *job, struct options *options, la
     return ok;
 }
 
+// Finds what drawing takes, by drawing the depths once: lighting takes no more but for an environment's light.
+static void measure_drawing(struct info *info, const struct job *job)
+{
+    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = job->options->threads}, NULL);
+    lam_image image = {0};
+    lam_camera camera = lam_camera_fit(job->scene, INFO_SIDE, INFO_SIDE, NULL);
+    lam_draw_params params = {.output = LAM_OUTPUT_DEPTH};
+    lam_control control = {.memory_limit_bytes = job->options->memory_limit_bytes};
+    if (device && lam_image_make(&image, INFO_SIDE, INFO_SIDE, LAM_RGBA8, NULL) &&
+        lam_draw(device, job->scene, &camera, &params, &image, &control, NULL)) {
+        lam_frame_report report;
+        lam_device_report(device, &report);
+        info->drawing_bytes = report.memory_bytes + (uint64_t)INFO_SIDE * INFO_SIDE * 4;
+        info->drawing_threads = lam_device_threads(device);
+    }
+    lam_image_free(&image);
+    lam_device_free(device);
+}
+
 static int print_one(const char *model, const struct options *given, bool first)
 {
     struct options options = *given;
@@ -38,9 +57,10 @@ static int print_one(const char *model, const struct options *given, bool first)
     struct info_textures textures = {0};
     info.textures = &textures;
     bool ok = load(&info, &job, &options, &error) && info_textures_list(job.scene, &textures, &error);
-    if (ok)
+    if (ok) {
         error = (lam_error){0}; // of the first attempt
-    else
+        measure_drawing(&info, &job);
+    } else
         say_error(error.text);
     if (given->json) {
         info_json(&info);

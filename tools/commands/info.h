@@ -29,7 +29,11 @@ struct info {
     const lam_error *error; // code LAM_OK: none
     bool needs_lenient;     // drawing it needs --lenient
     const struct info_textures *textures;
+    uint64_t
+        drawing_bytes; // that drawing a picture of INFO_SIDE² pixels takes, the picture included; 0: it cannot be drawn
+    int drawing_threads;
 };
+enum { INFO_SIDE = 1024 };
 
 // The numbers of what is stored; a mesh that several objects show counts once.
 struct info_counts {

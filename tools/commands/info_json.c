@@ -211,6 +211,16 @@ static void write_model(struct json *json, const struct info *info)
     write_file(json, file);
     json_flag(json, "needs_lenient", info->needs_lenient);
     json_count(json, "memory_bytes", lam_scene_memory(scene));
+    if (info->drawing_bytes) {
+        json_open(json, "drawing", '{');
+        json_count(json, "memory_bytes", info->drawing_bytes);
+        json_count(json, "width", INFO_SIDE);
+        json_count(json, "height", INFO_SIDE);
+        json_count(json, "threads", (uint64_t)info->drawing_threads);
+        json_close(json, '}');
+    } else {
+        json_none(json, "drawing");
+    }
     json_open(json, "times_ms", '{');
     json_number(json, "read", (double)(int64_t)(job->times.read * 1e3 + 0.5) / 1e3);
     json_number(json, "prepare", (double)(int64_t)(job->times.prepare * 1e3 + 0.5) / 1e3);

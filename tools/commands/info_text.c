@@ -61,8 +61,9 @@ static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
 // --- the sections
 
-static void print_geometry(const struct job *job)
+static void print_geometry(const struct info *info)
 {
+    const struct job *job = info->job;
     const lam_scene *scene = job->scene;
     struct info_counts stored = info_count(scene);
     lam_vec3 low, high;
@@ -88,6 +89,9 @@ static void print_geometry(const struct job *job)
         printf("; stored: %" PRIu64 " triangles, %" PRIu64 " vertices", stored.triangles, stored.vertices);
     printf("\n%-12s%.1f MB; loaded in %.*f ms\n", "memory", (double)lam_scene_memory(scene) / 1e6,
            job->times.read + job->times.prepare < 10 ? 1 : 0, job->times.read + job->times.prepare);
+    if (info->drawing_bytes)
+        printf("%-12s%.1f MB more to draw %d×%d pixels by %d thread%s\n", "", (double)info->drawing_bytes / 1e6,
+               INFO_SIDE, INFO_SIDE, info->drawing_threads, info->drawing_threads == 1 ? "" : "s");
 }
 
 static void print_factors(const lam_material *m)
@@ -233,7 +237,7 @@ void info_text(const struct info *info)
     printf("\n");
     if (file->copyright)
         printf("%-12s%s\n", "copyright", plain(file->copyright, LINE_BYTES, text));
-    print_geometry(job);
+    print_geometry(info);
     print_materials(scene);
     print_textures(info->textures, job->model);
     print_lights(scene);

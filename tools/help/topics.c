@@ -51,15 +51,17 @@ const struct topic topics[] = {
      "The numbers are those of the picture, to the last bit; `docs/lighting.md` has the formulas. `--json` prints "
      "the same as one line. No picture is written; `--output` has no effect."},
     {"info", "What is in a model", 0, TOPIC_NO_TABLE,
-     "`lambent info MODEL...` prints what is in models, one after the other, and draws nothing: format, the program "
+     "`lambent info MODEL...` prints what is in models, one after the other, and writes no picture: format, the "
+     "program "
      "that wrote the file, size with the up axis, triangles, meshes, parts and objects, materials with their numbers "
      "and maps, textures with their sizes, lights, cameras, scenes, animations with their lengths, variants, "
      "extensions of glTF and "
      "what becomes of each (supported, ignored, or unknown), memory, the time that loading took, and warnings. Lists "
      "end after 8 rows; `--json` prints everything, one line for each model (`docs/info.schema.json`). Lengths of "
      "glTF are metres; other formats do not say. A file that requires an unknown extension is read as with "
-     "`--lenient`, and the output says so. The memory is that of the model; drawing takes more, which the report of a "
-     "picture has (`memory_bytes`). A model that cannot be read is reported, and the exit code is the highest one."},
+     "`--lenient`, and the output says so. The memory is that of the model, and what drawing 1024x1024 pixels takes "
+     "besides, the picture included: the depths are drawn once to find it. A model that cannot be read is reported, "
+     "and the exit code is the highest one."},
     {"check", "Checking shaders", BIT(CHECK) | BIT(DIFF), TOPIC_NO_TABLE,
      "`lambent check SHADER.frag --vertex SHADER.vert` draws small reference scenes with the shaders and compares "
      "the pictures with those of the CPU device. Without `--vertex` a correct vertex shader is generated. The "

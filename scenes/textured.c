@@ -83,7 +83,7 @@ static bool add_textured(struct demo *d, const char *shape, lam_material *m, lam
     return o.mesh >= 0 && o.material >= 0 && lam_scene_add_object(d->scene, &o, error) >= 0;
 }
 
-static bool light_up(struct demo *d, lam_error *error)
+bool textured_light_up(struct demo *d, lam_error *error)
 {
     lam_light l = lam_light_default(LAM_LIGHT_POINT);
     l.position = (lam_vec3){3, 4, 5};
@@ -125,7 +125,7 @@ static bool bricks(struct demo *d, bool physical, lam_error *error)
     m.maps[physical ? LAM_MAP_ROUGHNESS : LAM_MAP_SHININESS] = &roughness;
     m.maps[physical ? LAM_MAP_METALLIC : LAM_MAP_SPECULAR] = physical ? &metallic : &occlusion;
     ok = ok && add_textured(d, "sphere", &m, (lam_vec3){-1.1, 0, 0}, error) &&
-         add_textured(d, "torus", &m, (lam_vec3){1.2, 0, 0}, error) && light_up(d, error);
+         add_textured(d, "torus", &m, (lam_vec3){1.2, 0, 0}, error) && textured_light_up(d, error);
     for (int i = 0; i < PICTURES; i++)
         lam_texture_free(t[i]);
     return ok;
@@ -158,7 +158,7 @@ bool textured_masked(struct demo *d, lam_error *error)
     bool ok = t && add_textured(d, "sphere", &m, (lam_vec3){-1.1, 0, 0}, error) &&
               add_textured(d, "torus", &solid, (lam_vec3){-0.6, 0, -0.4}, error);
     m.alpha_mode = LAM_ALPHA_BLEND;
-    ok = ok && add_textured(d, "sphere", &m, (lam_vec3){1.1, 0, 0}, error) && light_up(d, error);
+    ok = ok && add_textured(d, "sphere", &m, (lam_vec3){1.1, 0, 0}, error) && textured_light_up(d, error);
     lam_texture_free(t);
     return ok;
 }
@@ -177,4 +177,51 @@ bool textured_shadows(struct demo *d, lam_error *error)
     lam_view view = {.from_angles = true, .elevation_rad = 0.6};
     d->camera = lam_camera_fit(d->scene, d->width, d->height, &view);
     return lam_scene_add_light(d->scene, &l, error) >= 0;
+}
+
+// Every map of the layers; the coat keeps the bricks' normals, the sphere below it is smooth.
+bool textured_layers(struct demo *d, lam_error *error)
+{
+    lam_texture *t[PICTURES] = {paint(brick_color, LAM_TEXTURE_COLOR, "bricks", error),
+                                paint(brick_numbers, LAM_TEXTURE_NUMBERS, "numbers", error),
+                                paint(brick_normal, LAM_TEXTURE_NUMBERS, "normals", error),
+                                paint(glow, LAM_TEXTURE_COLOR, "glow", error)};
+    bool ok = t[0] && t[1] && t[2] && t[3];
+    const lam_texture_map color = {.texture = t[0]}, normal = {.texture = t[2], .scale = 0.8f};
+    const lam_texture_map red = {.texture = t[1]}, green = {.texture = t[1], .channel = 1};
+    const lam_texture_map blue = {.texture = t[1], .channel = 2};
+    lam_material m[2] = {lam_material_default(), lam_material_default()};
+    for (int i = 0; i < 2; i++) {
+        m[i].physical = true;
+        m[i].diffuse = (lam_rgba){0.3f, 0.4f, 0.5f, 1};
+        m[i].roughness = 0.4f;
+        m[i].ior = 2;
+        m[i].maps[LAM_MAP_SPECULAR_WEIGHT] = &blue;
+        m[i].maps[LAM_MAP_F0_COLOR] = &color;
+    }
+    m[0].clearcoat = 1;
+    m[0].clearcoat_roughness = 0.5f;
+    m[0].maps[LAM_MAP_CLEARCOAT] = &red;
+    m[0].maps[LAM_MAP_CLEARCOAT_ROUGHNESS] = &green;
+    m[0].maps[LAM_MAP_CLEARCOAT_NORMAL] = &normal;
+    m[0].sheen_color = (lam_rgb){1, 1, 1};
+    m[0].sheen_roughness = 0.8f;
+    m[0].maps[LAM_MAP_SHEEN_COLOR] = &color;
+    m[0].maps[LAM_MAP_SHEEN_ROUGHNESS] = &green;
+    m[1].metallic = 0.8f;
+    m[1].maps[LAM_MAP_NORMAL] = &normal;
+    m[1].anisotropy = 1;
+    m[1].anisotropy_rotation_rad = 0.5f;
+    m[1].maps[LAM_MAP_ANISOTROPY] = &red; // all three channels
+    m[1].iridescence = 1;
+    m[1].iridescence_thickness_min = 200;
+    m[1].iridescence_thickness_max = 600;
+    m[1].maps[LAM_MAP_IRIDESCENCE] = &blue;
+    m[1].maps[LAM_MAP_IRIDESCENCE_THICKNESS] = &green;
+    m[1].clearcoat = 0.5f;
+    ok = ok && add_textured(d, "sphere", &m[0], (lam_vec3){-1.1, 0, 0}, error) &&
+         add_textured(d, "torus", &m[1], (lam_vec3){1.2, 0, 0}, error) && textured_light_up(d, error);
+    for (int i = 0; i < PICTURES; i++)
+        lam_texture_free(t[i]);
+    return ok;
 }

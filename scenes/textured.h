@@ -1,4 +1,4 @@
-// textured.h: the scenes of textured.c.
+// textured.h: the scenes of textured.c and of layers.c.
 #ifndef TEXTURED_H
 #define TEXTURED_H
 
@@ -10,5 +10,13 @@ bool textured_gouraud(struct demo *d, lam_error *error);
 bool textured_converted(struct demo *d, lam_error *error);
 bool textured_masked(struct demo *d, lam_error *error);
 bool textured_shadows(struct demo *d, lam_error *error);
+bool textured_layers(struct demo *d, lam_error *error);
+
+bool layers_uniform(struct demo *d, lam_error *error);
+bool layers_gouraud(struct demo *d, lam_error *error);
+bool layers_environment(struct demo *d, lam_error *error);
+
+// Adds a point light and ambient light, in place of a rig, and fits the camera.
+bool textured_light_up(struct demo *d, lam_error *error);
 
 #endif

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""albedo_tables.py [--check]: computes the tables of GGX's lobe that src/lighting/lobes.h reads.
+"""albedo_tables.py [--check]: computes the tables of GGX's lobe that src/lighting/lobes.h reads, and that of the sheen's lobe
+for layers.h.
 
 For 32 roughnesses (rows, ROUGHNESS_MIN ... 1, evenly) and 32 cosines n.v (columns, their roots evenly from 0 to 1):
     albedo.table   E = the integral over all l of D V n.l: what mirrors of f0 = 1 return at once
     bias.table     B = the same with Schlick's weight (1 - v.h)^5
+    sheen.table    the integral of Conty and Kulla's D V n.l (layers.h, sheen_lobe)
 so that the integral with Schlick's Fresnel factor is f0 (E - B) + B: the scale and bias of the split sum (Karis 2013).
 The integral is taken over half vectors h that are drawn as Heitz (2018) draws those that v sees, on a grid: what is left to
 average is G2 / G1, at most 1 and smooth for every roughness. n.v = 0 stands for 1e-4.
@@ -50,14 +52,40 @@ def integrals(n_dot_v, roughness):
     return share.mean(), (share * (1 - v_h) ** 5).mean()
 
 
+def sheen_shadow(c, alpha):
+    part = (1 - alpha) ** 2
+    p = [y + (x - y) * part for x, y in ((25.3245, 21.5473), (3.32435, 3.82987), (0.16801, 0.19823), (-1.27393, -1.97760),
+                                         (-4.85967, -4.32054))]
+    fit = lambda x: p[0] / (1 + p[1] * x ** p[2]) + p[3] * x + p[4]
+    return np.exp(np.where(c < 0.5, fit(np.minimum(c, 0.5)), 2 * fit(0.5) - fit(np.minimum(1 - c, 0.5))))
+
+
+def sheen_integral(n_dot_v, roughness):
+    alpha = roughness * roughness
+    nodes, weights = np.polynomial.legendre.leggauss(RINGS)
+    t = (nodes + 1) / 2
+    cosine, d_cosine = t * t, weights / 2 * 2 * t  # closer together at grazing angles
+    # half of the circle; closer together at pi, where l is opposite to v
+    u = (np.arange(4 * SECTORS) + 0.5) / (4 * SECTORS)
+    phi, d_phi = np.pi * (1 - u * u), 2 * np.pi * u / (4 * SECTORS)
+    c, p = np.meshgrid(cosine, phi)
+    sine = np.sqrt(1 - c * c)
+    x, y, z = sine * np.cos(p) + np.sqrt(1 - n_dot_v * n_dot_v), sine * np.sin(p), c + n_dot_v
+    sine_h = np.sqrt((x * x + y * y) / (x * x + y * y + z * z))
+    value = (2 + 1 / alpha) * sine_h ** (1 / alpha) / (8 * np.pi * n_dot_v)
+    value /= 1 + sheen_shadow(np.float64(n_dot_v), alpha) + sheen_shadow(c, alpha)
+    return 2 * (value * d_phi[:, None] * d_cosine[None, :]).sum()
+
+
 def main():
-    tables = np.zeros((2, SIZE, SIZE))
+    tables = np.zeros((3, SIZE, SIZE))
     for i in range(SIZE):
         for k in range(SIZE):
             root = max(k / (SIZE - 1), 0.01)
             roughness = ROUGHNESS_MIN + (1 - ROUGHNESS_MIN) * i / (SIZE - 1)
-            tables[:, i, k] = integrals(root * root, roughness)
-    for name, table in zip(("albedo.table", "bias.table"), tables):
+            tables[:2, i, k] = integrals(root * root, roughness)
+            tables[2, i, k] = sheen_integral(root * root, roughness)
+    for name, table in zip(("albedo.table", "bias.table", "sheen.table"), tables):
         path = os.path.join(FOLDER, name)
         if "--check" in sys.argv:
             with open(path) as f:

@@ -41,7 +41,7 @@ typedef struct lam_field {
 } lam_field;
 
 // The most rows of either table.
-enum { LAM_FIELDS_MAX = 24 };
+enum { LAM_FIELDS_MAX = 40 };
 
 // A row of a table; NULL past the end. Of lights a key may have several rows, with different defaults for
 // different types.

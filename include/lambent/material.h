@@ -71,6 +71,23 @@ typedef enum lam_map {
     LAM_MAP_ROUGHNESS, // map_Pr, metallicRoughnessTexture's green
     // Multiplies ambient, hemisphere and environment light.
     LAM_MAP_OCCLUSION, // occlusionTexture's red
+    // Maps of the layers of physical materials; each multiplies the field of its name.
+    LAM_MAP_SPECULAR_WEIGHT,     // specularTexture's alpha
+    LAM_MAP_F0_COLOR,            // specularColorTexture
+    LAM_MAP_CLEARCOAT,           // clearcoatTexture's red
+    LAM_MAP_CLEARCOAT_ROUGHNESS, // clearcoatRoughnessTexture's green
+    // The normal of the coat, as LAM_MAP_NORMAL.
+    LAM_MAP_CLEARCOAT_NORMAL, // clearcoatNormalTexture
+    LAM_MAP_SHEEN_COLOR,      // sheenColorTexture
+    LAM_MAP_SHEEN_ROUGHNESS,  // sheenRoughnessTexture's alpha
+    // Red and green: the direction by tangent and bitangent, 0..1 for −1..1, turned by `anisotropy_rotation_rad`; blue
+    // multiplies `anisotropy`.
+    LAM_MAP_ANISOTROPY,  // anisotropyTexture
+    LAM_MAP_IRIDESCENCE, // iridescenceTexture's red
+    // The thickness of the film, 0 the least, 1 the greatest.
+    LAM_MAP_IRIDESCENCE_THICKNESS, // iridescenceThicknessTexture's green
+    LAM_MAP_TRANSMISSION,          // transmissionTexture's red
+    LAM_MAP_THICKNESS,             // thicknessTexture's green
     LAM_MAP_COUNT
 } lam_map;
 
@@ -127,6 +144,36 @@ typedef struct lam_material {
     const lam_texture_map *maps[LAM_MAP_COUNT];
     lam_alpha_mode alpha_mode; // what an opacity below 1 does
     float alpha_cutoff;        // of LAM_ALPHA_MASK, 0..1
+
+    // The layers of a physical material (docs/lighting/layers.md). The defaults leave them out.
+    //
+    // The dielectric: it reflects f0 = min(((ior − 1)/(ior + 1))² ⊙ f0_color, 1) · specular_weight along the normal, and
+    // specular_weight at grazing angles (KHR_materials_ior, KHR_materials_specular).
+    float ior;             // index of refraction, 1.5; 0: it reflects everything
+    float specular_weight; // 0..1; default 1
+    lam_rgb f0_color;      // ≥ 0; default 1
+    // A clear coat of index 1.5 over everything else (KHR_materials_clearcoat).
+    float clearcoat;           // share of the surface that has it, 0..1; default 0
+    float clearcoat_roughness; // as `roughness`; default 0
+    // Fibres that stand up from the surface (KHR_materials_sheen).
+    lam_rgb sheen_color;   // 0..1; default 0: none
+    float sheen_roughness; // how much they lean, 0..1; default 0
+    // The highlight is stretched along the tangent, turned towards the bitangent (KHR_materials_anisotropy).
+    float anisotropy;              // 0..1; default 0
+    float anisotropy_rotation_rad; // radians, −2π..2π; default 0
+    // A thin film over the surface, whose interference colours Fresnel's factor (KHR_materials_iridescence).
+    float iridescence;               // 0..1; default 0
+    float iridescence_ior;           // of the film, ≥ 0; less than 1 is taken as 1; default 1.3
+    float iridescence_thickness_min; // nanometres, where the map is 0; default 100
+    float iridescence_thickness_max; // where the map is 1, and without a map; default 400
+    // The share of the light that enters the dielectric and goes on behind it, coloured by the base colour, instead of
+    // leaving on the side where it came in (KHR_materials_transmission). Nothing is bent or blurred.
+    float transmission; // 0..1; default 0
+    // The volume behind the surface (KHR_materials_volume): of white light, attenuation_color is left after
+    // attenuation_distance.
+    float thickness;            // units of the mesh, ≥ 0; default 0: none
+    float attenuation_distance; // units of the world; 0, the default: infinite
+    lam_rgb attenuation_color;  // 0..1; default 1
     LAM_RESERVED(64);
 } lam_material;
 

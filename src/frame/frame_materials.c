@@ -2,6 +2,7 @@
 #define LANES 1
 #include "lighting.h"
 
+#include "fields.h"
 #include "frame.h"
 
 const lam_map frame_lod_maps[LOD_MAPS] = {LAM_MAP_DIFFUSE,   LAM_MAP_ROUGHNESS, LAM_MAP_METALLIC,
@@ -128,7 +129,7 @@ float frame_lobe_max(const lam_material *material)
 {
     if (!material->physical)
         return 1;
-    if (material->maps[LAM_MAP_ROUGHNESS])
+    if (material->maps[LAM_MAP_ROUGHNESS] || material_layers(material))
         return 1.25f / (ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN);
     // S of microfacets is at most 1 / (2 α³), and the light that they send to one another multiplies it by less than 2.5.
     float roughness = material->roughness > ROUGHNESS_MIN ? material->roughness : ROUGHNESS_MIN;

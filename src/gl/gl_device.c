@@ -51,6 +51,8 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     memcpy(c->converted, wanted.converted, sizeof c->converted);
     memcpy(c->alpha, wanted.alpha, sizeof c->alpha);
     memcpy(c->maps, wanted.maps, sizeof c->maps);
+    c->layers = wanted.layers;
+    c->field_layers = wanted.field_layers;
     c->anisotropy = wanted.anisotropy;
     memcpy(c->groups, wanted.groups, sizeof c->groups);
     c->group_count = wanted.group_count;

@@ -100,7 +100,7 @@ enum uniform {
     UNIFORM_NORMAL_MATRIX,
     UNIFORM_ENVIRONMENT_MATRIX,
     UNIFORM_OBJECT,
-    UNIFORM_HEAD, // one for each field of glsl_material_layout(true)
+    UNIFORM_HEAD, // one for each field of glsl_material_layout
     UNIFORM_BACK_HEAD = UNIFORM_HEAD + LAM_FIELDS_MAX,
     UNIFORM_ALPHA_CUTOFF = UNIFORM_BACK_HEAD + LAM_FIELDS_MAX,
     UNIFORM_BACK_ALPHA_CUTOFF,
@@ -263,6 +263,8 @@ void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum 
 void gl_use_program(struct gl_device *device, GLuint program);
 void gl_use_array(struct gl_device *device, GLuint array);
 void gl_use_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture);
+// The same, and makes the unit the active one, to which uploads go.
+void gl_edit_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture);
 void gl_use_framebuffer(struct gl_device *device, GLuint framebuffer);
 void gl_use_blending(struct gl_device *device, enum gl_blending blending);
 void gl_use_viewport(struct gl_device *device, int width, int height);

@@ -59,7 +59,7 @@ static bool send_texels(struct gl_frame *f, struct gl_light_buffer *list, enum t
     bool fresh = !list->name;
     if (fresh)
         gl->GenTextures(1, &list->name);
-    gl_use_texture(f->device, unit, GL_TEXTURE_2D, list->name);
+    gl_edit_texture(f->device, unit, GL_TEXTURE_2D, list->name);
     if (fresh)
         plain_texture(gl, GL_TEXTURE_2D);
     if (rows > list->capacity) {
@@ -158,7 +158,7 @@ bool environment_send(struct gl_frame *f, lam_error *error)
     bool fresh = !device->environment_texture;
     if (fresh)
         gl->GenTextures(1, &device->environment_texture);
-    gl_use_texture(device, UNIT_ENVIRONMENT, GL_TEXTURE_2D_ARRAY, device->environment_texture);
+    gl_edit_texture(device, UNIT_ENVIRONMENT, GL_TEXTURE_2D_ARRAY, device->environment_texture);
     if (fresh)
         plain_texture(gl, GL_TEXTURE_2D_ARRAY);
     gl->TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGB32F, side, side, 6, 0, GL_RGB, GL_FLOAT, cube->texels);
@@ -179,7 +179,7 @@ bool environment_light_send(struct gl_frame *f, lam_error *error)
     bool fresh = !device->environment_light_texture;
     if (fresh)
         gl->GenTextures(1, &device->environment_light_texture);
-    gl_use_texture(device, UNIT_ENVIRONMENT_LIGHT, GL_TEXTURE_2D, device->environment_light_texture);
+    gl_edit_texture(device, UNIT_ENVIRONMENT_LIGHT, GL_TEXTURE_2D, device->environment_light_texture);
     if (fresh)
         plain_texture(gl, GL_TEXTURE_2D);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, ENVIRONMENT_LIGHT_WIDTH, environment_light_rows(), 0, GL_RGB, GL_FLOAT,

@@ -55,9 +55,9 @@ static void set_matrices(struct gl_frame *f, struct gl_program *program, const s
 // With GLSL_TEXTURE the fields of the material beside the products are plain uniforms.
 static void set_head(struct gl_frame *f, struct gl_program *program, const lam_material *material, bool back)
 {
-    struct glsl_material_layout layout = glsl_material_layout(true);
+    struct glsl_material_layout layout = glsl_material_layout(true, program->choices.field_layers);
     float values[GLSL_MATERIAL_MAX];
-    glsl_material_values(f->frame, material, true, values);
+    glsl_material_values(f->frame, material, true, program->choices.field_layers, values);
     for (int i = 0; i < layout.count; i++) {
         enum uniform uniform = (enum uniform)((back ? UNIFORM_BACK_HEAD : UNIFORM_HEAD) + i);
         program_set(f, program, uniform, values + layout.at[i], layout.fields[i]->field.type < LAM_FIELD_RGB ? 1 : 4);

@@ -95,7 +95,7 @@ static bool find_uniforms(struct gl_frame *f, struct gl_program *program, lam_er
     gl_use_program(f->device, program->name);
     for (int u = 0; u < UNIFORM_COUNT; u++)
         program->locations[u] = uniform_names[u] ? gl->GetUniformLocation(program->name, uniform_names[u]) : -1;
-    struct glsl_material_layout head = glsl_material_layout(true);
+    struct glsl_material_layout head = glsl_material_layout(true, program->choices.field_layers);
     for (int i = 0; i < head.count; i++) {
         char back[64] = "back_";
         const char *name = strcat(back, glsl_field_name(head.fields[i], true)) + strlen("back_");

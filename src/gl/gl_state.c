@@ -32,6 +32,13 @@ void gl_use_texture(struct gl_device *device, enum texture_unit unit, GLenum tar
     device->context.gl.BindTexture(target, device->current.textures[unit] = texture);
 }
 
+void gl_edit_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture)
+{
+    gl_use_texture(device, unit, target, texture);
+    if (device->current.unit != (int)unit)
+        device->context.gl.ActiveTexture(GL_TEXTURE0 + (GLenum)(device->current.unit = (int)unit));
+}
+
 void gl_use_blending(struct gl_device *device, enum gl_blending blending)
 {
     const struct gl *gl = &device->context.gl;

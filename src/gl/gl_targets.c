@@ -11,7 +11,7 @@ static GLuint make_texture(struct gl_frame *f, GLenum format, int width, int hei
     const struct gl *gl = f->gl;
     GLuint name;
     gl->GenTextures(1, &name);
-    gl_use_texture(f->device, UNIT_COPY, GL_TEXTURE_2D, name);
+    gl_edit_texture(f->device, UNIT_COPY, GL_TEXTURE_2D, name);
     gl->TexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, layout, type, NULL);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);

@@ -124,7 +124,7 @@ static bool upload(struct gl_frame *f, const struct lam_texture *texture, lam_er
     row->token = scene_token_hold(f->frame->token);
     row->last_frame = device->frame_number;
     f->gl->GenTextures(1, &row->name);
-    gl_use_texture(device, UNIT_COPY, GL_TEXTURE_2D, row->name);
+    gl_edit_texture(device, UNIT_COPY, GL_TEXTURE_2D, row->name);
     if (send_levels(f, texture, wide, error))
         return true;
     drop(device, row);

@@ -3,6 +3,8 @@
 #include "gl_device.h"
 
 #include "fail.h"
+#include "fields.h"
+#include "linear.h"
 
 #define LANES 4
 #include "cube_lookup.h"
@@ -72,7 +74,45 @@ LANE_FN vec3 environment_of(const struct frame *frame, surface s)
     return pick3(both(present(s.n), present(s.v)), vec3_of(c.r, c.g, c.b), black3());
 }
 
-LANE_FN terms evaluate_terms(const struct side *side, surface s, vec3 color)
+// The rest of evaluate_terms for a material with layers, as src/cpu/shade/layered.inc. `sign`: of the bitangent.
+LANE_FN terms layered_terms(const struct side *side, surface s, vec3 color, num sign, terms sum)
+{
+    const struct frame *frame = side->frame;
+    const lam_material *m = side->material;
+    int set = material_layers(m);
+    layer_values given = layers_of(m);
+    given.base = mul3(given.base, color);
+    given.clearcoat_normal = s.n;
+    double turned = (double)m->anisotropy_rotation_rad;
+    vec3 across = scale3(cross3(s.n, s.t), sign * (float)math_sin(turned));
+    given.stretch = unit3(add3(scale3(s.t, num_of((float)math_cos(turned))), across));
+    layered y = layered_of(s, given, !frame->single_scattering, set);
+    for (int i = 0; i < frame->light_count; i++) {
+        const struct frame_light *l = &frame->lights[i];
+        light_source light = source_of(side, l);
+        light_sample t = toward_light(s.p, light, l->kind, l->falloff);
+        sum = add_layered(sum, light, t, layered_light(s, y, t.l, set));
+        if (frame->gl1)
+            sum = add_arriving_ambient(sum, product3(&m->ambient.r, l->ambient), t);
+    }
+    sum = cover_terms(sum, y, set);
+    if (side->environment_light) {
+        vec3 kd = scale3(given.base, 1.0f - given.metallic);
+        num mean = set & LAYER_ANISOTROPY ? mean_roughness(given.roughness, given.anisotropy) : given.roughness;
+        surroundings e = surroundings_at(frame, side->environment_light, s, mean), top = e;
+        if (set & LAYER_ANISOTROPY)
+            e.prefiltered =
+                surroundings_at(frame, side->environment_light, bent_surface(s, y, given.anisotropy), given.roughness)
+                    .prefiltered;
+        if (set & LAYER_CLEARCOAT)
+            top = surroundings_at(frame, side->environment_light, coat_surface(s, y), y.coat_roughness);
+        vec3 light = layered_surroundings(s, y, kd, e, top, set);
+        sum.reflection = pick3(both(present(s.n), present(s.v)), add3(sum.reflection, light), sum.reflection);
+    }
+    return tint_terms(sum, color);
+}
+
+LANE_FN terms evaluate_terms(const struct side *side, surface s, vec3 color, num sign)
 {
     const struct frame *frame = side->frame;
     const lam_material *m = side->material;
@@ -85,6 +125,8 @@ LANE_FN terms evaluate_terms(const struct side *side, surface s, vec3 color)
         sum = add_hemisphere(
             sum, s, (hemisphere){of3(h->up), product3(&m->ambient.r, h->sky), product3(&m->ambient.r, h->ground)});
     }
+    if (model == LAM_REFLECTION_GGX && material_layers(m))
+        return layered_terms(side, s, color, sign, sum);
     num gain = frame->single_scattering || !(lobe_properties(model) & LOBE_MICROFACET)
                    ? num_of(0.0f)
                    : scattering_gain(s, num_of(m->roughness));
@@ -166,10 +208,20 @@ LANE_FN surface surface_of(const struct side *side, const struct mesh_vertex *fr
     s.n = unit3(side->flip ? negate3(n) : n);
     s.v = to_eye(s.p, frame->distant_viewer ? VIEWER_INFINITE : VIEWER_LOCAL);
     s.t = black3();
-    if (lobe_properties((int)side->reflection) & LOBE_TANGENT || frame->output == LAM_OUTPUT_TANGENTS)
+    bool stretched = side->reflection == LAM_REFLECTION_GGX && material_layers(side->material) & LAYER_ANISOTROPY;
+    if (lobe_properties((int)side->reflection) & LOBE_TANGENT || stretched || frame->output == LAM_OUTPUT_TANGENTS)
         s.t = perpendicular3(
             side->mesh->tangents ? unit3(turn(side->draw->tangent, load3(from, 10))) : field_tangent(side, s.n), s.n);
     return s;
+}
+
+// The sign of the bitangent on the visible side.
+LANE_FN num sign_of(const struct side *side, const struct mesh_vertex *from)
+{
+    float sign[LANES], turned = (side->flip ? -1.0f : 1.0f) * (side->draw->mirrored ? -1.0f : 1.0f);
+    for (int i = 0; i < LANES; i++)
+        sign[i] = side->mesh->tangents ? from[i].tangent[3] * turned : turned;
+    return num_load(sign);
 }
 
 // Computes the colours of vertices, with alpha; `count` is a multiple of LANES.
@@ -182,7 +234,8 @@ static void light_side(const struct side *side, const struct mesh_vertex *from, 
         vec3 white = vec3_of(num_of(1.0f), num_of(1.0f), num_of(1.0f));
         vec3 color = output_is_vector(frame->output)
                          ? output_vector(side, s)
-                         : output_terms(side, evaluate_terms(side, s, side->mesh->colors ? load3(from, 6) : white));
+                         : output_terms(side, evaluate_terms(side, s, side->mesh->colors ? load3(from, 6) : white,
+                                                             sign_of(side, from)));
         if (clamped)
             color = vec3_of(saturate(color.x), saturate(color.y), saturate(color.z));
         for (int i = 0; i < LANES; i++) {

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A definition (function, struct or #define) with the comment before it.
+// A definition (function, struct, table or #define) with the comment before it.
 struct piece {
     char *lead, *start, *end; // comment and definition; lead == start: no comment
     const char *name;
@@ -33,9 +33,14 @@ static char *next_line(const char *at)
 static bool begins(const char *at, const char *with) { return strncmp(at, with, strlen(with)) == 0; }
 
 // Returns the end of a definition: of its first line if that ends with the closing brace, otherwise of the line that
-// begins with it.
+// begins with it; a table ends with a parenthesis.
 static char *definition_end(char *at)
 {
+    if (begins(at, "const ")) {
+        while (*at && *at != ')')
+            at = next_line(at);
+        return next_line(at);
+    }
     char *end = next_line(at), *last = end;
     while (last > at && (last[-1] == '\n' || last[-1] == ';'))
         last--;
@@ -53,6 +58,8 @@ static void name_piece(struct piece *piece)
         piece->name = at + 8;
     } else if (begins(at, "STRUCT(")) {
         piece->name = at + 7;
+    } else if (begins(at, "const float ")) {
+        piece->name = at + 12;
     } else {
         piece->name = strchr(at, '(');
         while (piece->name > at && in_name(piece->name[-1]))
@@ -211,7 +218,7 @@ static void write_definition(struct text *text, const struct piece *p)
 
 // --- all files
 
-enum { FILES = 6 };
+enum { FILES = 8 };
 
 struct equations {
     struct text sources[FILES];
@@ -249,6 +256,8 @@ static void write_kept(struct text *text, const struct equations *w)
         "kinds of light",
         "light that arrives at a point: direction, distance, attenuation and cone",
         "light that leaves a point: its terms and their sum",
+        "layers of physical materials",
+        "light through the layers of a physical material",
         "tone curves: from light to colours of a screen"};
     int file = -1;
     bool define = false;
@@ -269,8 +278,8 @@ static void write_kept(struct text *text, const struct equations *w)
 
 void equations_add(struct text *text, char *calls, const struct known_condition *known)
 {
-    static const char *const sources[FILES] = {text_prelude_glsl, text_lobes_h, text_light_kinds_h,
-                                               text_lights_h,     text_sum_h,   text_tone_h};
+    static const char *const sources[FILES] = {text_prelude_glsl, text_lobes_h,       text_light_kinds_h, text_lights_h,
+                                               text_sum_h,        text_layer_kinds_h, text_layers_h,      text_tone_h};
     struct equations *w = calloc(1, sizeof *w);
     bool ok = w != NULL;
     for (int i = 0; ok && i < FILES; i++) {

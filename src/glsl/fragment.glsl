@@ -71,6 +71,14 @@ void main()
 //@else
     vec3 n = eye_normal;
 //@end
+//@if coat_normal
+//@if coat_bends
+    vec3 coat_bitangent = bitangent_sign * cross3(eye_normal, eye_tangent);
+    vec3 coat = eye_tangent * maps.coat_bend.x + coat_bitangent * maps.coat_bend.y + eye_normal * maps.coat_bend.z;
+//@else
+    vec3 coat = eye_normal;
+//@end
+//@end
 //@if tilts
     n = unit3(n);
     n = n - (perpendicular3(maps.across, n) * maps.slopes.x + perpendicular3(maps.down, n) * maps.slopes.y);
@@ -78,6 +86,21 @@ void main()
 //@if two_sided
     if (!gl_FrontFacing) {
         n = negate3(n);
+//@if coat_normal
+        coat = negate3(coat);
+//@end
+    }
+//@end
+//@end
+//@if turns
+//@if tangents
+    float turn = bitangent_sign;
+//@else
+    float turn = 1.0;
+//@end
+//@if two_sided
+    if (!gl_FrontFacing) {
+        turn = -turn;
     }
 //@end
 //@end

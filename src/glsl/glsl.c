@@ -54,11 +54,15 @@ static void add_groups(struct text *text, const struct glsl_facts *f)
         text_print(text, "        light_source light = light_of(i%s);\n", list_argument(f));
         text_print(text, "        light_sample t = toward_light(s.p, light, %s, %s);\n", kind_words[group->kind],
                    falloff_words[group->falloff]);
-        if (f->microfacet)
-            text_add(text, "        light = with_fresnel(light, mirror, s.v, t.l);\n");
-        text_add(text, "        sum = add_reflected(sum, light, t, ");
-        glsl_add_lobe(text, f);
-        text_add(text, ");\n");
+        if (f->layers) {
+            text_add(text, "        sum = add_layered(sum, light, t, layered_light(s, layering, t.l, 0));\n");
+        } else {
+            if (f->microfacet)
+                text_add(text, "        light = with_fresnel(light, mirror, s.v, t.l);\n");
+            text_add(text, "        sum = add_reflected(sum, light, t, ");
+            glsl_add_lobe(text, f);
+            text_add(text, ");\n");
+        }
         if (c->gl1)
             text_print(text, "        sum = add_arriving_ambient(sum, ambient_of(i%s), t);\n", list_argument(f));
         first += group->count;
@@ -165,18 +169,20 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     const struct glsl_choices *c = f->choices;
     bool glsl_120 = c->version == GLSL_120, lights_here = f->lit && fragment == f->per_fragment;
     bool flat = f->shading == LAM_SHADING_FLAT, surface = !f->unlit && f->lit;
-    bool passes_tangent = (f->tangent && c->tangents) || f->bends, field = f->tangent && !c->tangents;
+    bool passes_tangent = (f->tangent && c->tangents) || f->signed_tangent, field = f->tangent && !c->tangents;
     bool clamped = c->gl1 && f->shading != LAM_SHADING_PHONG && output_is_picture(c->output);
     bool tints = c->colors && f->lit && !f->output_vector;
     bool eye = surface || c->output == LAM_OUTPUT_DEPTH;
     bool triangle_ids = c->output == LAM_OUTPUT_IDS || c->layer != GLSL_NO_LAYERS;
     struct text groups = {0}, vector = {0}, attributes = {0}, chosen = {0}, metallic = {0}, roughness = {0},
-                alpha = {0}, of_material = {0};
+                alpha = {0}, of_material = {0}, layers = {0};
     bool samples = fragment && f->mapped, reads_maps = f->mapped && !f->output_vector;
     if (fragment)
         add_alpha_rule(&alpha, f);
     glsl_declare_attributes(&attributes, f);
     add_groups(&groups, f);
+    if (f->layers)
+        glsl_add_layers(&layers, f);
     glsl_add_parameters(&chosen, f);
     glsl_add_parameter(&metallic, f, "metallic");
     glsl_add_parameter(&roughness, f, "roughness");
@@ -202,6 +208,14 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"fragment", fragment},
         {"tangent", f->tangent},
         {"bends", f->bends},
+        {"coat_bends", f->coat_bends},
+        {"coat_normal", f->coat_normal},
+        {"turns", f->turns},
+        {"tangents", c->tangents},
+        {"signed_tangent", f->signed_tangent},
+        {"layered", f->layers != 0},
+        {"clearcoat", (f->layers & LAYER_CLEARCOAT) != 0},
+        {"anisotropy", (f->layers & LAYER_ANISOTROPY) != 0},
         {"tilts", f->tilts},
         {"alpha_ruled", alpha.bytes != NULL},
         {"mapped", f->mapped},
@@ -257,7 +271,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
                            GLSL_LIST_WIDTH};
     for (int i = 0; i < 8; i++)
         snprintf(numbers[i], sizeof numbers[i], "%d", counts[i]);
-    char varying[32], arguments[8][96], anisotropy[8];
+    char varying[32], arguments[8][160], anisotropy[8];
     char map_arguments[64];
     snprintf(map_arguments, sizeof map_arguments, "%s%s%s%s%s", f->texcoords[0] ? "first" : "",
              f->texcoords[0] && f->texcoords[1] ? ", " : "", f->texcoords[1] ? "second" : "",
@@ -274,12 +288,14 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
                         : i == 0    ? ", vec3 tangent"
                         : !field    ? (i == 3 ? ", eye_tangent" : ", t")
                                     : ", field_tangent(n)";
+        const char *turn = !f->turns ? "" : i == 0 ? ", float turn" : i == 2 ? ", -turn" : ", turn";
+        const char *coat = !f->coat_normal ? "" : i == 0 ? ", vec3 coat" : ", coat";
         const char *color = !tints ? "" : i == 0 ? ", vec4 tint" : i == 3 ? ", tint" : ", color";
         if (!position) {
             p = t = "";
             color += tints ? 2 : 0;
         }
-        int length = snprintf(arguments[i], sizeof arguments[i], "%s%s%s%s%s", p, t, color,
+        int length = snprintf(arguments[i], sizeof arguments[i], "%s%s%s%s%s%s%s", p, t, turn, coat, color,
                               f->back_material && (*p || *color) ? ", " : "",
                               !f->back_material ? ""
                               : i == 0          ? "bool front"
@@ -319,7 +335,8 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"map_arguments", map_arguments},
         {"anisotropy", anisotropy},
         {"alpha_rule", alpha.bytes ? alpha.bytes : ""},
-        {"tangent", f->bends ? "tangent.xyz" : "tangent"},
+        {"tangent", f->signed_tangent ? "tangent.xyz" : "tangent"},
+        {"layers", layers.bytes ? layers.bytes : ""},
         {"lambert", glsl_maps_have(f, "dielectric") ? "m.diffuse.rgb" : "scale3(m.diffuse.rgb, 1.0 - m.metallic)"},
         {"lit_position", flat && glsl_120 ? "provoking_position" : "position"},
         {"viewer", c->distant_viewer ? "VIEWER_INFINITE" : "VIEWER_LOCAL"},
@@ -343,9 +360,9 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {NULL, NULL},
     };
     const struct preprocess_words words = {flags, values};
-    const struct text *parts[] = {&groups,    &vector, &attributes, &chosen, &metallic,
-                                  &roughness, &alpha,  &sizes,      &starts, &of_material};
-    for (int i = 0; i < 10; i++)
+    const struct text *parts[] = {&groups, &vector, &attributes, &chosen,      &metallic, &roughness,
+                                  &alpha,  &sizes,  &starts,     &of_material, &layers};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         if (parts[i]->failed) {
             text->failed = true;
             text->error = parts[i]->error;
@@ -365,6 +382,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     free(metallic.bytes);
     free(roughness.bytes);
     free(alpha.bytes);
+    free(layers.bytes);
     free(sizes.bytes);
     free(starts.bytes);
     free(of_material.bytes);
@@ -374,7 +392,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
 
 // --- conditions of the equations that the choices decide
 
-enum { KNOWN_MAX = 10 };
+enum { KNOWN_MAX = 18 };
 
 static void add_known(struct known_condition out[KNOWN_MAX], const char *condition, bool holds)
 {
@@ -400,6 +418,16 @@ static void known_conditions(struct known_condition out[KNOWN_MAX], const struct
     }
     if (c->distant_viewer)
         add_known(out, "viewer == VIEWER_LOCAL", false);
+    add_known(out, "scattering != 0", !c->single_scattering);
+#define LAYER_KNOWN(name) add_known(out, "(set & LAYER_" #name ") != 0", (f->layers & LAYER_##name) != 0)
+    LAYER_KNOWN(DIELECTRIC);
+    LAYER_KNOWN(CLEARCOAT);
+    LAYER_KNOWN(SHEEN);
+    LAYER_KNOWN(ANISOTROPY);
+    LAYER_KNOWN(IRIDESCENCE);
+    LAYER_KNOWN(TRANSMISSION);
+    LAYER_KNOWN(VOLUME);
+#undef LAYER_KNOWN
     if (f->output_vector) // the shader evaluates a single light, with a kind of its own
         return;
     add_known_lights(out, "kind == LIGHT_DIRECTIONAL", kinds[LIGHT_DIRECTIONAL], all);

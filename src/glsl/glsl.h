@@ -85,6 +85,9 @@ struct glsl_choices {
     bool converted[2];  // front, back: a metallic-roughness material with maps under a classic model
     uint8_t alpha[2];   // front, back: lam_alpha_mode
     uint8_t anisotropy; // most probes of a texture
+    // LAYER_… of the range's materials (layer_kinds.h), and of all materials of the frame: a block has the fields of the
+    // latter.
+    uint8_t layers, field_layers;
     struct glsl_map maps[2][LAM_MAP_COUNT]; // front, back
     struct glsl_group groups[GLSL_GROUPS_MAX];
     int group_count;
@@ -133,7 +136,7 @@ struct glsl_material_layout {
     int at[LAM_FIELDS_MAX]; // in floats
     int size;               // in floats, a multiple of 4
 };
-struct glsl_material_layout glsl_material_layout(bool products);
+struct glsl_material_layout glsl_material_layout(bool products, int field_layers);
 enum { GLSL_MATERIAL_MAX = 4 * LAM_FIELDS_MAX };
 
 // Returns the size in bytes, at least 16, of the block Lights (without products first ambient_light, then lights and
@@ -171,8 +174,8 @@ static inline bool glsl_has_texcoords(const lam_mesh *mesh, const lam_texture_ma
     return map->texcoords ? mesh->second_texcoords != NULL : mesh->texcoords != NULL;
 }
 
-// Writes the values of glsl_material_layout(products).
-void glsl_material_values(const struct frame *frame, const lam_material *material, bool products,
+// Writes the values of glsl_material_layout(products, field_layers).
+void glsl_material_values(const struct frame *frame, const lam_material *material, bool products, int field_layers,
                           float out[GLSL_MATERIAL_MAX]);
 // Returns the name of a field in the shader.
 const char *glsl_field_name(const struct material_field *field, bool products);

@@ -107,6 +107,77 @@ void glsl_add_lobe(struct text *text, const struct glsl_facts *f)
     text_add(text, ")");
 }
 
+// The members of struct layer_values that are numbers and colours of the material, and the layer that reads each.
+static const struct {
+    const char *member, *field; // field NULL: of the same name
+    int layer;
+    bool color;
+} layer_members[] = {
+    {"ior", NULL, LAYER_DIELECTRIC, false},
+    {"specular_weight", NULL, LAYER_DIELECTRIC, false},
+    {"f0_color", NULL, LAYER_DIELECTRIC, true},
+    {"clearcoat", NULL, LAYER_CLEARCOAT, false},
+    {"clearcoat_roughness", NULL, LAYER_CLEARCOAT, false},
+    {"sheen_color", NULL, LAYER_SHEEN, true},
+    {"sheen_roughness", NULL, LAYER_SHEEN, false},
+    {"iridescence", NULL, LAYER_IRIDESCENCE, false},
+    {"iridescence_ior", NULL, LAYER_IRIDESCENCE, false},
+    {"film", "iridescence_thickness_max", LAYER_IRIDESCENCE, false},
+    {"transmission", NULL, LAYER_TRANSMISSION, false},
+};
+
+// The value of a field of a layer at the point: what maps make of it, else the visible side's own.
+static void add_layer_field(struct text *text, const struct glsl_facts *f, const char *member, const char *field,
+                            bool color)
+{
+    if (glsl_maps_have(f, member))
+        text_print(text, "maps.%s", member);
+    else if (!f->choices->products)
+        text_print(text, "m.%s%s", field, color ? ".rgb" : "");
+    else if (f->back_material)
+        text_print(text, "(front ? %s : back_%s)%s", field, field, color ? ".rgb" : "");
+    else
+        text_print(text, "%s%s", field, color ? ".rgb" : "");
+}
+
+void glsl_add_layers(struct text *text, const struct glsl_facts *f)
+{
+    for (size_t i = 0; i < sizeof layer_members / sizeof *layer_members; i++) {
+        const char *member = layer_members[i].member, *field = layer_members[i].field;
+        if (!(f->layers & layer_members[i].layer))
+            continue;
+        text_print(text, "    given.%s = ", member);
+        add_layer_field(text, f, member, field ? field : member, layer_members[i].color);
+        text_add(text, ";\n");
+    }
+    if (f->layers & LAYER_ANISOTROPY) {
+        if (glsl_maps_have(f, "stretch")) {
+            text_add(text, "    vec3 turned = maps.stretch;\n");
+        } else {
+            text_add(text, "    float angle = ");
+            add_layer_field(text, f, "anisotropy_rotation_rad", "anisotropy_rotation_rad", false);
+            text_add(text, ";\n    vec3 turned = vec3(cos(angle), sin(angle), ");
+            add_layer_field(text, f, "anisotropy", "anisotropy", false);
+            text_add(text, ");\n");
+        }
+        text_add(text, "    given.anisotropy = turned.z;\n"
+                       "    given.stretch = unit3(s.t * turned.x + cross3(s.n, s.t) * (turn * turned.y));\n");
+    }
+    if (f->layers & LAYER_VOLUME) {
+        text_add(text, "    mat3 axes = mat3(model_view);\n    float scale = square_root((dot3(axes[0], axes[0]) + "
+                       "dot3(axes[1], axes[1]) + dot3(axes[2], axes[2])) / 3.0);\n    float attenuation = ");
+        add_layer_field(text, f, "attenuation_distance", "attenuation_distance", false);
+        text_add(text, ";\n    vec3 left = ");
+        add_layer_field(text, f, "attenuation_color", "attenuation_color", true);
+        text_add(text, ";\n    given.attenuation_log = vec3(log2_of(left.x), log2_of(left.y), log2_of(left.z));\n"
+                       "    given.path = attenuation > 0.0 ? ");
+        add_layer_field(text, f, "thickness", "thickness", false);
+        text_add(text, " * scale / attenuation : 0.0;\n");
+    }
+    if (text->length && text->bytes) // the line has an end of its own
+        text->bytes[--text->length] = 0;
+}
+
 const char *glsl_tone_function(lam_tone tone)
 {
     switch (tone) {

@@ -28,8 +28,10 @@ static void choose_side(struct glsl_choices *c, const struct frame *frame, const
     for (int i = 0; i < LAM_MAP_COUNT; i++) {
         const lam_texture_map *map = material->maps[i];
         bool placed = map && glsl_has_texcoords(mesh, map);
-        if (!map || !is_drawn(i) || (i == LAM_MAP_NORMAL && (!mesh->tangents || !placed)) ||
-            (i == LAM_MAP_BUMP && !placed))
+        bool needs_tangents = i == LAM_MAP_NORMAL || i == LAM_MAP_CLEARCOAT_NORMAL;
+        if (!map || !is_drawn(i) || (needs_tangents && (!mesh->tangents || !placed)) || (i == LAM_MAP_BUMP && !placed))
+            continue;
+        if (map_layer((lam_map)i) && !(map_layer((lam_map)i) & material_layers(material)))
             continue;
         int texels = 0;
         while (texels < *seen_count && !texture_map_same(seen[texels], map))
@@ -138,7 +140,7 @@ static bool reads(const struct glsl_facts *f, int side, lam_map map)
     case LAM_MAP_ROUGHNESS:
         return sums && (f->microfacet || f->converts);
     default:
-        return sums;
+        return sums && (!map_layer(map) || f->layers & map_layer(map));
     }
 }
 
@@ -157,6 +159,7 @@ void glsl_find_maps(struct glsl_facts *f)
             f->maps[side][i] = f->mapped = true;
             f->texcoords[c->maps[side][i].texcoords] = true;
             f->bends |= i == LAM_MAP_NORMAL;
+            f->coat_bends |= i == LAM_MAP_CLEARCOAT_NORMAL;
             f->tilts |= i == LAM_MAP_BUMP;
         }
     f->converts &= f->mapped;
@@ -190,6 +193,18 @@ enum {
     ACROSS,
     DOWN,
     LEVEL,
+    SPECULAR_WEIGHT,
+    F0_COLOR,
+    CLEARCOAT,
+    CLEARCOAT_ROUGHNESS,
+    COAT_BEND,
+    SHEEN_COLOR,
+    SHEEN_ROUGHNESS,
+    STRETCH,
+    IRIDESCENCE,
+    FILM,
+    TRANSMISSION,
+    THICKNESS,
     MEMBERS
 };
 static const struct {
@@ -210,6 +225,18 @@ static const struct {
     [ACROSS] = {"across", "vec3", "the direction of the picture's rows in eye space, not unit"},
     [DOWN] = {"down", "vec3", "the direction of its columns"},
     [LEVEL] = {"level", "float", "level of detail"},
+    [SPECULAR_WEIGHT] = {"specular_weight", "float", "how much of a dielectric's reflection there is"},
+    [F0_COLOR] = {"f0_color", "vec3", "colour of a dielectric's reflection along the normal"},
+    [CLEARCOAT] = {"clearcoat", "float", "share of the surface under a clear coat"},
+    [CLEARCOAT_ROUGHNESS] = {"clearcoat_roughness", "float", "of the coat"},
+    [COAT_BEND] = {"coat_bend", "vec3", "the coat's normal beside tangent, bitangent and normal"},
+    [SHEEN_COLOR] = {"sheen_color", "vec3", "colour of the fibres"},
+    [SHEEN_ROUGHNESS] = {"sheen_roughness", "float", "how much they lean"},
+    [STRETCH] = {"stretch", "vec3", "direction of the stretch by tangent and bitangent, and its strength"},
+    [IRIDESCENCE] = {"iridescence", "float", "share of the surface under a thin film"},
+    [FILM] = {"film", "float", "thickness of the film in nanometres"},
+    [TRANSMISSION] = {"transmission", "float", "share of the light in a dielectric that goes through"},
+    [THICKNESS] = {"thickness", "float", "of the volume behind the surface"},
 };
 
 static bool has_member(const struct glsl_facts *f, int member)
@@ -217,13 +244,32 @@ static bool has_member(const struct glsl_facts *f, int member)
     bool level = f->output_material && f->choices->output == LAM_OUTPUT_LOD;
     if (level || member == LEVEL)
         return level && member == LEVEL && f->mapped;
-    static const lam_map maps[MEMBERS] = {[COLOR] = LAM_MAP_DIFFUSE,       [AMBIENT] = LAM_MAP_AMBIENT,
-                                          [SPECULAR] = LAM_MAP_SPECULAR,   [EMISSION] = LAM_MAP_EMISSION,
-                                          [BEND] = LAM_MAP_NORMAL,         [OPACITY] = LAM_MAP_OPACITY,
-                                          [SHININESS] = LAM_MAP_SHININESS, [OCCLUSION] = LAM_MAP_OCCLUSION,
-                                          [ROUGHNESS] = LAM_MAP_ROUGHNESS, [METALLIC] = LAM_MAP_METALLIC,
-                                          [DIELECTRIC] = LAM_MAP_METALLIC, [SLOPES] = LAM_MAP_BUMP,
-                                          [ACROSS] = LAM_MAP_BUMP,         [DOWN] = LAM_MAP_BUMP};
+    static const lam_map maps[MEMBERS] = {[COLOR] = LAM_MAP_DIFFUSE,
+                                          [AMBIENT] = LAM_MAP_AMBIENT,
+                                          [SPECULAR] = LAM_MAP_SPECULAR,
+                                          [EMISSION] = LAM_MAP_EMISSION,
+                                          [BEND] = LAM_MAP_NORMAL,
+                                          [OPACITY] = LAM_MAP_OPACITY,
+                                          [SHININESS] = LAM_MAP_SHININESS,
+                                          [OCCLUSION] = LAM_MAP_OCCLUSION,
+                                          [ROUGHNESS] = LAM_MAP_ROUGHNESS,
+                                          [METALLIC] = LAM_MAP_METALLIC,
+                                          [DIELECTRIC] = LAM_MAP_METALLIC,
+                                          [SLOPES] = LAM_MAP_BUMP,
+                                          [ACROSS] = LAM_MAP_BUMP,
+                                          [DOWN] = LAM_MAP_BUMP,
+                                          [SPECULAR_WEIGHT] = LAM_MAP_SPECULAR_WEIGHT,
+                                          [F0_COLOR] = LAM_MAP_F0_COLOR,
+                                          [CLEARCOAT] = LAM_MAP_CLEARCOAT,
+                                          [CLEARCOAT_ROUGHNESS] = LAM_MAP_CLEARCOAT_ROUGHNESS,
+                                          [COAT_BEND] = LAM_MAP_CLEARCOAT_NORMAL,
+                                          [SHEEN_COLOR] = LAM_MAP_SHEEN_COLOR,
+                                          [SHEEN_ROUGHNESS] = LAM_MAP_SHEEN_ROUGHNESS,
+                                          [STRETCH] = LAM_MAP_ANISOTROPY,
+                                          [IRIDESCENCE] = LAM_MAP_IRIDESCENCE,
+                                          [FILM] = LAM_MAP_IRIDESCENCE_THICKNESS,
+                                          [TRANSMISSION] = LAM_MAP_TRANSMISSION,
+                                          [THICKNESS] = LAM_MAP_THICKNESS};
     bool from_physical = member == SPECULAR || member == SHININESS
                              ? f->highlights
                              : member == ROUGHNESS || member == METALLIC || member == DIELECTRIC;
@@ -385,6 +431,77 @@ static void add_conversion(struct text *text, const struct glsl_facts *f, int si
                phong ? " * 0.25" : "");
 }
 
+// The normal of a map of normals, beside tangent, bitangent and the mesh's own.
+static void add_bend(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map)
+{
+    const char *to = members[member].name, *p = prefix(side), *name = lam_map_name(map);
+    if (!has_member(f, member))
+        return;
+    if (!f->maps[side][map]) {
+        text_print(text, "    maps.%s = vec3(0.0, 0.0, 1.0);\n", to);
+        return;
+    }
+    const char *owner = lam_map_name(glsl_map_owner(f, side, map));
+    text_print(text, "    maps.%s = vec3((%s_texel.xy * 2.0 - 1.0) * %s%s_map_s.w, %s_texel.z * 2.0 - 1.0);\n", to,
+               owner, p, name, owner);
+    text_print(text, "    if (%s%s_map_s.w == 0.0) {\n        maps.%s = vec3(0.0, 0.0, 1.0);\n    }\n", p, name, to);
+}
+
+// A colour of a layer: the material's own times the map's.
+static void add_layer_color(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map)
+{
+    if (!has_member(f, member))
+        return;
+    text_print(text, "    maps.%s = ", members[member].name);
+    add_own(text, f, side, members[member].name);
+    text_add(text, ".rgb");
+    if (f->maps[side][map]) {
+        text_add(text, " * (");
+        add_value(text, f, side, map, "rgb");
+        text_add(text, ")");
+    }
+    text_add(text, ";\n");
+}
+
+static void add_stretch(struct text *text, const struct glsl_facts *f, int side)
+{
+    if (!has_member(f, STRETCH))
+        return;
+    text_add(text, "    float turned = ");
+    add_own(text, f, side, "anisotropy_rotation_rad");
+    text_add(text, ";\n    vec3 stretch = ");
+    if (f->maps[side][LAM_MAP_ANISOTROPY])
+        add_value(text, f, side, LAM_MAP_ANISOTROPY, "rgb");
+    else
+        text_add(text, "vec3(1.0, 0.5, 1.0)");
+    text_add(text, ";\n    stretch.xy = stretch.xy * 2.0 - 1.0;\n"
+                   "    stretch.xy = stretch.xy * rsqrt(dot(stretch.xy, stretch.xy));\n"
+                   "    maps.stretch = vec3(cos(turned) * stretch.x - sin(turned) * stretch.y,\n"
+                   "                        sin(turned) * stretch.x + cos(turned) * stretch.y, stretch.z * ");
+    add_own(text, f, side, "anisotropy");
+    text_add(text, ");\n");
+}
+
+// The film's thickness lies between two of the material's.
+static void add_film(struct text *text, const struct glsl_facts *f, int side)
+{
+    if (!has_member(f, FILM))
+        return;
+    text_add(text, "    maps.film = ");
+    if (!f->maps[side][LAM_MAP_IRIDESCENCE_THICKNESS]) {
+        add_own(text, f, side, "iridescence_thickness_max");
+        text_add(text, ";\n");
+        return;
+    }
+    text_add(text, "mix(");
+    add_own(text, f, side, "iridescence_thickness_min");
+    text_add(text, ", ");
+    add_own(text, f, side, "iridescence_thickness_max");
+    text_add(text, ", ");
+    add_number(text, f, side, LAM_MAP_IRIDESCENCE_THICKNESS);
+    text_add(text, ");\n");
+}
+
 static void add_side(struct text *text, const struct glsl_facts *f, int side)
 {
     const struct glsl_choices *c = f->choices;
@@ -399,16 +516,8 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
     add_color(text, f, side, AMBIENT, LAM_MAP_AMBIENT);
     add_color(text, f, side, SPECULAR, LAM_MAP_SPECULAR);
     add_color(text, f, side, EMISSION, LAM_MAP_EMISSION);
-    if (f->maps[side][LAM_MAP_NORMAL]) {
-        const char *owner = lam_map_name(glsl_map_owner(f, side, LAM_MAP_NORMAL));
-        text_print(text,
-                   "    maps.bend = vec3((%s_texel.xy * 2.0 - 1.0) * %snormal_map_s.w, %s_texel.z * 2.0 - 1.0);\n",
-                   owner, prefix(side), owner);
-        text_print(text, "    if (%snormal_map_s.w == 0.0) {\n        maps.bend = vec3(0.0, 0.0, 1.0);\n    }\n",
-                   prefix(side));
-    } else if (has_member(f, BEND)) {
-        text_add(text, "    maps.bend = vec3(0.0, 0.0, 1.0);\n");
-    }
+    add_bend(text, f, side, BEND, LAM_MAP_NORMAL);
+    add_bend(text, f, side, COAT_BEND, LAM_MAP_CLEARCOAT_NORMAL);
     if (has_member(f, LEVEL)) {
         lam_map map = lod_map(f, side);
         const char *p = prefix(side), *name = map < LAM_MAP_COUNT ? lam_map_name(map) : NULL;
@@ -428,6 +537,22 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
     if (has_member(f, DIELECTRIC)) // without products the diffuse colours of lights never have this factor
         text_add(text, varies || (!c->products && f->microfacet) ? "    maps.dielectric = 1.0 - maps.metallic;\n"
                                                                  : "    maps.dielectric = 1.0;\n");
+    static const struct {
+        int member;
+        lam_map map;
+    } layers[] = {{SPECULAR_WEIGHT, LAM_MAP_SPECULAR_WEIGHT},
+                  {CLEARCOAT, LAM_MAP_CLEARCOAT},
+                  {CLEARCOAT_ROUGHNESS, LAM_MAP_CLEARCOAT_ROUGHNESS},
+                  {SHEEN_ROUGHNESS, LAM_MAP_SHEEN_ROUGHNESS},
+                  {IRIDESCENCE, LAM_MAP_IRIDESCENCE},
+                  {TRANSMISSION, LAM_MAP_TRANSMISSION},
+                  {THICKNESS, LAM_MAP_THICKNESS}};
+    for (size_t i = 0; i < sizeof layers / sizeof *layers; i++)
+        add_factor(text, f, side, layers[i].member, layers[i].map, members[layers[i].member].name);
+    add_layer_color(text, f, side, F0_COLOR, LAM_MAP_F0_COLOR);
+    add_layer_color(text, f, side, SHEEN_COLOR, LAM_MAP_SHEEN_COLOR);
+    add_stretch(text, f, side);
+    add_film(text, f, side);
     if (c->converted[side])
         add_conversion(text, f, side);
     text_add(text, "    return maps;\n}\n");

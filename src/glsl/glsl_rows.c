@@ -27,6 +27,9 @@ struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
     f.highlights = sums && c->light_count > 0 && lobe->base;
     f.environment_light = f.environment && c->environment_light;
     f.microfacet = lobe && lobe->microfacet && (f.highlights || f.environment_light);
+    f.layers = f.microfacet ? c->layers : 0;
+    f.tangent |= (f.layers & LAYER_ANISOTROPY) != 0;
+    f.turns = f.layers & LAYER_ANISOTROPY;
     f.back_material = c->two_sided && c->back_material && f.lit && !f.output_vector;
     for (int i = 0; i < c->group_count; i++) {
         f.attenuated |= f.lights && !f.output_vector && c->groups[i].falloff != FALLOFF_NONE;
@@ -35,6 +38,8 @@ struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
         f.directions |= c->groups[i].kind != LIGHT_POINT;
     }
     glsl_find_maps(&f);
+    f.coat_normal = f.layers & LAYER_CLEARCOAT && (f.bends || f.tilts || f.coat_bends);
+    f.signed_tangent = f.bends || f.coat_bends || (f.turns && c->tangents);
     return f;
 }
 
@@ -76,6 +81,8 @@ static bool is_read(const struct glsl_facts *f, const struct material_field *row
         return f->environment;
     case FIELD_HIGHLIGHT:
         return f->highlights && !f->microfacet;
+    case FIELD_LAYER:
+        return f->layers & row->layer;
     case FIELD_LOBE:
         return glsl_lobe_reads(f, row->field.name);
     default:
@@ -87,7 +94,7 @@ static bool is_read(const struct glsl_facts *f, const struct material_field *row
 static void add_fields(struct list *list, const struct glsl_facts *f, const char *block, const char *prefix)
 {
     bool products = f->choices->products;
-    struct glsl_material_layout layout = glsl_material_layout(products);
+    struct glsl_material_layout layout = glsl_material_layout(products, f->choices->field_layers);
     for (int i = 0; i < layout.count; i++) {
         const struct material_field *row = layout.fields[i];
         if (f->choices->storage != GLSL_BLOCK && !is_read(f, row))
@@ -270,7 +277,7 @@ int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_
             2, "vec4", "color",
             flat && glsl_120 ? "linear, not premultiplied; at all three vertices that of the triangle's last vertex"
                              : "linear, not premultiplied"};
-    if (f->bends)
+    if (f->signed_tangent)
         rows[count++] = (struct glsl_attribute){3, "vec4", "tangent",
                                                 "mesh tangent, unit, and the sign of the bitangent (MikkTSpace)"};
     else if (f->tangent && c->tangents)
@@ -322,7 +329,7 @@ bool glsl_row_is_in(const struct glsl_facts *f, const struct glsl_row *row, bool
     case GLSL_ALPHA_CUTOFF:
         return fragment;
     case GLSL_MODEL_VIEW: // field_tangent reads its columns
-        return !fragment || (f->per_fragment && f->tangent && !f->choices->tangents);
+        return !fragment || (f->per_fragment && ((f->tangent && !f->choices->tangents) || f->layers & LAYER_VOLUME));
     default:
         return fragment == f->per_fragment;
     }

@@ -76,6 +76,11 @@ struct glsl_facts {
     bool texcoords[2];           // the sets of texture coordinates that they read
     bool bends;                  // a normal map
     bool tilts;                  // a bump map
+    int layers;                  // LAYER_… that light_point adds
+    bool coat_bends;             // a normal map of the clear coat
+    bool coat_normal;            // light_point gets the coat's normal, which is not the other layers'
+    bool turns;                  // light_point gets the sign of the bitangent
+    bool signed_tangent;         // the tangent attribute has that sign, and the fragment shader reads it
     bool converts;               // a side's material is converted (glsl_choices.converted)
     bool masks;                  // a side is masked
 };
@@ -94,6 +99,8 @@ lam_map glsl_map_owner(const struct glsl_facts *facts, int side, lam_map map);
 bool glsl_is_physical(const struct glsl_facts *facts);
 // Whether the maps' struct has a member of this name.
 bool glsl_maps_have(const struct glsl_facts *facts, const char *member);
+// Appends the lines that set the variable `given`, of struct layer_values, except for its vectors.
+void glsl_add_layers(struct text *text, const struct glsl_facts *facts);
 // Appends the struct of what maps say of a point, and the functions that fill it.
 void glsl_add_maps(struct text *text, const struct glsl_facts *facts);
 

@@ -43,6 +43,11 @@ struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_dr
     } else if (frame->environment && !frame_is_physical(range->reflection) &&
                (mirrors(frame->materials[range->front]) || (c.back_material && mirrors(frame->materials[range->back]))))
         c.environment = GLSL_FACES;
+    for (int i = 0; i < frame->material_count; i++)
+        c.field_layers |= (uint8_t)material_layers(frame->materials[i]);
+    if (frame_is_physical(range->reflection))
+        c.layers = (uint8_t)(material_layers(frame->materials[range->front]) |
+                             (c.back_material ? material_layers(frame->materials[range->back]) : 0));
     find_groups(&c, frame);
     glsl_choose_maps(&c, frame, range);
     return c;
@@ -92,13 +97,15 @@ static void product(float out[4], const float *a, const float *b)
 
 static bool is_wide(const struct material_field *row) { return row->field.type >= LAM_FIELD_RGB; }
 
-struct glsl_material_layout glsl_material_layout(bool products)
+struct glsl_material_layout glsl_material_layout(bool products, int field_layers)
 {
     struct glsl_material_layout out = {0};
     for (int wide = 1; wide >= 0; wide--)
         for (int i = 0; material_field(i); i++) {
             const struct material_field *row = material_field(i);
             if (is_wide(row) != wide || row->reader >= FIELD_CHOICE || (products && row->product && !*row->product))
+                continue;
+            if (row->layer && !(row->layer & field_layers))
                 continue;
             out.fields[out.count] = row;
             out.at[out.count++] = out.size;
@@ -113,10 +120,10 @@ const char *glsl_field_name(const struct material_field *row, bool products)
     return products && row->product ? row->product : row->field.name;
 }
 
-void glsl_material_values(const struct frame *frame, const lam_material *material, bool products,
+void glsl_material_values(const struct frame *frame, const lam_material *material, bool products, int field_layers,
                           float out[GLSL_MATERIAL_MAX])
 {
-    struct glsl_material_layout layout = glsl_material_layout(products);
+    struct glsl_material_layout layout = glsl_material_layout(products, field_layers);
     lam_material in_use = *material;
     in_use.shininess = frame_shininess(frame, material);
     if (glsl_converts(frame, material)) { // each point makes its colours of the base colour
@@ -177,7 +184,7 @@ void glsl_pack_lights(const struct glsl_choices *c, const struct frame *frame, f
 size_t glsl_products_bytes(const struct glsl_choices *c)
 {
     size_t lists = (size_t)c->light_count * (c->gl1 ? 12 : 8) + (size_t)c->hemisphere_count * 8;
-    size_t head = c->storage == GLSL_BLOCK ? (size_t)glsl_material_layout(true).size : 0;
+    size_t head = c->storage == GLSL_BLOCK ? (size_t)glsl_material_layout(true, c->field_layers).size : 0;
     size_t all = (head + lists) * sizeof(float);
     return all ? all : 16;
 }
@@ -198,8 +205,8 @@ void glsl_pack_products(const struct glsl_choices *c, const struct frame *frame,
     bool block = c->storage == GLSL_BLOCK;
     if (block) {
         float head[GLSL_MATERIAL_MAX];
-        size_t size = (size_t)glsl_material_layout(true).size;
-        glsl_material_values(frame, material, true, head);
+        size_t size = (size_t)glsl_material_layout(true, c->field_layers).size;
+        glsl_material_values(frame, material, true, c->field_layers, head);
         memcpy(out, head, size * sizeof *out);
         out += size;
     }

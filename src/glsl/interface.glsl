@@ -19,7 +19,7 @@
 //@if passes_tangent
 @varying@vec3 eye_tangent;
 //@end
-//@if bends
+//@if signed_tangent
 @varying@float bitangent_sign;
 //@end
 //@if first_texcoords

@@ -312,7 +312,21 @@ vec4 light_point(@lit_parameters@)
 //@if map_color
     base = mul3(base, maps.color);
 //@end
-//@if single_scattering
+//@if layered
+    layer_values given;
+    given.base = base;
+    given.metallic = @metallic@;
+    given.roughness = @roughness@;
+//@if clearcoat
+//@if coat_normal
+    given.clearcoat_normal = unit3(coat);
+//@else
+    given.clearcoat_normal = s.n;
+//@end
+//@end
+@layers@
+    layered layering = layered_of(s, given, 0, 0);
+//@elif single_scattering
     fresnel mirror = fresnel_of(base, @metallic@, 0.0);
 //@else
     fresnel mirror = fresnel_of(base, @metallic@, scattering_gain(s, @roughness@));
@@ -333,11 +347,29 @@ vec4 light_point(@lit_parameters@)
 //@if map_occlusion
     sum.ambient = scale3(sum.ambient, maps.occlusion);
 //@end
+//@if layered
+    sum = cover_terms(sum, layering, 0);
+//@end
 //@if has_environment
     if (present(s.n) && present(s.v)) {
 //@if environment_light
         vec3 matt = scale3(base, 1.0 - @metallic@);
+//@if layered
+//@if anisotropy
+        surroundings around = surroundings_of(s, mean_roughness(given.roughness, given.anisotropy));
+        around.prefiltered = surroundings_of(bent_surface(s, layering, given.anisotropy), given.roughness).prefiltered;
+//@else
+        surroundings around = surroundings_of(s, given.roughness);
+//@end
+//@if clearcoat
+        surroundings top = surroundings_of(coat_surface(s, layering), layering.coat_roughness);
+//@else
+        surroundings top = around;
+//@end
+        vec3 arriving = layered_surroundings(s, layering, matt, around, top, 0);
+//@else
         vec3 arriving = surroundings_light(mirror, matt, surroundings_of(s, @roughness@));
+//@end
 //@if map_occlusion
         arriving = scale3(arriving, maps.occlusion);
 //@end

@@ -113,6 +113,7 @@ static bool merge_choices(struct build *m, lam_stage stage, int object, lam_erro
         if (own.environment)
             m->choices.environment = own.environment;
         m->choices.environment_light |= own.environment_light;
+        m->choices.layers |= own.layers;
     }
     if (first < 0)
         return fail(error, LAM_BAD_ARGUMENT, "object is %d, expected an object with triangles, 0 to %d", object,
@@ -235,7 +236,7 @@ static int value_of(const struct build *m, const struct frame_draw_range *range,
     case GLSL_MATERIAL:
     case GLSL_HEAD: {
         float values[GLSL_MATERIAL_MAX];
-        glsl_material_values(frame, material, m->choices.products, values);
+        glsl_material_values(frame, material, m->choices.products, m->choices.field_layers, values);
         return put_member(out, values, row->semantic == GLSL_MATERIAL ? member : row);
     }
     case GLSL_DIFFUSE_PRODUCT:

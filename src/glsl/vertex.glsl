@@ -15,7 +15,7 @@ void main()
 //@if passes_tangent
     eye_tangent = unit3(mat3(model_view) * @tangent@);
 //@end
-//@if bends
+//@if signed_tangent
     // A mirroring object turns the bitangent round.
     mat3 axes = mat3(model_view);
     bitangent_sign = dot3(cross3(axes[0], axes[1]), axes[2]) < 0.0 ? -tangent.w : tangent.w;
@@ -41,6 +41,14 @@ void main()
 //@end
 //@if passes_tangent
     vec3 t = unit3(mat3(model_view) * @tangent@);
+//@end
+//@if turns
+//@if tangents
+    mat3 axes = mat3(model_view);
+    float turn = dot3(cross3(axes[0], axes[1]), axes[2]) < 0.0 ? -tangent.w : tangent.w;
+//@else
+    float turn = 1.0;
+//@end
 //@end
 //@if two_sided
     // Both sides are lit; the fragment shader selects the visible one.

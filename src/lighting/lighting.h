@@ -13,6 +13,8 @@
 #include "light_kinds.h"
 #include "lights.h"
 #include "sum.h"
+#include "layer_kinds.h"
+#include "layers.h"
 #include "tone.h"
 
 #endif

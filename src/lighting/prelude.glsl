@@ -37,20 +37,18 @@ float positive(float x) { return x > 0.0 ? x : 0.0; }
 float saturate(float x) { return min_of(positive(x), 1.0); }
 
 float whole(float x) { return floor(x); }
-float albedo_texel(float index)
-{
-    const float table[1024] = float[1024](
+const float albedo_table[1024] = float[1024](
 #include "albedo.table"
-    );
-    return table[int(index)];
-}
-float bias_texel(float index)
-{
-    const float table[1024] = float[1024](
+);
+float albedo_texel(float index) { return albedo_table[int(index)]; }
+const float bias_table[1024] = float[1024](
 #include "bias.table"
-    );
-    return table[int(index)];
-}
+);
+float bias_texel(float index) { return bias_table[int(index)]; }
+const float sheen_table[1024] = float[1024](
+#include "sheen.table"
+);
+float sheen_texel(float index) { return sheen_table[int(index)]; }
 
 float square_root(float x) { return sqrt(x); }
 float rsqrt(float x) { return inversesqrt(max_of(x, 1.0e-37)); }

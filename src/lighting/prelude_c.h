@@ -45,6 +45,14 @@ FN num bias_texel(num index)
     };
     return num_of_bits(igather((const int32_t *)table, int_of(index)));
 }
+// Of the table that sheen_albedo reads.
+FN num sheen_texel(num index)
+{
+    static const float table[] = {
+#include "sheen.table"
+    };
+    return num_of_bits(igather((const int32_t *)table, int_of(index)));
+}
 
 // The whole part of a number from 0 to 2^31.
 FN num whole(num x) { return num_of_int(int_of(x)); }

@@ -98,6 +98,16 @@ bool field_is_zero(const lam_field *field, const void *object)
     return numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0 && numbers[3] == 0;
 }
 
+bool field_is_standard(const lam_field *field, const void *object)
+{
+    double numbers[4];
+    int count = lam_field_get_written(field, object, numbers);
+    bool same = true;
+    for (int i = 0; i < count; i++)
+        same &= (float)numbers[i] == (float)field->standard[i];
+    return same;
+}
+
 bool field_fits(const lam_field *field, const void *object, struct field_fault *fault)
 {
     double numbers[4], min = field->min, max = field->max;

@@ -2,6 +2,8 @@
 #ifndef FIELDS_H
 #define FIELDS_H
 
+#include "layer_kinds.h"
+
 #include <lambent/fields.h>
 #include <lambent/light.h>
 #include <lambent/material.h>
@@ -12,6 +14,7 @@ enum field_reader {
     FIELD_LIT,         // every lit surface
     FIELD_HIGHLIGHT,   // reflection models with a highlight
     FIELD_LOBE,        // reflection models that name it as a parameter
+    FIELD_LAYER,       // physical materials that have the layer
     FIELD_ENVIRONMENT, // the mirrored environment
     FIELD_CHOICE,      // none: it decides about the reflection model
     FIELD_NEVER,       // it is part of another field
@@ -25,8 +28,14 @@ struct material_field {
     enum field_reader reader;
     bool optional; // a scene file leaves it out where it is 0, which is the default
     bool physical; // only physical materials have it: writing it makes a material physical
+    int layer;     // of FIELD_LAYER: LAYER_… that reads it; a scene file leaves it out where it is the default
 };
 const struct material_field *material_field(int index); // NULL past the end
+
+// The layers that a material has: LAYER_… of layer_kinds.h, 0 for a classic one.
+int material_layers(const lam_material *material);
+// The layer that reads a map; 0: none, it belongs to every material.
+int map_layer(lam_map map);
 
 struct light_field {
     lam_field field;                              // first
@@ -46,6 +55,7 @@ bool field_fits(const lam_field *field, const void *object, struct field_fault *
 bool field_equal(const lam_field *field, const void *a, const void *b);
 // Whether its bytes are 0: a flag then has its default.
 bool field_is_zero(const lam_field *field, const void *object);
+bool field_is_standard(const lam_field *field, const void *object); // compared as floats
 // Sets the default, and any numbers whose angles are in degrees.
 void field_set_standard(const lam_field *field, void *object);
 void field_set_written(const lam_field *field, void *object, const double numbers[4]);

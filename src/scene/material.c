@@ -173,6 +173,18 @@ const char *lam_map_name(lam_map map)
                                                      [LAM_MAP_REFLECTION] = "reflection",
                                                      [LAM_MAP_METALLIC] = "metallic",
                                                      [LAM_MAP_ROUGHNESS] = "roughness",
-                                                     [LAM_MAP_OCCLUSION] = "occlusion"};
+                                                     [LAM_MAP_OCCLUSION] = "occlusion",
+                                                     [LAM_MAP_SPECULAR_WEIGHT] = "specular_weight",
+                                                     [LAM_MAP_F0_COLOR] = "f0_color",
+                                                     [LAM_MAP_CLEARCOAT] = "clearcoat",
+                                                     [LAM_MAP_CLEARCOAT_ROUGHNESS] = "clearcoat_roughness",
+                                                     [LAM_MAP_CLEARCOAT_NORMAL] = "clearcoat_normal",
+                                                     [LAM_MAP_SHEEN_COLOR] = "sheen_color",
+                                                     [LAM_MAP_SHEEN_ROUGHNESS] = "sheen_roughness",
+                                                     [LAM_MAP_ANISOTROPY] = "anisotropy",
+                                                     [LAM_MAP_IRIDESCENCE] = "iridescence",
+                                                     [LAM_MAP_IRIDESCENCE_THICKNESS] = "iridescence_thickness",
+                                                     [LAM_MAP_TRANSMISSION] = "transmission",
+                                                     [LAM_MAP_THICKNESS] = "thickness"};
     return (unsigned)map < LAM_MAP_COUNT ? names[map] : NULL;
 }

@@ -5,13 +5,19 @@
 #include "fail.h"
 #include "float_state.h"
 
+// The first map that reads tangents.
 static const lam_texture_map *normal_map_at(const struct lam_scene *scene, int material)
 {
     bool there = material >= 0 && material < scene->materials.count;
-    return there ? ((const lam_material *)scene->materials.items + material)->maps[LAM_MAP_NORMAL] : NULL;
+    if (!there)
+        return NULL;
+    const lam_material *m = (const lam_material *)scene->materials.items + material;
+    return m->maps[LAM_MAP_NORMAL]             ? m->maps[LAM_MAP_NORMAL]
+           : m->maps[LAM_MAP_CLEARCOAT_NORMAL] ? m->maps[LAM_MAP_CLEARCOAT_NORMAL]
+                                               : m->maps[LAM_MAP_ANISOTROPY];
 }
 
-// The normal map of a mesh: that of its first part which has one, else of the first object that gives it a material with one.
+// The map that reads a mesh's tangents: that of its first part which has one, else of the first object that gives it a material with one.
 // NULL: none.
 static const lam_texture_map *normal_map_of(const struct lam_scene *scene, int mesh)
 {
@@ -35,7 +41,7 @@ static bool t_is_down(const lam_texture_map *map)
     return !given || m[0][0] * m[1][1] - m[0][1] * m[1][0] > 0;
 }
 
-// Gives a mesh tangents of its own, for the texture coordinates of its normal map; the first ones where there is none.
+// Gives a mesh tangents of its own, for the texture coordinates of the map that reads them; the first ones where there is none.
 static bool make_tangents(struct lam_scene *scene, lam_mesh *mesh, const lam_texture_map *map,
                           struct call_control *call, lam_error *error)
 {

@@ -180,7 +180,8 @@ static json_t *material_json(struct scene_writer *w, const lam_material *m, bool
     for (int i = 0; material_field(i); i++) {
         const struct material_field *row = material_field(i);
         bool has = row->reader != FIELD_NEVER && (m->physical || !row->physical);
-        if (has && (whole || !row->optional || !field_is_zero(&row->field, m)))
+        bool implied = row->optional ? field_is_zero(&row->field, m) : row->layer && field_is_standard(&row->field, m);
+        if (has && (whole || !implied))
             put_field(w, out, &row->field, m);
     }
     if (!whole && m->diffuse.a == 1)

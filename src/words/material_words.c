@@ -14,11 +14,11 @@ enum { MATERIAL_COLOR = 2 * LAM_FIELDS_MAX, MATERIAL_SPECULAR_COLOR, MATERIAL_KE
 
 struct reading {
     lam_material_id id; // a named material; LAM_MATERIAL_COUNT: none
-    uint64_t given;     // bit for each key
+    bool given[MATERIAL_KEYS];
     double numbers[MATERIAL_KEYS][4];
 };
 
-static bool given(const struct reading *reading, int key) { return reading->given >> key & 1; }
+static bool given(const struct reading *reading, int key) { return reading->given[key]; }
 
 static bool is_color(const lam_field *field) { return field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA; }
 
@@ -83,7 +83,7 @@ static bool read_pair(char *pair, lam_color_mode mode, struct reading *reading, 
         return false;
     if (given(reading, key))
         return fail(error, LAM_BAD_ARGUMENT, "'%s' is given twice", pair);
-    reading->given |= UINT64_C(1) << key;
+    reading->given[key] = true;
     if (key < LAM_FIELDS_MAX)
         return word_field(lam_material_field(key), value ? value : "yes", mode, reading->numbers[key], error);
     if (key < MATERIAL_COLOR)
@@ -103,7 +103,7 @@ static bool is_color_alone(const char *word, lam_color_mode mode)
 static bool read_color_alone(const char *word, lam_color_mode mode, struct reading *reading, lam_error *error)
 {
     static const lam_field color = {.key = "color", .type = LAM_FIELD_RGB};
-    reading->given |= UINT64_C(1) << MATERIAL_COLOR;
+    reading->given[MATERIAL_COLOR] = true;
     return word_field(&color, word, mode, reading->numbers[MATERIAL_COLOR], error);
 }
 

@@ -17,7 +17,7 @@ class Info(GltfCase):
 
     def test_gltf_file(self):
         model = self.model(asset={"version": "2.0", "generator": "by\x1bhand", "copyright": "nobody"},
-                           extensionsUsed=["KHR_materials_unlit", "KHR_materials_sheen", "NO_such"],
+                           extensionsUsed=["KHR_materials_unlit", "KHR_materials_dispersion", "NO_such"],
                            images=[{"uri": "skin.png"}])
         row = self.info(model)[0]
         self.assertEqual((row["format"], row["version"], row["generator"], row["copyright"]), ("gltf", "2.0", "by\x1bhand", "nobody"))
@@ -32,13 +32,13 @@ class Info(GltfCase):
         self.assertAlmostEqual(row["cameras"][0]["fovy_deg"], 5.729578, 5)
         self.assertEqual((row["cameras"][0]["eye"], row["cameras"][1]["ortho_half_height"]), ([0, 0, 9], 4))
         self.assertEqual([(e["name"], e["required"], e["support"]) for e in row["extensions"]],
-                         [("KHR_materials_unlit", False, "supported"), ("KHR_materials_sheen", False, "ignored"), ("NO_such", False, "unknown")])
+                         [("KHR_materials_unlit", False, "supported"), ("KHR_materials_dispersion", False, "ignored"), ("NO_such", False, "unknown")])
         self.assertEqual(row["textures"], [{"name": None, "file": "skin.png", "format": "png", "color_space": None, "width": 0, "height": 0,
                                             "memory_bytes": 0, "slots": []}])
         self.assertEqual(self.info(model, "--scene", "night")[0]["scenes"][1]["read"], True)
         text = self.good("info", model).stdout.decode()
         for words in ("gltf 2.0, written by by?hand", "copyright   nobody", "2 × 2 × 0 m, y up", "2 triangles, 4 vertices", "0 'day', the one that is read",
-                      "1 'night'", "0 unlit: base 1/0/0", "1 'mint'", "0 'near', perspective, 5.73 degrees high, at 0 0 9", "KHR_materials_sheen: ignored",
+                      "1 'night'", "0 unlit: base 1/0/0", "1 'mint'", "0 'near', perspective, 5.73 degrees high, at 0 0 9", "KHR_materials_dispersion: ignored",
                       "NO_such: unknown", "0 'skin.png', png; not read"):
             self.assertIn(words, text)
 

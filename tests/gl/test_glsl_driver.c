@@ -63,7 +63,7 @@ static void check_blocks(const struct gl *gl, GLuint program, const struct glsl_
     check_block(gl, program, "Products", glsl_products_bytes(c));
     check_block(gl, program, "BackProducts", glsl_products_bytes(c));
     check_block(gl, program, "Materials",
-                (size_t)glsl_material_layout(false).size * sizeof(float) * (f->back_material ? 2 : 1));
+                (size_t)glsl_material_layout(false, c->field_layers).size * sizeof(float) * (f->back_material ? 2 : 1));
 }
 
 static void link_pair(void *user, const struct glsl_choices *choices)

@@ -28,6 +28,7 @@ WORD(saturate, saturate(a), saturate(-2) == 0 && saturate(2) == 1 && saturate(0.
 WORD(whole, whole(a), whole(2.75f) == 2 && whole(0) == 0)
 WORD(albedo_texel, albedo_texel(a), albedo_texel(0) > 0.5f && albedo_texel(1023) < 0.7f)
 WORD(bias_texel, bias_texel(a), bias_texel(0) > 0.5f && bias_texel(1023) < 0.1f)
+WORD(sheen_texel, sheen_texel(a), sheen_texel(0) > sheen_texel(31) && sheen_texel(1023) > 0.1f)
 WORD(square_root, square_root(a), square_root(9) == 3 && square_root(0) == 0)
 WORD(rsqrt, rsqrt(a), near(rsqrt(16), 0.25f) && 0 * rsqrt(0) == 0)
 WORD(log2_of, log2_of(a), log2_of(8) == 3 && log2_of(0) == -126)

@@ -574,6 +574,40 @@ static void test_materials(void **state)
     lam_scene_free(scene);
 }
 
+// The numbers of the layers' extensions, cut to their ranges; an unlit material has none.
+static void test_layers(void **state)
+{
+    (void)state;
+    static const char layers[] =
+        "\"KHR_materials_ior\": {\"ior\": 0}, \"KHR_materials_specular\": {\"specularFactor\": 0.25, "
+        "\"specularColorFactor\": [2, 0.5, -1]}, \"KHR_materials_clearcoat\": {\"clearcoatFactor\": 7, "
+        "\"clearcoatRoughnessFactor\": 0.5}, \"KHR_materials_sheen\": {\"sheenColorFactor\": [0.5, 0.25, 3], "
+        "\"sheenRoughnessFactor\": 0.75}, \"KHR_materials_anisotropy\": {\"anisotropyStrength\": 0.5, "
+        "\"anisotropyRotation\": 13.5}, \"KHR_materials_iridescence\": {\"iridescenceFactor\": 0.5, "
+        "\"iridescenceIor\": 0.5, \"iridescenceThicknessMinimum\": 50, \"iridescenceThicknessMaximum\": 700}";
+    char text[2000];
+    snprintf(text, sizeof text,
+             "%s, \"materials\": [{\"extensions\": {%s}}, {\"extensions\": {\"KHR_materials_unlit\": {}, %s}}, {}]",
+             SCENE, layers, layers);
+    lam_scene *scene = load_more(text, ", \"material\": 0", NULL);
+    const lam_material *m = lam_scene_material(scene, 0);
+    assert_true(m->ior == 0 && m->specular_weight == 0.25f);
+    assert_true(m->f0_color.r == 2 && m->f0_color.g == 0.5f && m->f0_color.b == 0);
+    assert_true(m->clearcoat == 1 && m->clearcoat_roughness == 0.5f);
+    assert_true(m->sheen_color.r == 0.5f && m->sheen_color.g == 0.25f && m->sheen_color.b == 1);
+    assert_true(m->sheen_roughness == 0.75f && m->anisotropy == 0.5f);
+    assert_near((double)m->anisotropy_rotation_rad, 13.5 - 4 * acos(-1.0), 1e-5); // less two turns
+    assert_true(m->iridescence == 0.5f && m->iridescence_ior == 1 && m->iridescence_thickness_min == 50 &&
+                m->iridescence_thickness_max == 700);
+    for (int i = 1; i < 3; i++) {
+        lam_material plain = lam_material_default();
+        m = lam_scene_material(scene, i);
+        assert_true(m->ior == plain.ior && m->specular_weight == 1 && m->f0_color.g == 1 && m->clearcoat == 0);
+        assert_true(m->sheen_color.r == 0 && m->anisotropy == 0 && m->iridescence == 0 && m->transmission == 0);
+    }
+    lam_scene_free(scene);
+}
+
 static void test_variants(void **state)
 {
     (void)state;
@@ -960,10 +994,11 @@ int main(void)
         cmocka_unit_test(test_shared_origin), cmocka_unit_test(test_normals),
         cmocka_unit_test(test_nodes),         cmocka_unit_test(test_instances),
         cmocka_unit_test(test_zero_scale),    cmocka_unit_test(test_materials),
-        cmocka_unit_test(test_variants),      cmocka_unit_test(test_lights),
-        cmocka_unit_test(test_cameras),       cmocka_unit_test(test_files),
-        cmocka_unit_test(test_errors),        cmocka_unit_test(test_binary_errors),
-        cmocka_unit_test(test_lenient),       cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_layers),        cmocka_unit_test(test_variants),
+        cmocka_unit_test(test_lights),        cmocka_unit_test(test_cameras),
+        cmocka_unit_test(test_files),         cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_binary_errors), cmocka_unit_test(test_lenient),
+        cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

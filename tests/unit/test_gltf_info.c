@@ -34,7 +34,7 @@ static void test_everything(void **state)
         "\"images\": [{\"uri\": \"skin.png\", \"name\": \"skin\"}, {\"uri\": \"data:image/webp;base64,AA==\"}, "
         "{\"bufferView\": 0, \"mimeType\": \"image/jpeg\"}, {\"uri\": \"noend\"}], "
         "\"extensions\": {\"KHR_materials_variants\": {\"variants\": [{\"name\": \"red\"}, {}]}}, "
-        "\"extensionsUsed\": [\"KHR_materials_variants\", \"KHR_materials_sheen\", \"NONE_such\", \"KHR_xmp\"], "
+        "\"extensionsUsed\": [\"KHR_materials_variants\", \"KHR_materials_dispersion\", \"NONE_such\", \"KHR_xmp\"], "
         "\"extensionsRequired\": [\"KHR_materials_variants\", \"KHR_mesh_quantization\"]}");
     const lam_file_info *info = lam_scene_file_info(scene);
     assert_string_equal(info->version, "2.0");
@@ -67,7 +67,7 @@ static void test_everything(void **state)
         bool required;
         lam_extension_support support;
     } extensions[] = {{"KHR_materials_variants", true, LAM_EXTENSION_READ},
-                      {"KHR_materials_sheen", false, LAM_EXTENSION_IGNORED},
+                      {"KHR_materials_dispersion", false, LAM_EXTENSION_IGNORED},
                       {"NONE_such", false, LAM_EXTENSION_UNKNOWN},
                       {"KHR_xmp", false, LAM_EXTENSION_NO_EFFECT},
                       {"KHR_mesh_quantization", true, LAM_EXTENSION_READ}};

@@ -22,6 +22,8 @@ struct material_products {
     unsigned maps;                       // those that shading reads: a bit 1 << LAM_MAP_… for each
     bool converted;                      // with maps: a metallic-roughness material under a classic model
     float shininess;                     // in use
+    int layers;                          // LAYER_…; 0: a metallic-roughness surface alone, or a classic material
+    float stretch[2];                    // of anisotropy: the direction by tangent and bitangent, unit
     const struct light_products *lights; // one for each light
     float (*sky)[3], (*ground)[3];       // ka ⊙ sky, ka ⊙ ground for each hemisphere
 };

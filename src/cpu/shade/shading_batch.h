@@ -37,6 +37,14 @@ struct shading_batch {
     float vertex_color[3][BATCH_ROW], ambient_color[3][BATCH_ROW]; // what multiplies ka; `color` multiplies kd
     float specular[3][BATCH_ROW], emission[3][BATCH_ROW];          // what multiplies the highlights; the emission
     float power[BATCH_ROW], roughness[BATCH_ROW], metallic[BATCH_ROW], occlusion[BATCH_ROW];
+    // Of materials with maps and layers (layered.inc): what the maps make of their numbers.
+    struct {
+        float specular_weight[BATCH_ROW], f0_color[3][BATCH_ROW];
+        float clearcoat[BATCH_ROW], clearcoat_roughness[BATCH_ROW], clearcoat_normal[3][BATCH_ROW]; // of any length
+        float sheen_color[3][BATCH_ROW], sheen_roughness[BATCH_ROW];
+        float stretch[2][BATCH_ROW], anisotropy[BATCH_ROW]; // by tangent and bitangent
+        float iridescence[BATCH_ROW], film[BATCH_ROW], transmission[BATCH_ROW], thickness[BATCH_ROW];
+    } layered;
     float sign[BATCH_ROW];    // of the bitangent
     float rest[3][BATCH_ROW]; // as vertex_cache.rest
     struct triangle_runs runs;

@@ -2,6 +2,7 @@
 #include "gltf_materials.h"
 
 #include "gltf_json.h"
+#include "gltf_layers.h"
 #include "gltf_textures.h"
 
 #include "fail.h"
@@ -170,6 +171,7 @@ bool gltf_materials_read(struct gltf *gltf)
         struct factors factors = default_factors;
         bool ok = take_factors(gltf, place, object, &factors) && take_maps(gltf, place, object, (int)i);
         lam_material material = material_of(&factors, ok ? gltf_name(gltf, object, &ok) : NULL);
+        ok = ok && gltf_take_layers(gltf, place, object, (int)i, &material);
         if (!ok || scene_adopt_material(gltf->scene, &material, gltf->json.error) < 0)
             return false;
     }

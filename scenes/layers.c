@@ -1,0 +1,78 @@
+// layers.c: spheres of physical materials with layers: index of refraction, clear coat, sheen, anisotropy, iridescence.
+#include "textured.h"
+
+enum { SPHERES = 8 };
+
+static lam_material base_material(float metallic, float roughness)
+{
+    lam_material m = lam_material_default();
+    m.diffuse = (lam_rgba){0.6f, 0.18f, 0.06f, 1};
+    m.ambient = (lam_rgb){0.6f, 0.18f, 0.06f};
+    m.physical = true;
+    m.metallic = metallic;
+    m.roughness = roughness;
+    return m;
+}
+
+static void make_materials(lam_material m[SPHERES])
+{
+    m[0] = base_material(0, 0.3f);
+    m[0].ior = 2.4f;
+    m[1] = base_material(0, 0.3f);
+    m[1].specular_weight = 0.8f;
+    m[1].f0_color = (lam_rgb){0.5f, 4, 9};
+    m[2] = base_material(0.3f, 0.8f);
+    m[2].clearcoat = 1;
+    m[2].clearcoat_roughness = 0.15f;
+    m[3] = base_material(0, 0.9f);
+    m[3].sheen_color = (lam_rgb){0.9f, 0.5f, 0.7f};
+    m[3].sheen_roughness = 0.4f;
+    m[4] = base_material(1, 0.35f);
+    m[4].anisotropy = 0.9f;
+    m[4].anisotropy_rotation_rad = 0.6f;
+    m[5] = base_material(1, 0.3f);
+    m[5].iridescence = 1;
+    m[5].iridescence_thickness_max = 480;
+    m[6] = base_material(0, 0.3f);
+    m[6].iridescence = 0.8f;
+    m[6].iridescence_ior = 1.8f;
+    m[6].emission = (lam_rgb){0.05f, 0.1f, 0};
+    m[6].clearcoat = 0.5f;
+    m[7] = m[2]; // all of them
+    m[7].ior = 1.8f;
+    m[7].sheen_color = (lam_rgb){0.2f, 0.3f, 0.5f};
+    m[7].sheen_roughness = 0.6f;
+    m[7].anisotropy = 0.7f;
+    m[7].iridescence = 0.5f;
+}
+
+bool layers_uniform(struct demo *d, lam_error *error)
+{
+    lam_shape_params params = {.slices = 32, .stacks = 24};
+    lam_material m[SPHERES];
+    lam_object o = lam_object_default();
+    make_materials(m);
+    o.mesh = lam_scene_add_shape(d->scene, "sphere", &params, error);
+    bool ok = o.mesh >= 0;
+    for (int i = 0; ok && i < SPHERES; i++) {
+        o.material = lam_scene_add_material(d->scene, &m[i], error);
+        o.transform.m[0][3] = 2.2 * (i % 4);
+        o.transform.m[1][3] = i < 4 ? 2.2 : 0;
+        ok = o.material >= 0 && lam_scene_add_object(d->scene, &o, error) >= 0;
+    }
+    return ok && textured_light_up(d, error);
+}
+
+bool layers_gouraud(struct demo *d, lam_error *error)
+{
+    d->params.shading = LAM_SHADING_GOURAUD;
+    return layers_uniform(d, error);
+}
+
+bool layers_environment(struct demo *d, lam_error *error)
+{
+    lam_environment *environment = lam_environment_built_in("studio", error);
+    bool ok = environment && layers_uniform(d, error) && lam_scene_set_environment(d->scene, environment, 0, error);
+    lam_environment_free(environment);
+    return ok;
+}

@@ -1,0 +1,470 @@
+// layers.h: what glTF 2.0's extensions lay over a metallic-roughness surface or put into it: a dielectric of any index, a
+// clear coat, sheen, brushed metal, a thin film, light that goes through.
+//
+// One text for C and GLSL (prelude_c.h, prelude.glsl). The formulas are those of the Khronos extensions KHR_materials_ior,
+// specular, clearcoat, sheen, anisotropy, iridescence, transmission and volume. `set` has a bit for each layer that the
+// material has (layer_kinds.h); without any of them lobes.h and sum.h are the whole of it. Colours of the base layer are
+// multiplied by pi like every lobe's here.
+
+// The numbers of a material at a point.
+STRUCT(layer_values)
+{
+    vec3 base; // base colour
+    num metallic;
+    num roughness;
+    num ior;             // of the dielectric
+    num specular_weight; // what it reflects at grazing angles
+    vec3 f0_color;       // factor of what it reflects along the normal
+    num clearcoat;       // share of the surface that has a coat
+    num clearcoat_roughness;
+    vec3 clearcoat_normal; // unit
+    vec3 sheen_color;
+    num sheen_roughness;
+    num anisotropy;
+    vec3 stretch; // unit, along the surface: the direction in which the highlight is stretched
+    num iridescence;
+    num iridescence_ior;
+    num film; // thickness in nanometres
+    num transmission;
+    num path;             // how far light goes through the volume, in units of attenuation_distance
+    vec3 attenuation_log; // the volume's colour after a path of 1, as logarithm to the base 2
+};
+
+// The same as the sum over the lights needs it.
+STRUCT(layered)
+{
+    vec3 dielectric; // f0
+    num grazing;     // the dielectric's f90
+    vec3 metal;      // f0
+    num metallic;
+    num gain; // light between the mirrors, of f0 = 1
+    num roughness;
+    num alpha_t; // anisotropy: alpha along `stretch`
+    num alpha_b; // and across
+    vec3 stretch;
+    vec3 across;
+    num iridescence;
+    num iridescence_ior;
+    num film;
+    num opaque; // share of the light in the dielectric that does not go through
+    vec3 sheen_color;
+    num sheen_largest; // the largest channel
+    num sheen_roughness;
+    num sheen_left; // what the sheen leaves of light that leaves towards the eye
+    vec3 coat_normal;
+    num coat; // share that the coat reflects, Fresnel's factor in it
+    num coat_roughness;
+    num coat_gain; // light between its mirrors
+};
+
+// The response of all layers to light from one direction: factors of kd Ld and of Ls.
+STRUCT(layered_value)
+{
+    num diffuse;
+    vec3 specular;
+};
+
+FN num largest3(vec3 a) { return max_of(max_of(a.x, a.y), a.z); }
+FN vec3 min3(vec3 a, num b) { return vec3_of(min_of(a.x, b), min_of(a.y, b), min_of(a.z, b)); }
+FN vec3 root3(vec3 a) { return vec3_of(square_root(a.x), square_root(a.y), square_root(a.z)); }
+FN vec3 divide3(vec3 a, vec3 b) { return vec3_of(a.x / b.x, a.y / b.y, a.z / b.z); }
+FN vec3 grey3(num x) { return vec3_of(x, x, x); }
+FN num fifth_power(num x) { return x * x * (x * x) * x; }
+
+// What a boundary reflects along its normal: ((a - b) / (a + b))^2.
+FN num boundary_f0(num a, num b)
+{
+    num ratio = (a - b) / (a + b);
+    return ratio * ratio;
+}
+
+// A Fresnel factor between its value along the normal and the one at grazing angles (Schlick).
+FN vec3 fresnel_mix(vec3 f0, num f90, num weight) { return add3(f0, scale3(sub3(grey3(f90), f0), weight)); }
+
+// The cosine of x turns, x from 0 on.
+FN num cosine_of_turns(num x)
+{
+    num part = x - whole(x);
+    num q = absolute(part - 0.5f) - 0.25f;
+    num a = 6.28318530718f * q;
+    num s = a * a;
+    num tail = 8.33333333e-3f + s * (-1.98412698e-4f + s * (2.75573192e-6f - s * 2.50521084e-8f));
+    return a * (1.0f + s * (-0.166666667f + s * tail));
+}
+
+// Belcour and Barla (2017), in the approximation of KHR_materials_iridescence: what a thin film over a surface of f0
+// reflects of light whose angle with the film's normal has the cosine `c`. Light that the film's two sides reflect
+// interferes; the integral over the wavelengths is done in Fourier space, with Gaussians for the sensitivities of the eye.
+// `path` is the optical path difference in nanometres times the order, `shift` the phase shifts in turns.
+FN vec3 film_sensitivity(num path, vec3 shift)
+{
+    num square = path * path;
+    num x = 0.846590002f * cosine_of_turns(1.6810e-3f * path + shift.x) * exp2_of(-2.46491222e-7f * square);
+    num second = 0.153868307f * cosine_of_turns(2.2399e-3f * path + shift.x) * exp2_of(-2.57905068e-7f * square);
+    num y = 1.00022189f * cosine_of_turns(1.7953e-3f * path + shift.y) * exp2_of(-5.29946445e-7f * square);
+    num z = 1.00112249f * cosine_of_turns(2.2084e-3f * path + shift.z) * exp2_of(-3.76594254e-7f * square);
+    x = x + second;
+    return vec3_of(3.2404542f * x - 1.5371385f * y - 0.4985314f * z, -0.9692660f * x + 1.8760108f * y + 0.0415560f * z,
+                   0.0556434f * x - 0.2040259f * y + 1.0572252f * z);
+}
+
+FN vec3 film_reflectance(vec3 f0, num film_ior, num thickness, num c)
+{
+    num inside = square_root(positive(1.0f - (1.0f - c * c) / (film_ior * film_ior))); // cosine after refraction
+    num first_f0 = boundary_f0(film_ior, num_of(1.0f));
+    num first = first_f0 + (1.0f - first_f0) * fifth_power(1.0f - c);
+    num through = 1.0f - first;
+    vec3 root = root3(min3(add3(f0, grey3(num_of(0.0001f))), num_of(0.9999f)));
+    vec3 one = grey3(num_of(1.0f));
+    vec3 index = divide3(add3(one, root), sub3(one, root)); // of the base, from its f0
+    vec3 second_f0 =
+        vec3_of(boundary_f0(index.x, film_ior), boundary_f0(index.y, film_ior), boundary_f0(index.z, film_ior));
+    vec3 second = fresnel_mix(second_f0, num_of(1.0f), fifth_power(1.0f - inside));
+    num path = 2.0f * film_ior * thickness * inside;
+    num half_turn = num_of(0.5f);
+    num turn = num_of(1.0f);
+    vec3 shift = vec3_of(pick(index.x < film_ior, turn, half_turn), pick(index.y < film_ior, turn, half_turn),
+                         pick(index.z < film_ior, turn, half_turn));
+    vec3 both_sides = scale3(second, first);
+    both_sides = vec3_of(min_of(max_of(both_sides.x, num_of(1.0e-5f)), num_of(0.9999f)),
+                         min_of(max_of(both_sides.y, num_of(1.0e-5f)), num_of(0.9999f)),
+                         min_of(max_of(both_sides.z, num_of(1.0e-5f)), num_of(0.9999f)));
+    vec3 amplitude = root3(both_sides);
+    vec3 returned = divide3(scale3(second, through * through), sub3(one, both_sides));
+    vec3 sum = add3(grey3(first), returned);
+    vec3 order = mul3(sub3(returned, grey3(through)), amplitude);
+    sum = add3(sum, mul3(order, scale3(film_sensitivity(path, shift), num_of(2.0f))));
+    order = mul3(order, amplitude);
+    sum = add3(sum, mul3(order, scale3(film_sensitivity(2.0f * path, scale3(shift, num_of(2.0f))), num_of(2.0f))));
+    return vec3_of(positive(sum.x), positive(sum.y), positive(sum.z));
+}
+
+// Burley's GGX with two roughnesses, along t and b, as KHR_materials_anisotropy has it:
+//     D = 1 / (pi at ab ((h.t)^2 / at^2 + (h.b)^2 / ab^2 + (h.n)^2)^2)
+//     V = 1 / (2 (n.l |(at v.t, ab v.b, v.n)| + n.v |(at l.t, ab l.b, l.n)|))
+// S as in ggx_lobe.
+FN num stretched_root(vec3 w, vec3 n, layered m)
+{
+    num t = m.alpha_t * dot3(w, m.stretch);
+    num b = m.alpha_b * dot3(w, m.across);
+    num along = dot3(w, n);
+    return square_root(t * t + b * b + along * along);
+}
+
+FN num stretched_lobe(surface s, vec3 l, layered m)
+{
+    num n_dot_l = positive(dot3(s.n, l));
+    num n_dot_v = dot3(s.n, s.v);
+    vec3 sum = add3(l, s.v);
+    num square = dot3(sum, sum);
+    num t = dot3(sum, m.stretch) * m.alpha_b;
+    num b = dot3(sum, m.across) * m.alpha_t;
+    num along = dot3(sum, s.n) * (m.alpha_t * m.alpha_b);
+    num spread = square * (m.alpha_t * m.alpha_b) / max_of(t * t + b * b + along * along, num_of(1.0e-30f));
+    num shadow = n_dot_l * stretched_root(s.v, s.n, m) + n_dot_v * stretched_root(l, s.n, m);
+    num value = 0.5f * spread * spread * (m.alpha_t * m.alpha_b) * n_dot_l / max_of(shadow, num_of(1.0e-30f));
+    return pick(both(both(n_dot_l > 0.0f, n_dot_v > 0.0f), square > 0.0f), value, num_of(0.0f));
+}
+
+// Conty and Kulla (2017): fibres that stand up from the surface, with a spread of alpha = roughness^2 and s = |n x h|:
+//     S = pi D V n.l
+//     D = (2 + 1/alpha) s^(1/alpha) / (2 pi)
+//     V = 1 / (4 n.l n.v (1 + L(n.v) + L(n.l)))
+// L is their fit of the shadows that fibres throw on fibres.
+FN num sheen_fit(num x, num alpha)
+{
+    num part = (1.0f - alpha) * (1.0f - alpha);
+    num a = 21.5473f + (25.3245f - 21.5473f) * part;
+    num b = 3.82987f + (3.32435f - 3.82987f) * part;
+    num c = 0.19823f + (0.16801f - 0.19823f) * part;
+    num d = -1.97760f + (-1.27393f + 1.97760f) * part;
+    num e = -4.32054f + (-4.85967f + 4.32054f) * part;
+    return a / (1.0f + b * unit_power(x, c)) + d * x + e;
+}
+
+FN num sheen_shadow(num c, num alpha)
+{
+    num low = sheen_fit(min_of(c, num_of(0.5f)), alpha);
+    num high = 2.0f * sheen_fit(num_of(0.5f), alpha) - sheen_fit(min_of(1.0f - c, num_of(0.5f)), alpha);
+    return exp2_of(1.44269504f * pick(c < 0.5f, low, high));
+}
+
+FN num sheen_lobe(surface s, vec3 l, num roughness)
+{
+    num rough = max_of(roughness, num_of(ROUGHNESS_MIN));
+    num alpha = rough * rough;
+    num n_dot_l = cosine(dot3(s.n, l));
+    num n_dot_v = cosine(dot3(s.n, s.v));
+    vec3 sum = add3(l, s.v);
+    vec3 across = cross3(s.n, sum);
+    num square = dot3(sum, sum);
+    num sine_square = min_of(dot3(across, across) / max_of(square, num_of(1.0e-30f)), num_of(1.0f));
+    num spread = (2.0f + 1.0f / alpha) * unit_power(sine_square, 0.5f / alpha);
+    num shadow = 1.0f + sheen_shadow(positive(n_dot_v), alpha) + sheen_shadow(positive(n_dot_l), alpha);
+    num value = spread / (8.0f * max_of(n_dot_v, num_of(1.0e-4f)) * shadow);
+    return pick(both(both(n_dot_l > 0.0f, n_dot_v > 0.0f), square > 0.0f), value, num_of(0.0f));
+}
+
+// The share of light from everywhere that the sheen returns: the integral of S over all l, divided by pi.
+FN num sheen_albedo(num n_dot_v, num roughness)
+{
+    albedo_place p = albedo_place_of(n_dot_v, roughness);
+    num a = p.across;
+    num upper = sheen_texel(p.first) * (1.0f - a) + sheen_texel(p.first + 1.0f) * a;
+    num lower = sheen_texel(p.first + 32.0f) * (1.0f - a) + sheen_texel(p.first + 33.0f) * a;
+    return upper + (lower - upper) * p.down;
+}
+
+// The roughness with which tables of round lobes are read for a stretched one: alpha is the geometric mean.
+FN num mean_roughness(num roughness, num anisotropy)
+{
+    num rough = max_of(roughness, num_of(ROUGHNESS_MIN));
+    num alpha = rough * rough;
+    num longer = alpha + (1.0f - alpha) * anisotropy * anisotropy;
+    return square_root(square_root(alpha * longer));
+}
+
+// `scattering` is 0 without the light that mirrors send to one another.
+FN layered layered_of(surface s, layer_values m, int scattering, int set)
+{
+    layered y;
+    num n_dot_v = dot3(s.n, s.v);
+    y.dielectric = grey3(num_of(DIELECTRIC_F0));
+    y.grazing = num_of(1.0f);
+    if ((set & LAYER_DIELECTRIC) != 0) {
+        vec3 reflected = scale3(m.f0_color, boundary_f0(m.ior, num_of(1.0f)));
+        y.dielectric = scale3(min3(reflected, num_of(1.0f)), m.specular_weight);
+        y.grazing = m.specular_weight;
+    }
+    y.metal = m.base;
+    y.metallic = m.metallic;
+    y.roughness = m.roughness;
+    num rough = m.roughness;
+    y.alpha_t = num_of(1.0f);
+    y.alpha_b = num_of(1.0f);
+    y.stretch = m.stretch;
+    y.across = m.stretch;
+    if ((set & LAYER_ANISOTROPY) != 0) {
+        num least = max_of(m.roughness, num_of(ROUGHNESS_MIN));
+        y.alpha_b = least * least;
+        y.alpha_t = y.alpha_b + (1.0f - y.alpha_b) * m.anisotropy * m.anisotropy;
+        y.across = cross3(s.n, m.stretch);
+        rough = mean_roughness(m.roughness, m.anisotropy);
+    }
+    y.gain = num_of(0.0f);
+    y.coat_gain = num_of(0.0f);
+    if (scattering != 0) {
+        y.gain = scattering_gain(s, rough);
+    }
+    y.iridescence = m.iridescence;
+    y.iridescence_ior = max_of(m.iridescence_ior, num_of(1.0f));
+    y.film = m.film;
+    y.opaque = num_of(1.0f);
+    if ((set & LAYER_TRANSMISSION) != 0) {
+        y.opaque = 1.0f - m.transmission;
+    }
+    y.sheen_color = m.sheen_color;
+    y.sheen_largest = num_of(0.0f);
+    y.sheen_roughness = m.sheen_roughness;
+    y.sheen_left = num_of(1.0f);
+    if ((set & LAYER_SHEEN) != 0) {
+        y.sheen_largest = largest3(m.sheen_color);
+        y.sheen_left = positive(1.0f - y.sheen_largest * sheen_albedo(n_dot_v, m.sheen_roughness));
+    }
+    y.coat_normal = m.clearcoat_normal;
+    y.coat_roughness = m.clearcoat_roughness;
+    y.coat = num_of(0.0f);
+    if ((set & LAYER_CLEARCOAT) != 0) {
+        num along = absolute(cosine(dot3(s.v, m.clearcoat_normal)));
+        y.coat = m.clearcoat * (DIELECTRIC_F0 + (1.0f - DIELECTRIC_F0) * fifth_power(1.0f - along));
+        if (scattering != 0) {
+            y.coat_gain = DIELECTRIC_F0 * (1.0f / single_scattering(along, m.clearcoat_roughness) - 1.0f);
+        }
+    }
+    return y;
+}
+
+// Fresnel's factors under the angle between the eye and a mirror, of cosine `c` and Schlick's weight.
+FN vec3 layered_dielectric(layered m, num c, num weight, int set)
+{
+    vec3 f = fresnel_mix(m.dielectric, m.grazing, weight);
+    if ((set & LAYER_IRIDESCENCE) != 0) {
+        f = mix3(f, film_reflectance(m.dielectric, m.iridescence_ior, m.film, c), m.iridescence);
+    }
+    return f;
+}
+
+FN vec3 layered_metal(layered m, num c, num weight, int set)
+{
+    vec3 f = fresnel_mix(m.metal, num_of(1.0f), weight);
+    if ((set & LAYER_IRIDESCENCE) != 0) {
+        f = mix3(f, film_reflectance(m.metal, m.iridescence_ior, m.film, c), m.iridescence);
+    }
+    return f;
+}
+
+// Both, mixed, each with the light between its own mirrors.
+FN vec3 layered_mix(layered m, vec3 dielectric, vec3 metal)
+{
+    vec3 one = grey3(num_of(1.0f));
+    vec3 d = mul3(dielectric, add3(one, scale3(m.dielectric, m.gain)));
+    vec3 c = mul3(metal, add3(one, scale3(m.metal, m.gain)));
+    return mix3(d, c, m.metallic);
+}
+
+// The light of one direction:
+//     base   = (1 - metallic) ((1 - max F_d) (1 - transmission) n.l, F_d S) + metallic F_m S
+//     sheen  = sheen_color S_s + base min(1 - max sheen_color E(n.v), 1 - max sheen_color E(n.l))
+//     coated = clearcoat F(n_c.v) S_c + (1 - clearcoat F(n_c.v)) sheen
+FN layered_value layered_light(surface s, layered m, vec3 l, int set)
+{
+    layered_value r;
+    vec3 sum = add3(l, s.v);
+    num v_dot_h = min_of(0.5f * square_root(dot3(sum, sum)), num_of(1.0f));
+    num weight = fifth_power(1.0f - v_dot_h);
+    vec3 dielectric = layered_dielectric(m, v_dot_h, weight, set);
+    vec3 metal = layered_metal(m, v_dot_h, weight, set);
+    num lambert = positive(cosine(dot3(s.n, l)));
+    lobe_sample b = ggx_lobe(s, l, m.roughness);
+    num strength = pick(b.lit, b.base, num_of(0.0f));
+    if ((set & LAYER_ANISOTROPY) != 0) {
+        strength = stretched_lobe(s, l, m);
+    }
+    r.diffuse = lambert * positive(1.0f - largest3(dielectric)) * m.opaque;
+    r.specular = scale3(layered_mix(m, dielectric, metal), strength);
+    if ((set & LAYER_SHEEN) != 0) {
+        num left = positive(1.0f - m.sheen_largest * sheen_albedo(positive(dot3(s.n, l)), m.sheen_roughness));
+        left = min_of(left, m.sheen_left);
+        r.diffuse = r.diffuse * left;
+        r.specular = add3(scale3(r.specular, left), scale3(m.sheen_color, sheen_lobe(s, l, m.sheen_roughness)));
+    }
+    if ((set & LAYER_CLEARCOAT) != 0) {
+        surface top = s;
+        top.n = m.coat_normal;
+        lobe_sample c = ggx_lobe(top, l, m.coat_roughness);
+        num mirrored = m.coat * (1.0f + m.coat_gain) * pick(c.lit, c.base, num_of(0.0f));
+        r.diffuse = r.diffuse * (1.0f - m.coat);
+        r.specular = add3(scale3(r.specular, 1.0f - m.coat), grey3(mirrored));
+    }
+    return r;
+}
+
+// Adds spot * attenuation * (kd * Ld D + Ls S).
+FN terms add_layered(terms sum, light_source light, light_sample t, layered_value r)
+{
+    num arriving = t.attenuation * t.spot;
+    sum.diffuse = add3(sum.diffuse, scale3(light.diffuse, arriving * r.diffuse));
+    sum.specular = add3(sum.specular, scale3(mul3(light.specular, r.specular), arriving));
+    return sum;
+}
+
+// The terms that no direction belongs to: the surface's own light under the coat, and ambient light.
+FN terms cover_terms(terms sum, layered m, int set)
+{
+    if ((set & LAYER_TRANSMISSION) != 0) {
+        sum.ambient = scale3(sum.ambient, m.opaque + (1.0f - m.opaque) * m.metallic);
+    }
+    if ((set & LAYER_SHEEN) != 0) {
+        sum.ambient = scale3(sum.ambient, m.sheen_left);
+    }
+    if ((set & LAYER_CLEARCOAT) != 0) {
+        sum.ambient = scale3(sum.ambient, 1.0f - m.coat);
+        sum.emission = scale3(sum.emission, 1.0f - m.coat);
+    }
+    return sum;
+}
+
+// The surface whose mirror image of the eye stands for a stretched highlight: its normal is bent towards the eye, across
+// the direction of the stretch (KHR_materials_anisotropy, image-based lighting).
+FN surface bent_surface(surface s, layered m, num anisotropy)
+{
+    vec3 bent = unit3(cross3(cross3(m.across, s.v), m.across));
+    num straight = 1.0f - anisotropy * (1.0f - m.roughness);
+    straight = straight * straight * (straight * straight);
+    s.n = unit3(mix3(bent, s.n, straight));
+    return s;
+}
+
+FN surface coat_surface(surface s, layered m)
+{
+    s.n = m.coat_normal;
+    return s;
+}
+
+// Light from all around: the split sum of each layer. The sheen takes the mean of the light above the surface.
+FN vec3 layered_surroundings(surface s, layered m, vec3 kd, surroundings e, surroundings top, int set)
+{
+    num c = saturate(dot3(s.n, s.v));
+    num scale = e.albedo - e.bias;
+    vec3 d = add3(scale3(m.dielectric, scale), grey3(m.grazing * e.bias));
+    vec3 f = add3(scale3(m.metal, scale), grey3(e.bias));
+    if ((set & LAYER_IRIDESCENCE) != 0) {
+        vec3 film_d = scale3(film_reflectance(m.dielectric, m.iridescence_ior, m.film, c), e.albedo);
+        vec3 film_m = scale3(film_reflectance(m.metal, m.iridescence_ior, m.film, c), e.albedo);
+        d = mix3(d, film_d, m.iridescence);
+        f = mix3(f, film_m, m.iridescence);
+    }
+    num matt = positive(1.0f - largest3(d)) * m.opaque;
+    vec3 light = mul3(scale3(kd, matt), e.irradiance);
+    light = add3(light, mul3(layered_mix(m, d, f), e.prefiltered));
+    if ((set & LAYER_SHEEN) != 0) {
+        vec3 fibres = scale3(m.sheen_color, sheen_albedo(dot3(s.n, s.v), m.sheen_roughness));
+        light = add3(scale3(light, m.sheen_left), mul3(fibres, e.irradiance));
+    }
+    if ((set & LAYER_CLEARCOAT) != 0) {
+        num mirrored = m.coat * (1.0f + m.coat_gain) * top.albedo;
+        light = add3(scale3(light, 1.0f - m.coat), scale3(top.prefiltered, mirrored));
+    }
+    return light;
+}
+
+// What a surface lets through of the light behind it, straight ahead: (1 - max F_d) transmission base, times the volume's
+// attenuation, under sheen and coat.
+FN vec3 layered_transmittance(surface s, layered m, layer_values given, int set)
+{
+    num c = absolute(cosine(dot3(s.n, s.v)));
+    vec3 dielectric = layered_dielectric(m, c, fifth_power(1.0f - c), set);
+    num entering = positive(1.0f - largest3(dielectric)) * (1.0f - m.metallic) * (1.0f - m.opaque);
+    vec3 through = scale3(given.base, entering);
+    if ((set & LAYER_VOLUME) != 0) {
+        vec3 left = scale3(given.attenuation_log, given.path);
+        through = mul3(through, vec3_of(exp2_of(left.x), exp2_of(left.y), exp2_of(left.z)));
+    }
+    if ((set & LAYER_SHEEN) != 0) {
+        through = scale3(through, m.sheen_left);
+    }
+    if ((set & LAYER_CLEARCOAT) != 0) {
+        through = scale3(through, 1.0f - m.coat);
+    }
+    return through;
+}
+
+// --- C only: the text of GLSL ends here (src/glsl/embed.py).
+
+// The numbers of a material that hold everywhere. Its base colour, the coat's normal and the direction of the stretch belong
+// to a point.
+LANE_FN layer_values layers_of(const lam_material *m)
+{
+    layer_values y;
+    vec3 zero = vec3_of(num_of(0.0f), num_of(0.0f), num_of(0.0f));
+    y.base = vec3_of(num_of(m->diffuse.r), num_of(m->diffuse.g), num_of(m->diffuse.b));
+    y.metallic = num_of(m->metallic);
+    y.roughness = num_of(m->roughness);
+    y.ior = num_of(m->ior);
+    y.specular_weight = num_of(m->specular_weight);
+    y.f0_color = vec3_of(num_of(m->f0_color.r), num_of(m->f0_color.g), num_of(m->f0_color.b));
+    y.clearcoat = num_of(m->clearcoat);
+    y.clearcoat_roughness = num_of(m->clearcoat_roughness);
+    y.clearcoat_normal = zero;
+    y.sheen_color = vec3_of(num_of(m->sheen_color.r), num_of(m->sheen_color.g), num_of(m->sheen_color.b));
+    y.sheen_roughness = num_of(m->sheen_roughness);
+    y.anisotropy = num_of(m->anisotropy);
+    y.stretch = zero;
+    y.iridescence = num_of(m->iridescence);
+    y.iridescence_ior = num_of(m->iridescence_ior);
+    y.film = num_of(m->iridescence_thickness_max);
+    y.transmission = num_of(m->transmission);
+    y.path = num_of(0.0f);
+    y.attenuation_log = zero;
+    return y;
+}

@@ -89,7 +89,8 @@ struct frame {
     bool match_highlights, gl1, single_scattering;
     bool shadows; // a light casts shadows, and the output shows it
     bool flat_terminator;
-    int shadow_samples; // of a light with a radius
+    int shadow_samples;        // of a light with a radius
+    double eye_to_world[3][4]; // with shadows only
     lam_output output;
     // Largest sum, as a fraction of the encoded range, of the lights that a point may skip; 0: no light is skipped.
     float light_cutoff;

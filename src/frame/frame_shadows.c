@@ -59,6 +59,7 @@ void frame_shadows_build(struct frame *frame, const lam_scene *scene, const lam_
     lam_mat4 eye_to_world = lam_mat4_identity();
     mat4_inverse_affine(view, &eye_to_world); // a rotation and a translation
     bool any = false;
+    memcpy(frame->eye_to_world, eye_to_world.m, sizeof frame->eye_to_world);
     for (int i = 0; i < frame->light_count; i++) {
         struct frame_light *light = &frame->lights[i];
         const lam_light *source = light->source;

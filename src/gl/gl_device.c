@@ -58,6 +58,7 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->group_count = wanted.group_count;
     c->light_count = wanted.light_count;
     c->hemisphere_count = wanted.hemisphere_count;
+    c->shadows = f->frame->shadows && c->light_count && c->reflection != LAM_REFLECTION_NONE;
 }
 
 // The mesh of a draw, without the texture coordinates that no map reads.
@@ -87,7 +88,7 @@ static enum vertex_form form_of(const struct gl_frame *f, const struct frame_dra
         return (frame->flat_normal == LAM_FLAT_NORMAL_VERTEX || draw->strokes) && draw->mesh->normals ? FORM_FLAT_VERTEX
                                                                                                       : FORM_FLAT_FACE;
     // Shaders number triangles by gl_VertexID / 3. A vertex lit for two materials has two colours.
-    bool counts = f->layered || frame->output == LAM_OUTPUT_IDS;
+    bool counts = f->layered || frame->output == LAM_OUTPUT_IDS || frame->shadows;
     bool two = f->stage == LAM_STAGE_APPLICATION && draw_all > 1;
     return counts || two || !mesh_can_share(mesh) ? FORM_CORNERS : FORM_SHARED;
 }
@@ -168,6 +169,8 @@ static bool set_up(struct gl_frame *f, lam_error *error)
         return true;
     if (frame->environment_lights &&
         !(f->environment_light = environment_light(frame->environment, NULL, f->call, error)))
+        return false;
+    if (frame->shadows && !shadows_send(f, error))
         return false;
     struct glsl_choices any;
     choices_of(f, &frame->ranges[0], &any);
@@ -300,7 +303,8 @@ static uint64_t gl_memory(const struct lam_device *base)
 {
     const struct gl_device *device = (const struct gl_device *)base;
     uint64_t bytes = device->scratch.capacity + device->runs.capacity + device->pixels.capacity +
-                     device->draw_calls.capacity + device->environment_bytes + device->target_bytes;
+                     device->draw_calls.capacity + device->environment_bytes + device->target_bytes +
+                     device->shadow_bytes + hierarchy_bytes(&device->hierarchy);
     const struct gl_light_buffer *lists[] = {&device->lights, &device->products};
     for (int i = 0; i < 2; i++)
         bytes += lists[i]->shadow.capacity + lists[i]->next.capacity + lists[i]->size;
@@ -324,6 +328,7 @@ static void gl_free(struct lam_device *base)
         vertex_lighting_free(device);
         programs_free(device);
         light_buffers_free(device);
+        shadows_free(device);
         targets_free(device);
         if (device->query)
             device->context.gl.DeleteQueries(1, &device->query);
@@ -364,7 +369,8 @@ static bool find_limits(struct gl_device *device, lam_error *error)
 
 lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
 {
-    static const struct device_type type = {.draw = gl_draw, .memory = gl_memory, .free = gl_free};
+    static const struct device_type type = {
+        .draw = gl_draw, .memory = gl_memory, .free = gl_free, .casts_shadows = true};
     static const lam_gl_params plain = {0};
     params = params ? params : &plain;
     if (!check_reserved("lam_gl_params", params, error))

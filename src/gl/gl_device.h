@@ -17,6 +17,7 @@
 #include "context.h"
 #include "device_type.h"
 #include "glsl.h"
+#include "hierarchy.h"
 
 enum {
     PART_SIZE_MAX = 2048, // largest width and height, in pixels, of a part of the picture that is drawn in one go
@@ -30,8 +31,9 @@ enum texture_unit {
     UNIT_OPAQUE_DEPTH_IDS, // of the opaque surfaces
     UNIT_ENVIRONMENT_LIGHT,
     UNIT_COPY,
-    UNIT_FIRST_MAP, // the maps of materials
-    UNIT_COUNT = 16 // every driver has as many (OpenGL 3.3 and ES 3.0, GL_MAX_TEXTURE_IMAGE_UNITS)
+    UNIT_SHADOW_TREE = UNIT_COPY, // no program reads both
+    UNIT_FIRST_MAP,               // the maps of materials
+    UNIT_COUNT = 16               // every driver has as many (OpenGL 3.3 and ES 3.0, GL_MAX_TEXTURE_IMAGE_UNITS)
 };
 enum block_point { POINT_LIGHTS, POINT_PRODUCTS, POINT_BACK_PRODUCTS, POINT_COUNT };
 
@@ -100,6 +102,8 @@ enum uniform {
     UNIFORM_NORMAL_MATRIX,
     UNIFORM_ENVIRONMENT_MATRIX,
     UNIFORM_OBJECT,
+    UNIFORM_SHADOW_MATRIX,
+    UNIFORM_SHADOW_PLACES,
     UNIFORM_HEAD, // one for each field of glsl_material_layout
     UNIFORM_BACK_HEAD = UNIFORM_HEAD + LAM_FIELDS_MAX,
     UNIFORM_ALPHA_CUTOFF = UNIFORM_BACK_HEAD + LAM_FIELDS_MAX,
@@ -201,7 +205,10 @@ struct gl_device {
     struct lam_environment *environment; // retained; its faces are in environment_texture
     GLuint environment_texture, environment_light_texture;
     const struct environment_light *environment_light; // in the texture; kept by `environment`
-    uint64_t environment_bytes, target_bytes;
+    struct hierarchy_memory hierarchy;
+    GLuint shadow_texture;  // the hierarchy
+    float shadow_places[2]; // first texel of the triangles, and of their places
+    uint64_t environment_bytes, target_bytes, shadow_bytes;
     struct gl_current_state current;
     struct buffer scratch;    // vertices before an upload
     struct buffer pixels;     // pixels after a readback
@@ -319,6 +326,13 @@ bool environment_send(struct gl_frame *f, lam_error *error);
 // Uploads f->environment_light, likewise.
 bool environment_light_send(struct gl_frame *f, lam_error *error);
 void light_buffers_free(struct gl_device *device);
+
+// --- gl_shadows.c
+// Uploads the hierarchy of a frame with shadows. LAM_UNSUPPORTED: shadows that this device does not draw.
+bool shadows_send(struct gl_frame *f, lam_error *error);
+// Sets what a program with shadows reads.
+void shadows_use(struct gl_frame *f, struct gl_program *program);
+void shadows_free(struct gl_device *device);
 
 // --- gl_targets.c
 bool targets_make(struct gl_frame *f, int width, int height, bool layered, lam_error *error);

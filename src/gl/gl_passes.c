@@ -119,6 +119,8 @@ static void issue_draw_call(struct gl_frame *f, const struct gl_draw_call *call)
     textures_use(f, call->program, call->range);
     if (call->program->choices.environment_light)
         gl_use_texture(f->device, UNIT_ENVIRONMENT_LIGHT, GL_TEXTURE_2D, f->device->environment_light_texture);
+    if (call->program->choices.shadows)
+        shadows_use(f, call->program);
     float object = (float)draw->object;
     program_set(f, call->program, UNIFORM_OBJECT, &object, 1);
     program_set_int(f, call->program, UNIFORM_FIRST_TRIANGLE, (int)draw->first_id);

@@ -13,6 +13,8 @@ static const char *const uniform_names[UNIFORM_COUNT] = {
     [UNIFORM_NORMAL_MATRIX] = "normal_matrix",
     [UNIFORM_ENVIRONMENT_MATRIX] = "environment_matrix",
     [UNIFORM_OBJECT] = "object",
+    [UNIFORM_SHADOW_MATRIX] = "shadow_matrix",
+    [UNIFORM_SHADOW_PLACES] = "shadow_places",
     [UNIFORM_FIRST_PRODUCT] = "first_product",
     [UNIFORM_BACK_FIRST_PRODUCT] = "back_first_product",
     [UNIFORM_FIRST_TRIANGLE] = "first_triangle",
@@ -109,6 +111,9 @@ static bool find_uniforms(struct gl_frame *f, struct gl_program *program, lam_er
         if (at >= 0)
             gl->Uniform1i(at, unit);
     }
+    GLint tree = gl->GetUniformLocation(program->name, "shadow_tree");
+    if (tree >= 0)
+        gl->Uniform1i(tree, UNIT_SHADOW_TREE);
     static const char *const blocks[POINT_COUNT] = {"Lights", "Products", "BackProducts"};
     for (GLuint point = 0; point < POINT_COUNT; point++) {
         GLuint block = gl->GetUniformBlockIndex(program->name, blocks[point]);

@@ -1,6 +1,8 @@
-//@if depth_ids
+//@if numbers_triangles
 
 uniform int first_triangle; // number of the draw's first triangle
+//@end
+//@if depth_ids
 //@if peels
 uniform usampler2D nearer_depth_ids; // of the previous layer
 uniform usampler2D opaque_depth_ids;
@@ -103,6 +105,9 @@ void main()
         turn = -turn;
     }
 //@end
+//@end
+//@if shadows
+    lit_triangle = first_triangle + triangle;
 //@end
     vec4 light = light_point(@fragment_arguments@);
 //@else

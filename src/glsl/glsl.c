@@ -48,12 +48,21 @@ static void add_groups(struct text *text, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
     int first = 0;
+    if (c->shadows)
+        text_print(text, "    start_rays(s.p, lit_triangle, %s);\n",
+                   c->two_sided ? "gl_FrontFacing ? 1.0 : -1.0" : "1.0");
     for (int i = 0; f->adds_lights && i < c->group_count; i++) {
         const struct glsl_group *group = &c->groups[i];
         text_print(text, "    for (int i = %d; i < %d; i++) {\n", first, first + group->count);
         text_print(text, "        light_source light = light_of(i%s);\n", list_argument(f));
         text_print(text, "        light_sample t = toward_light(s.p, light, %s, %s);\n", kind_words[group->kind],
                    falloff_words[group->falloff]);
+        if (c->gl1)
+            text_print(text, "        sum = add_arriving_ambient(sum, ambient_of(i%s), t);\n", list_argument(f));
+        if (c->shadows)
+            text_print(text, "        t.attenuation = t.attenuation * passed_light(%s, light, t, %s, %s);\n",
+                       c->storage == GLSL_TEXTURE ? "list_texel(light_list, i * 4 + 1).w" : "lights[i].direction.w",
+                       f->tangent || f->layers ? "1.0" : "dot3(s.n, t.l)", kind_words[group->kind]);
         if (f->layers) {
             text_add(text, "        sum = add_layered(sum, light, t, layered_light(s, layering, t.l, 0));\n");
         } else {
@@ -63,8 +72,6 @@ static void add_groups(struct text *text, const struct glsl_facts *f)
             glsl_add_lobe(text, f);
             text_add(text, ");\n");
         }
-        if (c->gl1)
-            text_print(text, "        sum = add_arriving_ambient(sum, ambient_of(i%s), t);\n", list_argument(f));
         first += group->count;
         text_add(text, first < c->light_count ? "    }\n" : "    }");
     }
@@ -173,7 +180,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     bool clamped = c->gl1 && f->shading != LAM_SHADING_PHONG && output_is_picture(c->output);
     bool tints = c->colors && f->lit && !f->output_vector;
     bool eye = surface || c->output == LAM_OUTPUT_DEPTH;
-    bool triangle_ids = c->output == LAM_OUTPUT_IDS || c->layer != GLSL_NO_LAYERS;
+    bool triangle_ids = c->output == LAM_OUTPUT_IDS || c->layer != GLSL_NO_LAYERS || c->shadows;
     struct text groups = {0}, vector = {0}, attributes = {0}, chosen = {0}, metallic = {0}, roughness = {0},
                 alpha = {0}, of_material = {0}, layers = {0};
     bool samples = fragment && f->mapped, reads_maps = f->mapped && !f->output_vector;
@@ -253,6 +260,8 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"ids", c->output == LAM_OUTPUT_IDS},
         {"triangle_ids", triangle_ids},
         {"depth_ids", c->layer != GLSL_NO_LAYERS},
+        {"shadows", c->shadows},
+        {"numbers_triangles", c->layer != GLSL_NO_LAYERS || c->shadows},
         {"peels", c->layer == GLSL_PEELS},
         {"exposed", c->exposes && !f->output_vector && !f->output_material},
         {"toned", c->tone > LAM_TONE_NONE && !f->output_vector && !f->output_geometry && !f->output_material},
@@ -371,6 +380,8 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         preprocess_add(text, text_texture_glsl, &words);
         glsl_add_maps(text, f);
     }
+    if (lights_here && c->shadows)
+        preprocess_add(text, text_shadows_glsl, &words);
     if (lights_here)
         preprocess_add(text, text_lighting_glsl, &words);
     preprocess_add(text, text_interface_glsl, &words);
@@ -451,7 +462,7 @@ static char *make_stage(const struct glsl_facts *f, bool fragment, lam_error *er
     if (c->version == GLSL_300_ES && fragment && c->layer == GLSL_PEELS)
         text_add(&text, "precision highp usampler2D;\n");
     if (c->version == GLSL_300_ES &&
-        ((fragment == f->per_fragment && (c->storage == GLSL_TEXTURE || f->environment_light)) ||
+        ((fragment == f->per_fragment && (c->storage == GLSL_TEXTURE || f->environment_light || c->shadows)) ||
          (fragment && f->mapped)))
         text_add(&text, "precision highp sampler2D;\n");
     if (c->version == GLSL_300_ES && fragment == f->per_fragment && f->environment)

@@ -75,6 +75,7 @@ struct glsl_choices {
     bool distant_viewer;
     bool gl1;
     bool single_scattering;
+    bool shadows;       // walks the hierarchy in a texture (shadows.glsl); Phong shading, not in 120
     lam_tone tone;      // of GLSL_ENCODED; AUTO, NONE: the light is clamped
     bool exposes;       // the fragment multiplies its light by the uniform `exposure`
     bool products;      // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights

@@ -76,7 +76,7 @@ struct glsl_light glsl_light_of(const struct frame_light *light)
 {
     struct glsl_light out;
     set3(out.position, light->position, 1);
-    set3(out.direction, light->axis, 0);
+    set3(out.direction, light->axis, light->casts_shadows ? 1 : 0); // w: of shaders with shadows
     set3(out.attenuation, light->attenuation, light->inverse_range);
     const float cone[4] = {light->cos_cutoff, light->exponent, light->cos_outer, light->inverse_width};
     memcpy(out.cone, cone, sizeof cone);

@@ -224,7 +224,9 @@ static struct mask mask_of(const struct demo *demo)
     static lam_light lights[4096];
     int count = lam_draw_lights(demo->scene, demo->params.rig, lights, 4096);
     for (int i = 0; i < count && count <= 16 && demo->params.reflection != LAM_REFLECTION_NONE; i++) {
-        if (lights[i].type != LAM_LIGHT_SPOT)
+        bool casts =
+            demo->params.shadows && lights[i].type != LAM_LIGHT_AMBIENT && lights[i].type != LAM_LIGHT_HEMISPHERE;
+        if (lights[i].type != LAM_LIGHT_SPOT && !casts)
             continue;
         image = draw_output(demo, LAM_OUTPUT_LIGHT, i);
         mask_where(&mask, &image, differ_dark, 0);
@@ -337,8 +339,20 @@ static void check_scene(void **state)
         skip();
     if (!demo_build(row, &demo, &error))
         fail_msg("%s: %s", row->name, error.text);
-    // Textures under Gouraud shading, and shadows, are not drawn there yet.
-    if (strcmp(row->name, "textured-gouraud") == 0 || demo.params.shadows) {
+    // Textures under Gouraud shading, and shadows of these kinds, are not drawn there yet.
+    static const char *const not_yet[] = {"textured-gouraud", "shadows-gouraud", "shadows-soft", "shadows-leaves"};
+    bool refused = false;
+    for (size_t i = 0; i < sizeof not_yet / sizeof *not_yet; i++)
+        refused |= strcmp(row->name, not_yet[i]) == 0;
+    if (refused) {
+        lam_image image;
+        lam_image_make(&image, 8, 8, LAM_RGBA8, &error);
+        for (int i = 0; i < 2; i++)
+            if (gl[i]) {
+                assert_false(lam_draw(gl[i], demo.scene, &demo.camera, &demo.params, &image, NULL, &error));
+                assert_int_equal(error.code, LAM_UNSUPPORTED);
+            }
+        lam_image_free(&image);
         lam_scene_free(demo.scene);
         skip();
     }

@@ -1,0 +1,163 @@
+// gl_shadows.c: the hierarchy of a frame as a float texture, which the fragment shader walks (shadows.glsl).
+//
+// Texels: four for each node (the low and high corner of the left child with its number and its count of triangles, those of
+// the right), six for each triangle in the order of the leaves (corners, with the twin and a kind; normals of the corners,
+// unit), and a number for each triangle of the frame: its place in that order.
+#include "gl_device.h"
+
+#include "fail.h"
+
+#include <string.h>
+
+enum { WIDTH = GLSL_LIST_WIDTH, TEXEL = 4 * sizeof(float), NODE = 4, TRIANGLE = 6, STACK = 64 };
+enum { KIND_FLAT, KIND_CURVED, KIND_STROKE };
+
+// The nodes between the root and the deepest leaf.
+static int depth_of(const struct hierarchy *h)
+{
+    struct {
+        uint32_t node;
+        int depth;
+    } stack[2 * HIERARCHY_DEPTH] = {{0, 1}};
+    int deepest = 0;
+    for (int waiting = 1; waiting;) {
+        waiting--;
+        uint32_t node = stack[waiting].node;
+        int depth = stack[waiting].depth;
+        deepest = depth > deepest ? depth : deepest;
+        for (int i = 0; i < 2; i++)
+            if (!h->nodes[node].count[i]) {
+                stack[waiting].node = h->nodes[node].child[i];
+                stack[waiting++].depth = depth + 1;
+            }
+    }
+    return deepest;
+}
+
+static void pack_node(float *out, const struct ray_node *node)
+{
+    for (int i = 0; i < 2; i++) {
+        memcpy(out + 8 * i, node->low[i], 3 * sizeof *out);
+        memcpy(out + 8 * i + 4, node->high[i], 3 * sizeof *out);
+        out[8 * i + 3] = (float)node->child[i];
+        out[8 * i + 7] = (float)node->count[i];
+    }
+}
+
+static void pack_normal(float *out, const struct frame_draw *draw, uint32_t corner)
+{
+    const lam_mesh *mesh = draw->mesh;
+    uint32_t element = mesh->normal_indices ? mesh->normal_indices[corner]
+                       : mesh->indices      ? mesh->indices[corner]
+                                            : corner;
+    const float *n = mesh->normals + 3 * (size_t)element;
+    double to[3], square = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *row = draw->world_normal[i];
+        to[i] = (row[0] * (double)n[0] + row[1] * (double)n[1]) + row[2] * (double)n[2];
+        square += to[i] * to[i];
+    }
+    for (int i = 0; i < 3; i++)
+        out[i] = square > 0 ? (float)(to[i] / __builtin_sqrt(square)) : 0;
+}
+
+static void pack_triangle(float *out, const struct frame *frame, const struct ray_triangle *t)
+{
+    const struct frame_draw *draw = &frame->draws[frame->ranges[frame_range_of(frame, t->number)].draw];
+    bool curved = draw->mesh->normals && !draw->strokes;
+    for (uint32_t k = 0; k < 3; k++) {
+        for (int i = 0; i < 3; i++)
+            out[4 * k + (uint32_t)i] = (float)t->p[k][i];
+        if (curved)
+            pack_normal(out + 4 * (3 + k), draw, 3 * (t->number - draw->first_id) + k);
+    }
+    out[3] = (float)t->twin;
+    out[7] = draw->strokes ? KIND_STROKE : curved ? KIND_CURVED : KIND_FLAT;
+}
+
+static bool check(const struct frame *frame, lam_error *error)
+{
+    const char *what = frame->shading != LAM_SHADING_PHONG ? "flat and Gouraud shading" : NULL;
+    for (int i = 0; i < frame->light_count; i++)
+        what = frame->lights[i].casts_shadows && frame->lights[i].radius > 0 ? "lights with a radius" : what;
+    for (int i = 0; i < frame->range_count; i++)
+        what = frame->ranges[i].translucent ? "masked and translucent surfaces" : what;
+    return !what ||
+           fail(error, LAM_UNSUPPORTED, "OpenGL: this device draws no shadows with %s, the CPU device does", what);
+}
+
+bool shadows_send(struct gl_frame *f, lam_error *error)
+{
+    struct gl_device *device = f->device;
+    const struct frame *frame = f->frame;
+    const struct gl *gl = f->gl;
+    bool built;
+    uint64_t start = now_ns();
+    if (!check(frame, error))
+        return false;
+    const struct hierarchy *h = hierarchy_of_frame(&device->hierarchy, frame, NULL, f->call, &built, error);
+    if (!h)
+        return false;
+    device->base.report.hierarchy_ms = built ? (double)(now_ns() - start) * 1e-6 : 0;
+    // Triangles are counted in floats, and in texels of a texture.
+    size_t triangles = (size_t)NODE * h->node_count, places = triangles + (size_t)TRIANGLE * (h->triangle_count + 1);
+    size_t texels = places + h->triangle_count / 4 + 1, rows = (texels + WIDTH - 1) / WIDTH;
+    if (rows > (size_t)device->texture_size_max || texels > 1 << 24)
+        return fail(
+            error, LAM_LIMIT,
+            "OpenGL: the hierarchy of %u triangles needs a texture of %zu rows, this device can have %d; the CPU "
+            "device has no such limit",
+            h->triangle_count, rows,
+            device->texture_size_max < (1 << 24) / WIDTH ? device->texture_size_max : (1 << 24) / WIDTH);
+    if (built && depth_of(h) > STACK)
+        return fail(error, LAM_LIMIT, "OpenGL: the hierarchy is %d nodes deep, at most %d can be walked here",
+                    depth_of(h), STACK);
+    device->shadow_places[0] = (float)triangles;
+    device->shadow_places[1] = (float)places;
+    if (!built && device->shadow_texture)
+        return true;
+    size_t bytes = rows * WIDTH * TEXEL;
+    if (!gl_charge(f, &device->shadow_bytes, bytes, error) || !buffer_reserve(&device->scratch, bytes, f->call, error))
+        return false;
+    float *out = device->scratch.data;
+    memset(out, 0, bytes);
+    for (uint32_t i = 0; i < h->node_count; i++)
+        pack_node(out + (size_t)4 * NODE * i, &h->nodes[i]);
+    for (uint32_t i = 0; i < h->triangle_count; i++) {
+        pack_triangle(out + 4 * (triangles + (size_t)TRIANGLE * i), frame, &h->triangles[i]);
+        out[4 * places + h->triangles[i].number] = (float)i;
+    }
+    bool fresh = !device->shadow_texture;
+    if (fresh)
+        gl->GenTextures(1, &device->shadow_texture);
+    gl_use_texture(device, UNIT_SHADOW_TREE, GL_TEXTURE_2D, device->shadow_texture);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, WIDTH, (GLsizei)rows, 0, GL_RGBA, GL_FLOAT, out);
+    device->base.report.bytes_uploaded += bytes;
+    return true;
+}
+
+void shadows_use(struct gl_frame *f, struct gl_program *program)
+{
+    const struct hierarchy *h = &f->device->hierarchy.hierarchy;
+    float matrix[16] = {0},
+          places[4] = {f->device->shadow_places[0], f->device->shadow_places[1], f->frame->flat_terminator ? 0 : 1, 0};
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++)
+            matrix[4 * j + i] = (float)(f->frame->eye_to_world[i][j] * h->scale);
+        matrix[12 + i] = (float)((f->frame->eye_to_world[i][3] - h->centre[i]) * h->scale);
+    }
+    matrix[15] = 1;
+    gl_use_texture(f->device, UNIT_SHADOW_TREE, GL_TEXTURE_2D, f->device->shadow_texture);
+    program_set(f, program, UNIFORM_SHADOW_MATRIX, matrix, 16);
+    program_set(f, program, UNIFORM_SHADOW_PLACES, places, 4);
+}
+
+void shadows_free(struct gl_device *device)
+{
+    if (device->shadow_texture)
+        device->context.gl.DeleteTextures(1, &device->shadow_texture);
+    hierarchy_free(&device->hierarchy);
+}

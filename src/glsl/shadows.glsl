@@ -1,0 +1,146 @@
+
+// --- shadows: docs/lighting/shadows.md, in float
+
+uniform sampler2D shadow_tree; // nodes of the hierarchy, its triangles, and the place of each triangle by its number
+uniform mat4 shadow_matrix;    // eye space to the hierarchy's, where all triangles lie within -1...1
+uniform vec4 shadow_places;    // first texel of the triangles, and of the places; 1: the terminator is cured
+
+int lit_triangle; // number in the frame of the triangle that the fragment shows
+vec3 ray_origin;
+float ray_twin; // of the triangle that rays start on
+
+vec4 tree_texel(int i) { return texelFetch(shadow_tree, ivec2(i % 1024, i / 1024), 0); }
+
+vec3 moved_by(vec3 p, vec3 corner, vec3 n, float weight)
+{
+    return (weight * min(dot(p - corner, n), 0.0)) * n;
+}
+
+// Rays start at the point of a triangle next to p, a point in eye space. `side` is -1 where the back is seen and lit.
+void start_rays(vec3 p, int number, float side)
+{
+    vec4 four = tree_texel(int(shadow_places.y) + number / 4);
+    int within = number % 4;
+    float place = within == 0 ? four.x : (within == 1 ? four.y : (within == 2 ? four.z : four.w));
+    int at = int(shadow_places.x) + 6 * int(place);
+    vec4 a = tree_texel(at);
+    vec4 b = tree_texel(at + 1);
+    vec4 c = tree_texel(at + 2);
+    vec3 eye = (shadow_matrix * vec4(p, 1.0)).xyz;
+    ray_origin = eye;
+    ray_twin = a.w;
+    if (b.w > 1.5) { // a line or a point
+        return;
+    }
+    vec3 e1 = b.xyz - a.xyz;
+    vec3 e2 = c.xyz - a.xyz;
+    vec3 q = eye - a.xyz;
+    float d11 = dot(e1, e1);
+    float d12 = dot(e1, e2);
+    float d22 = dot(e2, e2);
+    float det = d11 * d22 - d12 * d12;
+    float b1 = det > 0.0 ? max((d22 * dot(q, e1) - d12 * dot(q, e2)) / det, 0.0) : 0.0;
+    float b2 = det > 0.0 ? max((d11 * dot(q, e2) - d12 * dot(q, e1)) / det, 0.0) : 0.0;
+    float total = max(b1 + b2, 1.0);
+    b1 = b1 / total;
+    b2 = b2 / total;
+    ray_origin = a.xyz + (e1 * b1 + e2 * b2);
+    if (b.w > 0.5 && shadow_places.z > 0.5) {
+        vec3 moved = moved_by(ray_origin, a.xyz, side * tree_texel(at + 3).xyz, 1.0 - b1 - b2)
+                   + moved_by(ray_origin, b.xyz, side * tree_texel(at + 4).xyz, b1)
+                   + moved_by(ray_origin, c.xyz, side * tree_texel(at + 5).xyz, b2);
+        ray_origin = ray_origin - moved;
+    }
+}
+
+// Whether a box is in the way of the ray from ray_origin; `reach` is more than what rounding can move its planes.
+bool meets_box(vec3 low, vec3 high, vec3 inverse, float end, float reach)
+{
+    vec3 u = (low - ray_origin - reach) * inverse;
+    vec3 v = (high - ray_origin + reach) * inverse;
+    vec3 near = min(u, v);
+    vec3 far = max(u, v);
+    return max(max(near.x, near.y), max(near.z, 0.0)) <= min(min(far.x, far.y), min(far.z, end));
+}
+
+// Whether a triangle is in the way of the ray from ray_origin along d, whose component k is the largest.
+bool crosses(int at, vec3 d, int k, float end)
+{
+    vec4 corner = tree_texel(at);
+    if (corner.w == ray_twin) {
+        return false;
+    }
+    int i = k == 2 ? 0 : k + 1;
+    int j = k == 0 ? 2 : k - 1;
+    vec3 a = corner.xyz - ray_origin;
+    vec3 b = tree_texel(at + 1).xyz - ray_origin;
+    vec3 c = tree_texel(at + 2).xyz - ray_origin;
+    vec2 slope = vec2(d[i], d[j]) / d[k];
+    vec2 p = vec2(a[i], a[j]) - slope * a[k];
+    vec2 q = vec2(b[i], b[j]) - slope * b[k];
+    vec2 r = vec2(c[i], c[j]) - slope * c[k];
+    float u = q.x * r.y - q.y * r.x;
+    float v = r.x * p.y - r.y * p.x;
+    float w = p.x * q.y - p.y * q.x;
+    float det = u + v + w;
+    if ((min(min(u, v), w) < 0.0 && max(max(u, v), w) > 0.0) || det == 0.0) {
+        return false;
+    }
+    float t = (u * a[k] + v * b[k] + w * c[k]) / (d[k] * det);
+    return t > 0.0 && t < end;
+}
+
+bool any_hit(vec3 d, float end)
+{
+    ivec2 stack[64];
+    int waiting = 0;
+    ivec2 entry = ivec2(0); // a node, or the first triangle of a leaf and their number
+    vec3 size = abs(d);
+    int k = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+    vec3 least = vec3(d.x < 0.0 ? -1.0e-30 : 1.0e-30, d.y < 0.0 ? -1.0e-30 : 1.0e-30, d.z < 0.0 ? -1.0e-30 : 1.0e-30);
+    vec3 inverse = 1.0 / vec3(size.x < 1.0e-30 ? least.x : d.x, size.y < 1.0e-30 ? least.y : d.y,
+                              size.z < 1.0e-30 ? least.z : d.z);
+    float reach = 1.0e-6 * (1.0 + max(max(abs(ray_origin.x), abs(ray_origin.y)), abs(ray_origin.z)));
+    int first = int(shadow_places.x);
+    while (true) {
+        if (entry.y == 0) {
+            vec4 low = tree_texel(4 * entry.x);
+            vec4 high = tree_texel(4 * entry.x + 1);
+            vec4 right_low = tree_texel(4 * entry.x + 2);
+            vec4 right_high = tree_texel(4 * entry.x + 3);
+            bool left = meets_box(low.xyz, high.xyz, inverse, end, reach);
+            bool right = meets_box(right_low.xyz, right_high.xyz, inverse, end, reach);
+            if (left && right) {
+                stack[waiting] = ivec2(int(right_low.w), int(right_high.w));
+                waiting = waiting + 1;
+            }
+            if (left || right) {
+                entry = left ? ivec2(int(low.w), int(high.w)) : ivec2(int(right_low.w), int(right_high.w));
+                continue;
+            }
+        } else {
+            for (int i = 0; i < entry.y; i++) {
+                if (crosses(first + 6 * (entry.x + i), d, k, end)) {
+                    return true;
+                }
+            }
+        }
+        if (waiting == 0) {
+            return false;
+        }
+        waiting = waiting - 1;
+        entry = stack[waiting];
+    }
+    return false;
+}
+
+// The share of a light that reaches the point. `casts` is the light's own flag. Where it does not shine no ray is needed.
+float passed_light(float casts, light_source light, light_sample t, float n_dot_l, int kind)
+{
+    if (casts < 0.5 || !(n_dot_l > 0.0) || !(t.attenuation * t.spot > 0.0)) {
+        return 1.0;
+    }
+    bool hit = kind == LIGHT_DIRECTIONAL ? any_hit(-(mat3(shadow_matrix) * light.direction), 1.0e30)
+                                         : any_hit((shadow_matrix * vec4(light.position, 1.0)).xyz - ray_origin, 1.0);
+    return hit ? 0.0 : 1.0;
+}

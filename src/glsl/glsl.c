@@ -59,6 +59,8 @@ static void add_groups(struct text *text, const struct glsl_facts *f)
                    falloff_words[group->falloff]);
         if (c->gl1)
             text_print(text, "        sum = add_arriving_ambient(sum, ambient_of(i%s), t);\n", list_argument(f));
+        if (c->passed)
+            text_add(text, "        t.attenuation = t.attenuation * passed_light(i, s.p);\n");
         if (c->shadows)
             text_print(text, "        t.attenuation = t.attenuation * passed_light(%s, light, t, %s, %s);\n",
                        c->storage == GLSL_TEXTURE ? "list_texel(light_list, i * 4 + 1).w" : "lights[i].direction.w",
@@ -261,6 +263,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"triangle_ids", triangle_ids},
         {"depth_ids", c->layer != GLSL_NO_LAYERS},
         {"shadows", c->shadows},
+        {"passes_lights", c->passed},
         {"numbers_triangles", c->layer != GLSL_NO_LAYERS || c->shadows},
         {"peels", c->layer == GLSL_PEELS},
         {"exposed", c->exposes && !f->output_vector && !f->output_material},

@@ -75,6 +75,7 @@ struct glsl_choices {
     bool distant_viewer;
     bool gl1;
     bool single_scattering;
+    bool passed;        // of each light a share is taken, a uniform that the program sets (texels: position.w)
     bool shadows;       // walks the hierarchy in a texture (shadows.glsl); Phong shading, not in 120
     lam_tone tone;      // of GLSL_ENCODED; AUTO, NONE: the light is clamped
     bool exposes;       // the fragment multiplies its light by the uniform `exposure`

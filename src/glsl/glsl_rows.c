@@ -249,6 +249,10 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
             set_meaning(&list, "hemisphere lights");
         }
     }
+    if (c->passed && f->lights && c->storage != GLSL_TEXTURE) {
+        add(&list, GLSL_PASSED, "float", c->light_count, NULL, "passed");
+        set_meaning(&list, "the share of each light that nothing keeps from the surface, 0...1");
+    }
     for (int back = 0; back <= f->back_material; back++) {
         if (c->products) {
             add_products(&list, f, back);

@@ -20,6 +20,7 @@ enum glsl_semantic {
     GLSL_AMBIENT_LIGHT,
     GLSL_LIGHTS,      // array of structs
     GLSL_HEMISPHERES, // array of structs
+    GLSL_PASSED,      // array of the lights' shares that nothing keeps from the surface
     GLSL_MATERIAL,    // struct
     GLSL_HEAD,        // a field of the material, beside the products
     GLSL_DIFFUSE_PRODUCT,

@@ -187,6 +187,19 @@ light_source light_of(int i@list_parameter@)
 //@end
     return light;
 }
+//@if passes_lights
+
+// The share of light i that reaches the point p in eye space: 1 where nothing is in the way. The program sets it for a whole
+// draw; a shadow map of its own is looked up here.
+float passed_light(int i, vec3 p)
+{
+//@if texture
+    return list_texel(light_list, i * @light_texels@).w;
+//@else
+    return passed[i];
+//@end
+}
+//@end
 //@if gl1
 
 // The ambient term of light i before attenuation: ka La.

@@ -138,6 +138,7 @@ static bool choose(struct build *m, const lam_draw_params *draw, int object, con
     if (c->encoding == GLSL_ENCODED)
         c->tone = m->frame.tone;
     c->products = params->products;
+    c->passed = m->frame.shadows && c->light_count && c->reflection != LAM_REFLECTION_NONE;
     if (c->environment)
         c->environment = GLSL_CUBE;
     m->facts = glsl_facts_of(c);
@@ -254,6 +255,9 @@ static int value_of(const struct build *m, const struct frame_draw_range *range,
         return 1;
     case GLSL_OBJECT:
         out[0] = (float)draw->object;
+        return 1;
+    case GLSL_PASSED:
+        out[0] = 1;
         return 1;
     case GLSL_EXPOSURE:
         out[0] = frame->exposure;

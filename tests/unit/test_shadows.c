@@ -332,6 +332,68 @@ static void test_convex(void **unused)
         }
 }
 
+// Models of files: pixels that alone are dark among neighbours that are lit. Most of them are tips of true shadows; rays that
+// met what they start on would make many times as many.
+static void test_models(void **unused)
+{
+    (void)unused;
+    static const char *const names[] = {"obj/cat/cat-low-resolution.obj",
+                                        "obj/koala/koala.obj",
+                                        "obj/boat/boat.obj",
+                                        "obj/fish/fish.obj",
+                                        "obj/spot/spot.obj",
+                                        "stl/trimesh/featuretype.stl",
+                                        "ply/trimesh/featuretype.ply",
+                                        "stl/trimesh/20mm-xyz-cube.stl",
+                                        "obj/cornell_box/cornell_box.obj"};
+    enum { SIDE = 512 };
+    static uint8_t dark[SIDE * SIDE], lit[SIDE * SIDE];
+    const char *folder = getenv("LAMBENT_MODELS");
+    int models = 0;
+    double alone = 0, covered = 0;
+    for (size_t m = 0; m < sizeof names / sizeof *names; m++) {
+        char path[512];
+        snprintf(path, sizeof path, "%s/%s", folder ? folder : ".", names[m]);
+        lam_scene *scene = lam_scene_load(path, NULL, NULL, &error);
+        if (!scene)
+            continue;
+        models++;
+        lam_light l = *sun();
+        l.frame = LAM_FRAME_CAMERA;
+        l.direction = (lam_vec3){-0.4, -0.7, -0.6};
+        lam_scene_clear_lights(scene);
+        lam_scene_add_light(scene, &l, &error);
+        camera = lam_camera_fit(scene, SIDE, SIDE, NULL);
+        lam_image image[2] = {{0}};
+        for (int i = 0; i < 2; i++) {
+            lam_draw_params params = {
+                .samples = 1, .shadows = i, .output = LAM_OUTPUT_LIGHT, .reflection = LAM_REFLECTION_LAMBERT};
+            assert_true(lam_image_make(&image[i], SIDE, SIDE, LAM_RGBA32F, &error));
+            assert_true(lam_draw(device(), scene, &camera, &params, &image[i], NULL, &error));
+        }
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            const float *a = (const float *)image[0].pixels + 4 * i, *b = (const float *)image[1].pixels + 4 * i;
+            lit[i] = a[0] > 0.02f;
+            dark[i] = lit[i] && b[0] < 0.5f * a[0];
+            covered += a[3] > 0;
+        }
+        for (int y = 1; y < SIDE - 1; y++)
+            for (int x = 1; x < SIDE - 1; x++) {
+                int others = 0, i = y * SIDE + x;
+                for (int k = 0; k < 9; k++)
+                    others += dark[i + (k / 3 - 1) * SIDE + k % 3 - 1];
+                alone += dark[i] && others == 1;
+            }
+        lam_image_free(&image[0]);
+        lam_image_free(&image[1]);
+        lam_scene_free(scene);
+    }
+    if (!models)
+        skip();
+    print_message("%d models: %g of %g pixels alone are dark\n", models, alone, covered);
+    assert_true(alone <= 1e-4 * covered);
+}
+
 // A box that stands on the floor: the shadow begins at its foot, and the floor beside it is lit up to the edge.
 static void test_contact(void **unused)
 {
@@ -412,6 +474,7 @@ int main(void)
         cmocka_unit_test(test_layers),  cmocka_unit_test(test_sides), cmocka_unit_test(test_lights),
         cmocka_unit_test(test_kinds),   cmocka_unit_test(test_soft),  cmocka_unit_test(test_convex),
         cmocka_unit_test(test_contact), cmocka_unit_test(test_twins), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_models),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,76 @@
+# test_shadows.py: --shadows and what belongs to it.
+import json
+import unittest
+
+from harness import Case, pixel
+
+SCENE = {"lambent": 1, "image": {"size": [64, 64], "samples": 1}, "camera": {"eye": [0, 8, 0.01], "target": [0, 0, 0], "ortho_half_height": 4},
+         "shadows": True,
+         "objects": [{"name": "floor", "shape": "plane", "transform": [["scale", 4, 1, 4]]},
+                     {"name": "box", "shape": "cube", "transform": [["translate", 0, 1, 0], ["scale", 0.5, 0.5, 0.5]]}],
+         "lights": [{"name": "sun", "type": "directional", "direction": [1, -1, 0]}]}
+SHADOW, LIT = (44, 32), (10, 32)  # beside the box, where its shadow falls and where not
+
+
+class Shadows(Case):
+    def scene(self, name="shadows.json", **more):
+        (self.folder / name).write_text(json.dumps({**SCENE, **more}))
+        self.given.add(name)
+        return name
+
+    def test_scene_and_option(self):
+        dark = self.png(self.scene())
+        self.assertEqual(pixel(dark, *SHADOW)[:3], (0, 0, 0))
+        self.assertGreater(pixel(dark, *LIT)[0], 50)
+        plain = self.scene("plain.json", shadows=False)
+        self.assertEqual(pixel(self.png(plain), *SHADOW), pixel(self.png(plain), *LIT))
+        self.assertEqual(self.png(plain, "--shadows"), dark)
+        off = self.scene("off.json", lights=[{**SCENE["lights"][0], "shadows": False}])
+        self.assertEqual(self.png(off), self.png(plain))
+
+    def test_every_isa_and_thread_count(self):
+        first = self.png(self.scene(), "--isa", "scalar", "--threads", "1")
+        self.assertEqual(self.png(self.scene(), "--threads", "3"), first)
+
+    def test_saved_scene_is_the_same(self):
+        scene = self.scene(lights=[{"type": "directional", "direction": [1, -1, 0], "radius": 5}], shadow_samples=7, shadow_terminator=False)
+        first = self.png(scene, "--save-scene", "saved.json")
+        saved = json.loads((self.folder / "saved.json").read_text())
+        self.assertEqual((saved["shadows"], saved["shadow_samples"], saved["shadow_terminator"], saved["lights"][0]["radius"]), (True, 7, False, 5))
+        self.assertEqual(self.png("saved.json"), first)
+
+    def test_light_option(self):
+        dark = self.png("teapot", "-s", "64", "--shadows", "--light", "directional:direction=-1/-1/0")
+        self.assertNotEqual(dark, self.png("teapot", "-s", "64", "--light", "directional:direction=-1/-1/0"))
+        self.assertEqual(self.png("teapot", "-s", "64", "--light", "directional:direction=-1/-1/0"),
+                         self.png("teapot", "-s", "64", "--shadows", "--light", "directional:direction=-1/-1/0,shadows=no"))
+
+    def test_explained(self):
+        told = json.loads(self.good("explain", self.scene(), "%d,%d" % SHADOW, "--json").stdout)
+        light = told["triangles"][0]["points"][0]["lights"][0]
+        self.assertEqual((light["casts_shadows"], light["passed"], light["in_the_way"]["object"]), (True, [0, 0, 0], 1))
+        self.assertGreater(light["in_the_way"]["distance"], 0.1)
+        text = self.good("explain", self.scene(), "%d,%d" % SHADOW).stdout.decode()
+        self.assertIn("of object 1 is in the way", text)
+        self.assertIn("nothing is in the way", self.good("explain", self.scene(), "%d,%d" % LIT).stdout.decode())
+        self.assertNotIn("in the way", self.good("explain", self.scene(shadows=False), "%d,%d" % LIT).stdout.decode())
+
+    def test_show(self):
+        for term in ("diffuse", "specular", "light:sun"):
+            self.assertEqual(pixel(self.png(self.scene(), "--show", term), *SHADOW)[:3], (0, 0, 0), term)
+        lit = self.scene("ambient.json", ambient=[0.5, 0.5, 0.5])
+        picture = self.png(lit, "--show", "ambient")
+        self.assertEqual(pixel(picture, *SHADOW), pixel(picture, *LIT))
+
+    def test_what_is_refused(self):
+        self.bad(1, self.scene(), "--shadow-samples", "0", says="1 to 256")
+        self.bad(1, self.scene(), "--shadow-terminator", "maybe", says="on")
+        self.bad(1, "teapot", "--light", "directional:radius=1r", says="0 to 89 degrees")
+        self.bad(1, "teapot", "--light", "point:radius=-1", says="at least 0")
+        self.bad(1, "teapot", "--light", "ambient:radius=1", says="no 'radius'")
+        self.bad(2, self.scene("bad.json", shadows=1), says="shadows")
+        self.bad(2, self.scene("bad.json", lights=[{"type": "point", "radius": -1}]), says="radius")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -43,7 +43,8 @@ def measured(row):
         return ", ".join("%s: %.1f GB/s" % (word, row["rates"][word + ", lambent"]["median"]) for word in ("1M", "10M"))
     if "over_ms" in row:
         return "%s ms" % ms(row["over_ms"]["median"])
-    cells = ["%s: %s" % (ISA_NAMES.get(isa, isa), times(r["median"])) for isa, r in row["ratio"].items() if isa in ISA_NAMES or "bytes" in row]
+    decides = row["cpu_ratio"] if "CPU time" in row["target"] else row["ratio"]
+    cells = ["%s: %s" % (ISA_NAMES.get(isa, isa), times(r["median"])) for isa, r in decides.items() if isa in ISA_NAMES or "bytes" in row]
     if "besides_encoder_ms" in row and row["name"] in ("whole spot", "whole teapot"):
         cells.append("%s ms besides the encoder" % ms(row["besides_encoder_ms"]))
     return ", ".join(cells)
@@ -80,7 +81,7 @@ def beside(row):
             word, times(row["ratio"][word]["median"])[:-2], row["rates"][word + ", copy"]["median"], row["rates"][word + ", touch"]["median"],
             ms(row["ms"][word + ", normals"]["median"])) for word in ("1M", "10M"))
     if "over_ms" in row:
-        return "lambent %s, true %s ms" % (ms(row["ms"]["lambent"]["median"]), ms(row["ms"]["true"]["median"]))
+        return ", ".join("%s %s" % (name, ms(t["median"])) for name, t in row["ms"].items()) + " ms"
     text = ", ".join("%s %s" % (contestant(key), ms(t["median"])) for key, t in row.get("ms", {}).items()) + " ms"
     if "cpu_ms" in row:
         text += "; CPU time " + ", ".join("%s %s" % (ISA_NAMES.get(key, key), ms(t["median"])) for key, t in row["cpu_ms"].items()) + " ms (%s)" % (

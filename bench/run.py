@@ -13,6 +13,7 @@ import sys
 import time
 
 import frames
+import gltf_rows
 import measure
 import paths
 import report
@@ -48,6 +49,18 @@ def row_list(isas, gl_device, display, full):
 
     for name, target, run in whole.rows(isas, display, full):
         yield whole_row(name, target, run)
+    for name, cpu_target, wall_target, run in gltf_rows.rows(isas, display):
+        def judge(run=run, cpu_target=cpu_target, wall_target=wall_target):
+            result = judged_ratio(run(), wall_target, isas)
+            result["reached"] = result["reached"] and all(result["cpu_ratio"][isa]["median"] >= (cpu_target or 0) for isa in isas)
+            return result
+        yield name, "≥ %g × in CPU time" % cpu_target if cpu_target else "≥ %g ×" % wall_target, judge
+
+    def judge_prefilter():
+        result = gltf_rows.prefilter()
+        result["reached"] = result["over_ms"]["median"] <= 60
+        return result
+    yield "glb prefilter 1024x512", "≤ 60 ms", judge_prefilter
     for name, target, run in frames.rows(isas, gl_device, full):
         yield ratio_row(name, target, run)
     yield ratio_row("1,000 lights", 2, lambda: frames.many_lights(1000, 16, isas), False)

@@ -141,7 +141,8 @@ static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memor
 {
     const struct frame *frame = cpu->shade.frame;
     if (!frame->reference) {
-        cpu->shade.environment_light = environment_light(frame->environment, cpu->pool, cpu->call, error);
+        cpu->shade.environment_light =
+            environment_light(frame->environment, environment_parts_of(&cpu->shade), cpu->pool, cpu->call, error);
         return cpu->shade.environment_light != NULL;
     }
     cpu->shade.reference = &memory->samples;

@@ -93,6 +93,7 @@ static void cut_lobe(struct lobe_cells *cells, int level, const struct cube_chai
 
 struct making {
     struct environment_light *light;
+    unsigned parts; // that are made (environment_light.made)
     struct lobe_cells cells[ENVIRONMENT_LEVELS];
     struct lam_environment far[ENVIRONMENT_LEVELS];
     float *far_texels;
@@ -101,12 +102,18 @@ struct making {
     struct call_control *call;
 };
 
-// Finds the level and the row of its faces that a piece of work is; `size` returns a level's texels on a side.
-static int level_of(size_t *index, int (*size)(int level))
+// The rows of a level's faces that have to be made; `size` returns its texels on a side.
+static size_t rows_of(const struct making *work, int level, int (*size)(int level))
+{
+    return work->parts >> level & 1 ? (size_t)size(level) * LAM_FACE_COUNT : 0;
+}
+
+// Finds the level and the row of its faces that a piece of work is.
+static int level_of(const struct making *work, size_t *index, int (*size)(int level))
 {
     int level = 1;
     for (; level < ENVIRONMENT_LEVELS; level++) {
-        size_t rows = (size_t)size(level) * LAM_FACE_COUNT;
+        size_t rows = rows_of(work, level, size);
         if (*index < rows)
             break;
         *index -= rows;
@@ -120,7 +127,7 @@ static void make_far_row(void *user, size_t index, int thread)
     struct making *work = user;
     if (work->call && !call_should_continue(work->call))
         return;
-    int level = level_of(&index, far_size);
+    int level = level_of(work, &index, far_size);
     struct lam_environment *cube = &work->far[level];
     const struct lobe_cells *cells = &work->cells[level];
     work->kernels->prefilter_row(cells, cells->near, cells->count, NULL, cube, (int)index / cube->size,
@@ -133,7 +140,7 @@ static void make_row(void *user, size_t index, int thread)
     struct making *work = user;
     if (work->call && !call_should_continue(work->call))
         return;
-    int level = level_of(&index, prefiltered_size);
+    int level = level_of(work, &index, prefiltered_size);
     struct lam_environment *cube = level < ENVIRONMENT_LEVELS ? &work->light->level[level] : &work->light->irradiance;
     int face = (int)index / cube->size, t = (int)index % cube->size;
     double roughness = level < ENVIRONMENT_LEVELS ? prefiltered_roughness(level) : 0;
@@ -155,7 +162,7 @@ static bool set_up(struct making *work, const struct cube_chain *chain, lam_erro
         return fail_memory(error, bytes);
     float *at = work->far_texels;
     for (int i = 1; i < ENVIRONMENT_LEVELS; i++) {
-        if (!far_size(i))
+        if (!rows_of(work, i, far_size))
             continue;
         cut_lobe(&work->cells[i], i, chain);
         work->far[i] = (struct lam_environment){.size = far_size(i), .texels = at};
@@ -170,29 +177,33 @@ static bool run(struct making *work, struct pool *pool, int (*size)(int level), 
 {
     size_t rows = more;
     for (int i = 1; i < ENVIRONMENT_LEVELS; i++)
-        rows += (size_t)size(i) * LAM_FACE_COUNT;
+        rows += rows_of(work, i, size);
     pool_run(pool, rows, task, work);
     return !work->call || call_should_continue(work->call) || call_error(work->call, error);
 }
 
-static bool fill(struct environment_light *light, struct pool *pool, struct call_control *call, lam_error *error)
+static bool fill(struct environment_light *light, unsigned parts, struct pool *pool, struct call_control *call,
+                 lam_error *error)
 {
     struct cube_chain chain;
     struct making *work = calloc(1, sizeof *work);
     if (!work)
         return fail_memory(error, sizeof *work);
     work->light = light;
+    work->parts = parts;
     work->call = call;
     work->kernels = CPU_WIDEST(16, &environment_kernels_scalar, &environment_kernels_avx2, &environment_kernels_avx512);
     bool ok = cube_chain_make(&chain, &light->level[0], pool, call, error) && set_up(work, &chain, error) &&
               run(work, pool, far_size, 0, make_far_row, error);
     for (int i = 1; ok && i < ENVIRONMENT_LEVELS; i++)
-        if (far_size(i))
+        if (rows_of(work, i, far_size))
             cube_close(&work->far[i]);
-    ok = ok && run(work, pool, prefiltered_size, IRRADIANCE_SIZE * LAM_FACE_COUNT, make_row, error);
+    bool irradiance = parts >> ENVIRONMENT_LEVELS & 1;
+    ok = ok && run(work, pool, prefiltered_size, irradiance ? IRRADIANCE_SIZE * LAM_FACE_COUNT : 0, make_row, error);
     for (int i = 1; ok && i < ENVIRONMENT_LEVELS; i++)
-        cube_close(&light->level[i]);
-    if (ok)
+        if (parts >> i & 1)
+            cube_close(&light->level[i]);
+    if (ok && irradiance)
         cube_close(&light->irradiance);
     free(work->far_texels);
     free(work->sums);
@@ -222,8 +233,8 @@ int environment_light_rows(void)
     return (texels + ENVIRONMENT_LIGHT_WIDTH - 1) / ENVIRONMENT_LIGHT_WIDTH;
 }
 
-static struct environment_light *make(const struct lam_environment *cube, struct pool *pool, struct call_control *call,
-                                      lam_error *error)
+// A light of which nothing is made but level 0.
+static struct environment_light *start(const struct lam_environment *cube, lam_error *error)
 {
     struct environment_light *light = calloc(1, sizeof *light);
     size_t bytes = (size_t)environment_light_rows() * ENVIRONMENT_LIGHT_WIDTH * 3 * sizeof(float) + CUBE_TEXELS_AFTER;
@@ -234,33 +245,47 @@ static struct environment_light *make(const struct lam_environment *cube, struct
         return NULL;
     }
     light->texels = at;
+    light->made = 1;
     light->level[0] = *cube;
     for (int i = 1; i < ENVIRONMENT_LEVELS; i++) {
         light->level[i] = (struct lam_environment){.size = prefiltered_size(i), .texels = at};
         at += cube_bytes(prefiltered_size(i)) / sizeof *at;
     }
     light->irradiance = (struct lam_environment){.size = IRRADIANCE_SIZE, .texels = at};
-    if (fill(light, pool, call, error))
-        return light;
-    environment_light_free(light);
-    return NULL;
+    return light;
 }
 
-const struct environment_light *environment_light(const struct lam_environment *cube, struct pool *pool,
-                                                  struct call_control *call, lam_error *error)
+unsigned environment_light_parts(float level)
+{
+    int first = level < ENVIRONMENT_LEVELS - 2 ? (int)level : ENVIRONMENT_LEVELS - 2;
+    return 3u << first | 1u << ENVIRONMENT_LEVELS;
+}
+
+static bool is_made(const struct environment_light *light, unsigned needed)
+{
+    return light && (needed & ~__atomic_load_n(&light->made, __ATOMIC_ACQUIRE)) == 0;
+}
+
+const struct environment_light *environment_light(const struct lam_environment *cube, unsigned needed,
+                                                  struct pool *pool, struct call_control *call, lam_error *error)
 {
     static lock one_maker = LOCK_INITIALIZER;
     struct environment_light **kept = (struct environment_light **)(uintptr_t)&cube->light;
     struct environment_light *light = __atomic_load_n(kept, __ATOMIC_ACQUIRE);
-    if (light)
+    if (is_made(light, needed))
         return light;
     lock_take(&one_maker);
     light = __atomic_load_n(kept, __ATOMIC_ACQUIRE);
-    if (!light) {
-        struct pool *own = pool ? NULL : pool_make(0);
-        light = make(cube, pool ? pool : own, call, error);
-        pool_free(own);
+    if (!light && (light = start(cube, error)))
         __atomic_store_n(kept, light, __ATOMIC_RELEASE);
+    if (light && !is_made(light, needed)) {
+        struct pool *own = pool ? NULL : pool_make(0);
+        unsigned missing = needed & ~light->made;
+        if (fill(light, missing, pool ? pool : own, call, error))
+            __atomic_or_fetch(&light->made, missing, __ATOMIC_RELEASE);
+        else
+            light = NULL;
+        pool_free(own);
     }
     lock_give(&one_maker);
     return light;
@@ -274,7 +299,7 @@ bool lam_environment_light_image(const lam_environment *cube, lam_image *image, 
     struct call_control call;
     call_start(&call, control);
     uint64_t state = float_state_enter();
-    const struct environment_light *light = environment_light(cube, NULL, &call, error);
+    const struct environment_light *light = environment_light(cube, ENVIRONMENT_LIGHT_ALL, NULL, &call, error);
     float_state_leave(state);
     int rows = environment_light_rows();
     if (!light || !lam_image_make(image, ENVIRONMENT_LIGHT_WIDTH, rows, LAM_RGBA32F, error))

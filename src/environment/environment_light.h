@@ -21,7 +21,12 @@ struct environment_light {
     struct lam_environment level[ENVIRONMENT_LEVELS]; // [0] shares the texels of the environment
     struct lam_environment irradiance;
     float *texels; // of all but level[0], in whole rows of ENVIRONMENT_LIGHT_WIDTH texels
+    unsigned made; // bit i: level i; bit ENVIRONMENT_LEVELS: the irradiance. Accessed atomically
 };
+enum { ENVIRONMENT_LIGHT_ALL = (2 << ENVIRONMENT_LEVELS) - 1 };
+
+// What a roughness reads: the irradiance and two neighbouring levels.
+unsigned environment_light_parts(float level);
 
 int prefiltered_size(int level); // texels on a side of levels 1 and up
 // Levels 1 and up and the irradiance, each six faces with their borders (cube_map.h), lie one after the other in `texels`:
@@ -32,11 +37,12 @@ int environment_light_first(int level);
 int environment_light_rows(void);
 double prefiltered_roughness(int level);
 
-// The light of an environment, made by the first call and kept with the environment; any number of threads may ask. `pool`
-// NULL: threads of its own; `call` may be NULL. NULL: LAM_LIMIT, LAM_CANCELLED; nothing is kept then.
+// The light of an environment. Of its parts `needed` are made unless an earlier call has, and kept with the environment; any
+// number of threads may ask, and read the parts that they asked for. `pool` NULL: threads of its own; `call` may be NULL. NULL:
+// LAM_LIMIT, LAM_CANCELLED.
 struct pool;
-const struct environment_light *environment_light(const struct lam_environment *cube, struct pool *pool,
-                                                  struct call_control *call, lam_error *error);
+const struct environment_light *environment_light(const struct lam_environment *cube, unsigned needed,
+                                                  struct pool *pool, struct call_control *call, lam_error *error);
 void environment_light_free(struct environment_light *light); // NULL is fine
 
 // --- the steps

@@ -168,7 +168,7 @@ static bool set_up(struct gl_frame *f, lam_error *error)
     if (!frame->range_count)
         return true;
     if (frame->environment_lights &&
-        !(f->environment_light = environment_light(frame->environment, NULL, f->call, error)))
+        !(f->environment_light = environment_light(frame->environment, ENVIRONMENT_LIGHT_ALL, NULL, f->call, error)))
         return false;
     if (frame->shadows && !shadows_send(f, error))
         return false;

@@ -233,9 +233,10 @@ static void test_any_size(void **state)
             ((float *)image.pixels)[i] = i % 4 == 3 ? 1 : 2e38f;
         lam_environment *environment = lam_environment_from_image(&image, LAM_COLOR_SRGB, &error);
         assert_non_null(environment);
-        const struct environment_light *light = environment_light(environment, NULL, NULL, &error);
+        const struct environment_light *light =
+            environment_light(environment, ENVIRONMENT_LIGHT_ALL, NULL, NULL, &error);
         assert_non_null(light);
-        assert_ptr_equal(light, environment_light(environment, NULL, NULL, &error));
+        assert_ptr_equal(light, environment_light(environment, ENVIRONMENT_LIGHT_ALL, NULL, NULL, &error));
         for (int i = 0; i <= ENVIRONMENT_LEVELS; i++) {
             const struct lam_environment *cube = i < ENVIRONMENT_LEVELS ? &light->level[i] : &light->irradiance;
             for (size_t k = 0; k < cube_bytes(cube->size) / sizeof(float); k++)
@@ -253,9 +254,36 @@ static void test_any_size(void **state)
     }
 }
 
+// Levels that are made one after the other, as frames ask for them, are those that are made together.
+static void test_parts(void **state)
+{
+    (void)state;
+    lam_error error;
+    lam_environment *whole = make_environment(), *parts = make_environment();
+    const struct environment_light *all = environment_light(whole, ENVIRONMENT_LIGHT_ALL, NULL, NULL, &error);
+    assert_int_equal(environment_light_parts(0), 3 | 1 << ENVIRONMENT_LEVELS);
+    assert_int_equal(environment_light_parts(11), 3 << 10 | 1 << ENVIRONMENT_LEVELS);
+    static const float asked[] = {10.5f, 3, 0, 7.9f, 5, 1, 9};
+    for (size_t i = 0; i < sizeof asked / sizeof *asked; i++) {
+        unsigned needed = environment_light_parts(asked[i]);
+        const struct environment_light *some = environment_light(parts, needed, NULL, NULL, &error);
+        assert_true(some && (some->made & needed) == needed);
+        assert_true(i > 0 || (some->made & 1 << 5) == 0);
+        for (int k = 1; k <= ENVIRONMENT_LEVELS; k++) {
+            const struct lam_environment *a = k < ENVIRONMENT_LEVELS ? &all->level[k] : &all->irradiance,
+                                         *b = k < ENVIRONMENT_LEVELS ? &some->level[k] : &some->irradiance;
+            if (some->made >> k & 1)
+                assert_memory_equal(a->texels, b->texels, cube_bytes(a->size));
+        }
+    }
+    lam_environment_free(whole);
+    lam_environment_free(parts);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_split_sum), cmocka_unit_test(test_white_furnace),
-                                       cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_any_size)};
+                                       cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_any_size),
+                                       cmocka_unit_test(test_parts)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

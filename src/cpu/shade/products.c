@@ -1,5 +1,10 @@
 // products.c: materials × lights, once for each frame.
+#define LANES 1
+#include "lighting.h"
+
 #include "shade_frame.h"
+
+#include "environment_light.h"
 
 #include "fail.h"
 #include "fields.h"
@@ -84,4 +89,18 @@ struct material_products *products_make(struct buffer *storage, const struct fra
         }
     }
     return products;
+}
+
+unsigned environment_parts_of(const struct shade_frame *shade)
+{
+    unsigned parts = 0;
+    for (int i = 0; i < shade->frame->material_count; i++) {
+        const struct material_products *m = &shade->materials[i];
+        if (!m->given->physical)
+            continue;
+        if (m->layers || (m->maps >> LAM_MAP_ROUGHNESS & 1))
+            return ENVIRONMENT_LIGHT_ALL;
+        parts |= environment_light_parts(prefilter_level(m->given->roughness));
+    }
+    return parts;
 }

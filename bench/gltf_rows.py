@@ -1,0 +1,114 @@
+"""gltf_rows.py: rows of glTF files: textured models from the collection next to the checkout, alone and under an environment, and GLB files of
+1 and 10 million triangles, which are made here. Whole processes against F3D (whole.py); the prefilter of an environment by itself."""
+import functools
+import json
+import os
+import struct
+
+import measure
+import paths
+import scenes
+import whole
+
+# Textured files that both programs read (no extension that F3D 1.3 lacks).
+TEXTURED = {"knight": "glb/kaykit_adventurers/Knight.glb", "normal tangent": "glb/playcanvas/NormalTangentTest.glb",
+            "toy car": "gltf-tests/khronos/ToyCar/glTF/ToyCar.gltf"}
+ENVIRONMENT = "env/kloppenheim_05_1k.hdr"
+
+
+def real(path):
+    found = os.path.normpath(os.path.join(paths.REAL_MODELS, path))
+    if not os.path.exists(found):
+        raise measure.Failed("%s is not here; LAMBENT_MODELS names the folder of models" % found)
+    return found
+
+
+def glb(triangles):
+    """A sphere as .glb, made from the PLY of the same size: positions and indices, one metallic-roughness material."""
+    made = os.path.join(paths.OUT, "models", "sphere_%d.glb" % triangles)
+    if os.path.exists(made):
+        return made
+    with open(scenes.model(triangles, "ply"), "rb") as file:
+        data = file.read()
+    end = data.index(b"end_header\n") + len(b"end_header\n")
+    words = data[:end].decode().split()
+    vertices, faces = (int(words[words.index(kind) + 1]) for kind in ("vertex", "face"))
+    positions = data[end:end + 12 * vertices]
+    rows, indices = data[end + 12 * vertices:], bytearray(12 * faces)
+    for byte in range(12):  # rows are a count of one byte and three numbers of four
+        indices[byte::12] = rows[1 + byte::13]
+    places = struct.unpack("<%df" % (3 * vertices), positions)
+    bounds = [(min(places[i::3]), max(places[i::3])) for i in range(3)]
+    document = {
+        "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+        "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.4, 0.2, 1], "metallicFactor": 0.2, "roughnessFactor": 0.5}}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": vertices, "type": "VEC3",
+                       "min": [low for low, _ in bounds], "max": [high for _, high in bounds]},
+                      {"bufferView": 1, "componentType": 5125, "count": 3 * faces, "type": "SCALAR"}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(positions), "target": 34962},
+                        {"buffer": 0, "byteOffset": len(positions), "byteLength": len(indices), "target": 34963}],
+        "buffers": [{"byteLength": len(positions) + len(indices)}]}
+    head = json.dumps(document, separators=(",", ":")).encode()
+    head += b" " * (-len(head) % 4)
+    body = positions + bytes(indices)
+    with open(made + ".unfinished", "wb") as file:
+        file.write(struct.pack("<4sIIII", b"glTF", 2, 28 + len(head) + len(body), len(head), 0x4E4F534A) + head)
+        file.write(struct.pack("<II", len(body), 0x004E4942) + body)
+    os.rename(made + ".unfinished", made)
+    return made
+
+
+def pair(label, path, isas, display, seconds, environment=None):
+    """One file by both programs; the result as of whole.whole. One sample for equal work, since F3D smooths no edges."""
+    file_name = label.replace(" ", "-").replace(",", "")
+    ours, theirs = whole.picture(file_name + "-lambent"), whole.picture(file_name + "-f3d")
+    options = ["--samples", "1"] + (["--environment", environment] if environment else [])
+    report = measure.lambent(path, "-s", whole.SIZE, *options, "-o", ours)
+    peer = whole.f3d_command(path, report, theirs, whole.SIZE) + (["--hdri=" + environment] if environment else [])
+
+    def command(isa):
+        return [paths.LAMBENT, "-q", path, "-s", str(whole.SIZE), *options, "--isa", isa, "-o", ours]
+    contestants = {isa: (lambda isa=isa: measure.whole_process(command(isa), ours)) for isa in isas}
+    contestants["f3d"] = lambda: display.f3d(peer, theirs)
+    taken = measure.in_turn(contestants, seconds)
+    wall = {key: [t.wall_ms for t in rounds] for key, rounds in taken.items()}
+    cpu = {key: [t.cpu_ms for t in rounds] for key, rounds in taken.items()}
+    return {"file_bytes": os.path.getsize(path), "triangles": report["model"]["triangles"], "samples": 1, "options": options, "size": whole.SIZE,
+            "ms": {key: measure.spread(t) for key, t in wall.items()}, "cpu_ms": {key: measure.spread(t) for key, t in cpu.items()},
+            "ratio": {isa: measure.ratio(wall["f3d"], wall[isa]) for isa in isas},
+            "cpu_ratio": {isa: measure.ratio(cpu["f3d"], cpu[isa]) for isa in isas}, "steps_ms": report["times_ms"],
+            "besides_encoder_ms": report["times_ms"]["total"] - report["times_ms"]["encode"], "peer": "F3D"}
+
+
+def rows(isas, display):
+    """(name, target of the CPU time's ratio or None, target of the wall time's, function that measures)."""
+    for name, path in TEXTURED.items():
+        yield "glb " + name, 3, None, functools.partial(lambda label, file: pair(label, real(file), isas, display, 3), "glb " + name, path)
+    for name in ("knight", "toy car"):
+        label = "glb %s, environment" % name
+        yield label, 40, None, functools.partial(lambda label, file: pair(label, real(file), isas, display, 3, real(ENVIRONMENT)),
+                                                 label, TEXTURED[name])
+    for triangles, word, target in ((1000000, "1M", 15), (10000000, "10M", 10)):
+        label = "glb " + word
+        yield label, None, target, functools.partial(lambda label, count: pair(label, glb(count), isas, display, 5), label, triangles)
+
+
+def prefilter():
+    """What an environment of 1024x512 adds to a process's first frame of a square: prefiltering it, all levels since its roughness varies."""
+    folder = os.path.join(paths.OUT, "models")
+    os.makedirs(folder, exist_ok=True)
+    os.makedirs(folder, exist_ok=True)
+    files = {"rough.ppm": "P6 2 1 255\n" + 3 * "\x14" + 3 * "\x7a", "rough.mtl": "newmtl rough\nKd 1 0.8 0.3\nPm 1\nPr 1\nmap_Pr rough.ppm\n",
+             "rough.obj": "mtllib rough.mtl\nusemtl rough\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n"}
+    for name, text in files.items():
+        with open(os.path.join(folder, name), "w") as file:
+            file.write(text)
+    sphere = [os.path.join(folder, "rough.obj"), "-s", 64, "--samples", 1, "--environment", real(ENVIRONMENT)]
+    picture = whole.picture("prefilter")
+
+    def frame(*more):
+        return measure.lambent(*sphere, *more, "-o", picture)["times_ms"]["frame"]
+    taken = measure.in_turn({"first": frame, "without": lambda: frame("--show", "base-color")}, 3)
+    over = [a - b for a, b in zip(taken["first"], taken["without"])]
+    return {"ms": {name: measure.spread(t) for name, t in taken.items()}, "over_ms": measure.spread(over)}

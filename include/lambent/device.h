@@ -102,7 +102,7 @@ typedef enum lam_output {
     LAM_OUTPUT_EMISSION,
     LAM_OUTPUT_REFLECTION, // of the environment, and its light on physical materials
     // The ambient, diffuse and specular terms of one light. Those of all lights, the scene's ambient light, emission
-    // and reflection add up to the picture. Black where the frame is not lit.
+    // and reflection add up to the picture. Black where a surface is not lit.
     LAM_OUTPUT_LIGHT,
     // Normals as the lighting uses them, in eye space: x right, y up, z to the viewer; turned where seen from behind.
     // 8 bits: (x + 1)/2.

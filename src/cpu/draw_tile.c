@@ -44,6 +44,11 @@ static void draw_layers(const struct cpu_frame *cpu, struct thread_state *thread
     thread->layers.masked = false;
     if (cpu->shade.frame->masked)
         cpu->kernels->mask_fragments(&cpu->shade, &thread->fragments, &thread->layers, &thread->shading, tile);
+    if (output_is_value(cpu->shade.frame->output)) {
+        show_layers(pattern, &thread->fragments, &thread->layers, &thread->samples);
+        thread->coverage_ns += now_ns() - start;
+        return;
+    }
     sort_layers(pattern, &thread->fragments, &thread->layers, &thread->blend);
     group_fragments(cpu->raster.frame, &thread->fragments);
     uint64_t covered = now_ns();
@@ -137,6 +142,8 @@ void draw_tile(struct cpu_frame *cpu, size_t index, int number)
         if (thread->samples.translucent_triangles) {
             thread->coverage_ns += now_ns() - start;
             blend_tile(cpu, thread, &tile);
+            if (output_is_value(cpu->raster.frame->output)) // they are in the visibility buffer now
+                thread->samples.translucent_triangles = 0;
             start = now_ns();
         }
         thread->pixels_covered +=

@@ -360,9 +360,12 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
         bool varies = scene_extent(scene, object->mesh)->translucent;
         bool translucent = sees_through(frame->materials[front], varies) ||
                            (!draw->one_sided && sees_through(frame->materials[back], varies));
+        bool masks = frame->materials[front]->alpha_mode == LAM_ALPHA_MASK ||
+                     (!draw->one_sided && frame->materials[back]->alpha_mode == LAM_ALPHA_MASK);
+        if (output_is_value(frame->output)) // overdraw counts triangles
+            translucent = translucent && masks && frame->output != LAM_OUTPUT_OVERDRAW;
         frame->translucent |= translucent;
-        frame->masked |= translucent && (frame->materials[front]->alpha_mode == LAM_ALPHA_MASK ||
-                                         frame->materials[back]->alpha_mode == LAM_ALPHA_MASK);
+        frame->masked |= translucent && masks;
         frame->ranges[frame->range_count++] = (struct frame_draw_range){draw->first_id + part->first_triangle,
                                                                         part->triangle_count,
                                                                         draw_index,
@@ -538,9 +541,6 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
             ? frame->shading == LAM_SHADING_FLAT && frame->flat_normal == LAM_FLAT_NORMAL_FACE
             : frame->output == LAM_OUTPUT_COVERAGE || frame->output == LAM_OUTPUT_OVERDRAW || of_material)
         frame->makes_normals = false;
-    // Values are those of the nearest surface, whatever its alpha.
-    if (!lam_output_is_light(frame->output) && frame->output != LAM_OUTPUT_CLIPPED)
-        frame->translucent = frame->masked = false;
     // Lit by a classic model, materials that the environment would have lit have the studio's rig.
     bool by_rig = params->rig == LAM_RIG_AUTO && !scene->lights.count && !uses_physical(frame);
     if (!build_lights(frame, scene, by_rig ? LAM_RIG_STUDIO : params->rig,

@@ -180,6 +180,12 @@ static inline bool output_is_one_light(lam_output output)
     return output == LAM_OUTPUT_LIGHT || output == LAM_OUTPUT_N_L || output == LAM_OUTPUT_N_H;
 }
 
+// Outputs of which a pixel has the value of its nearest surface, whatever the opacity of that; masked surfaces leave their holes out.
+static inline bool output_is_value(lam_output output)
+{
+    return !lam_output_is_light(output) && output != LAM_OUTPUT_CLIPPED;
+}
+
 // Outputs made from the complete picture.
 static inline bool output_is_picture(lam_output output)
 {

@@ -29,14 +29,23 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->shading = wanted.shading;
     c->reflection = LAM_REFLECTION_LAMBERT;
     c->alpha[0] = c->alpha[1] = LAM_ALPHA_BLEND;
-    if (glsl_output_is_geometry(c->output)) {
+    bool geometry = glsl_output_is_geometry(c->output),
+         masks = wanted.alpha[0] == LAM_ALPHA_MASK || wanted.alpha[1] == LAM_ALPHA_MASK;
+    if (geometry ? masks : c->stage == LAM_STAGE_APPLICATION) {
+        memcpy(c->alpha, wanted.alpha, sizeof c->alpha);
+        memcpy(c->maps, wanted.maps, sizeof c->maps);
+        c->anisotropy = wanted.anisotropy;
+        c->back_material = wanted.back_material;
+        c->colors = masks && output_is_value(c->output) && wanted.colors;
+    }
+    if (geometry) {
         c->shading = LAM_SHADING_PHONG;
         c->stage = LAM_STAGE_FRAGMENT;
         return;
     }
     if (c->stage == LAM_STAGE_APPLICATION) {
-        c->output = LAM_OUTPUT_PICTURE;
-        memcpy(c->alpha, wanted.alpha, sizeof c->alpha);
+        if (!output_is_vector(c->output))
+            c->output = LAM_OUTPUT_PICTURE;
         return;
     }
     c->reflection = wanted.reflection;
@@ -256,25 +265,6 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
     return draw_parts(f, error) && check_errors(f, error);
 }
 
-// Maps that this device does not draw: those of colours that are lit at vertices.
-static bool check_maps(const struct frame *frame, lam_error *error)
-{
-    static const lam_map drawn[] = {LAM_MAP_DIFFUSE, LAM_MAP_OPACITY, LAM_MAP_EMISSION};
-    bool at_vertices = frame->shading != LAM_SHADING_PHONG && !glsl_output_is_geometry(frame->output);
-    for (int i = 0; i < 2 * frame->range_count && at_vertices; i++) {
-        const struct frame_draw_range *range = &frame->ranges[i / 2];
-        const lam_material *material = frame->materials[i % 2 ? range->back : range->front];
-        for (int k = 0; k < 3; k++)
-            if (material->maps[drawn[k]])
-                return fail(
-                    error, LAM_UNSUPPORTED,
-                    "OpenGL: a material has a %s map, which this device draws under Phong shading alone; the CPU "
-                    "device draws it",
-                    lam_map_name(drawn[k]));
-    }
-    return true;
-}
-
 static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_image *image, struct call_control *call,
                     lam_error *error)
 {
@@ -285,11 +275,11 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
         return fail(error, LAM_UNSUPPORTED,
                     "OpenGL: reference is %d, and this device has the split sum alone; the CPU device sums directions",
                     frame->reference);
-    if (!check_maps(frame, error) || !gl_context_enter(&device->context, &previous, error))
+    if (!gl_context_enter(&device->context, &previous, error))
         return false;
     struct gl_frame f = {.device = device, .gl = &device->context.gl, .frame = frame, .call = call, .image = image};
     f.stage = frame->stage;
-    for (int i = 0; i < frame->range_count && frame->translucent && frame->output != LAM_OUTPUT_COVERAGE; i++)
+    for (int i = 0; i < frame->range_count && frame->translucent && !output_is_value(frame->output); i++)
         f.layered |= range_blends(frame, &frame->ranges[i]);
     gl_state_save(device, &state);
     device->frame_number++;
@@ -355,6 +345,8 @@ static bool find_limits(struct gl_device *device, lam_error *error)
     gl->GetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &device->block_size_max);
     gl->GetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &device->block_alignment);
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &device->texture_size_max);
+    gl->GetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &device->unit_count);
+    device->unit_count = device->unit_count < UNIT_COUNT ? device->unit_count : UNIT_COUNT;
     GLint view[2];
     gl->GetIntegerv(GL_MAX_VIEWPORT_DIMS, view);
     for (int i = 0; i < 2; i++)

@@ -33,7 +33,7 @@ enum texture_unit {
     UNIT_COPY,
     UNIT_SHADOW_TREE = UNIT_COPY, // no program reads both
     UNIT_FIRST_MAP,               // the maps of materials
-    UNIT_COUNT = 16               // every driver has as many (OpenGL 3.3 and ES 3.0, GL_MAX_TEXTURE_IMAGE_UNITS)
+    UNIT_COUNT = 48 // at most; every driver has 16 (OpenGL 3.3 and ES 3.0), most 32: gl_device.unit_count
 };
 enum block_point { POINT_LIGHTS, POINT_PRODUCTS, POINT_BACK_PRODUCTS, POINT_COUNT };
 
@@ -90,6 +90,7 @@ struct gl_vertex_lighting {
     // Retained, because the key holds its address.
     struct lam_environment *environment;
     GLuint colors, array;
+    bool apart; // each vertex has four colours: the front's, the back's, and the rest of each (glsl_facts.apart)
     GLuint of_vertices; // the mesh buffer that `array` reads positions from
     uint64_t bytes;
 };
@@ -108,6 +109,8 @@ enum uniform {
     UNIFORM_BACK_HEAD = UNIFORM_HEAD + LAM_FIELDS_MAX,
     UNIFORM_ALPHA_CUTOFF = UNIFORM_BACK_HEAD + LAM_FIELDS_MAX,
     UNIFORM_BACK_ALPHA_CUTOFF,
+    UNIFORM_GLOW,
+    UNIFORM_BACK_GLOW,
     UNIFORM_MAPS, // two rows for each map of the front, then of the back (glsl_map_values)
     UNIFORM_FLOATS = UNIFORM_MAPS + 4 * LAM_MAP_COUNT, // number of the uniforms above, all of floats
     UNIFORM_FIRST_PRODUCT = UNIFORM_FLOATS,
@@ -185,6 +188,7 @@ struct gl_device {
     struct gl_context context;
     bool external_context; // the context is the caller's
     GLint block_size_max, block_alignment, texture_size_max;
+    GLint unit_count;    // texture units of the fragment shader that are used, up to UNIT_COUNT
     bool has_norm16;     // textures of 16 bits for 0…1
     GLenum float_format; // of the targets: GL_RGBA32F, or GL_RGBA16F where the driver has no more
 

@@ -20,6 +20,8 @@ static const char *const uniform_names[UNIFORM_COUNT] = {
     [UNIFORM_FIRST_TRIANGLE] = "first_triangle",
     [UNIFORM_ALPHA_CUTOFF] = "alpha_cutoff",
     [UNIFORM_BACK_ALPHA_CUTOFF] = "back_alpha_cutoff",
+    [UNIFORM_GLOW] = "glow",
+    [UNIFORM_BACK_GLOW] = "back_glow",
 };
 
 static GLuint compile(const struct gl *gl, GLenum kind, const char *text, lam_error *error)
@@ -75,9 +77,11 @@ static bool find_maps(struct gl_frame *f, struct gl_program *program, lam_error 
             char name[64];
             int length = snprintf(name, sizeof name, "%s%s_map", side ? "back_" : "", lam_map_name((lam_map)i));
             GLint at = gl->GetUniformLocation(program->name, name);
-            if (at >= 0 && unit == UNIT_COUNT)
-                return fail(error, LAM_UNSUPPORTED, "OpenGL: a material reads more than %d different textures",
-                            UNIT_COUNT - UNIT_FIRST_MAP);
+            if (at >= 0 && unit == f->device->unit_count)
+                return fail(
+                    error, LAM_UNSUPPORTED,
+                    "OpenGL: a material reads more than %d different textures, which is what this driver has units for",
+                    f->device->unit_count - UNIT_FIRST_MAP);
             if (at >= 0) {
                 gl->Uniform1i(at, unit);
                 program->map_units[side][i] = (uint8_t)unit++;

@@ -59,7 +59,7 @@ void gl_state_save(const struct gl_device *device, struct gl_saved_state *s)
         gl->GetIntegerv(GL_UNIFORM_BUFFER_BINDING, &s->uniform_buffer);
         gl->GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &s->unpack_buffer);
         gl->GetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &s->pack_buffer);
-        for (GLuint i = 0; i < UNIT_COUNT; i++) {
+        for (GLuint i = 0; i < (GLuint)device->unit_count; i++) {
             gl->ActiveTexture(GL_TEXTURE0 + i);
             gl->GetIntegerv(GL_TEXTURE_BINDING_2D, &s->texture_2d[i]);
             gl->GetIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &s->texture_array[i]);
@@ -110,7 +110,7 @@ void gl_state_restore(const struct gl_device *device, const struct gl_saved_stat
     gl->BindBuffer(GL_ARRAY_BUFFER, (GLuint)s->array_buffer);
     gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, (GLuint)s->unpack_buffer);
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, (GLuint)s->pack_buffer);
-    for (GLuint i = 0; i < UNIT_COUNT; i++) {
+    for (GLuint i = 0; i < (GLuint)device->unit_count; i++) {
         gl->ActiveTexture(GL_TEXTURE0 + i);
         gl->BindTexture(GL_TEXTURE_2D, (GLuint)s->texture_2d[i]);
         gl->BindTexture(GL_TEXTURE_2D_ARRAY, (GLuint)s->texture_array[i]);

@@ -146,7 +146,10 @@ void textures_use(struct gl_frame *f, struct gl_program *program, const struct f
 {
     for (int side = 0; side < 2; side++) {
         const lam_material *material = f->frame->materials[side ? range->back : range->front];
-        program_set(f, program, side ? UNIFORM_BACK_ALPHA_CUTOFF : UNIFORM_ALPHA_CUTOFF, &material->alpha_cutoff, 1);
+        float cutoff = glsl_alpha_cutoff(f->frame, material), glow[4];
+        glsl_glow(f->frame, range, side, glow);
+        program_set(f, program, side ? UNIFORM_BACK_ALPHA_CUTOFF : UNIFORM_ALPHA_CUTOFF, &cutoff, 1);
+        program_set(f, program, side ? UNIFORM_BACK_GLOW : UNIFORM_GLOW, glow, 4);
         for (int i = 0; i < LAM_MAP_COUNT; i++) {
             float s[4], t[4];
             enum uniform rows = (enum uniform)(UNIFORM_MAPS + 2 * (side * LAM_MAP_COUNT + i));

@@ -28,6 +28,8 @@ struct side {
     float kd[3], ks[3];
     bool flip; // the back: lit with −n
     bool translucent;
+    bool apart; // the terms that a diffuse map multiplies are apart from the rest
+    bool glows; // and the emission is in neither, since an emission map multiplies it
     lam_reflection reflection;
 };
 
@@ -224,25 +226,57 @@ LANE_FN num sign_of(const struct side *side, const struct mesh_vertex *from)
     return num_load(sign);
 }
 
-// Computes the colours of vertices, with alpha; `count` is a multiple of LANES.
-static void light_side(const struct side *side, const struct mesh_vertex *from, uint32_t count, float (*out)[4])
+// The part of the terms that a diffuse map multiplies (`mapped`), or the rest, as far as it is shown.
+LANE_FN vec3 part_terms(const struct side *side, terms t, bool mapped)
+{
+    terms part = {black3(), black3(), black3(), black3(), black3()};
+    if (mapped) {
+        part.ambient = t.ambient;
+        part.diffuse = t.diffuse;
+    } else {
+        part.specular = t.specular;
+        part.reflection = t.reflection;
+        part.emission = side->glows ? black3() : t.emission;
+    }
+    return output_terms(side, part);
+}
+
+LANE_FN vec3 clamped3(vec3 c, bool clamped)
+{
+    return clamped ? vec3_of(saturate(c.x), saturate(c.y), saturate(c.z)) : c;
+}
+
+LANE_FN void store_vertices(float (*out)[4], vec3 color)
+{
+    for (int i = 0; i < LANES; i++) {
+        out[i][0] = lane(color.x, i);
+        out[i][1] = lane(color.y, i);
+        out[i][2] = lane(color.z, i);
+        out[i][3] = 1;
+    }
+}
+
+// Computes the colours of vertices, with alpha, and if they are kept apart the rest of each; `count` is a multiple of LANES.
+static void light_side(const struct side *side, const struct mesh_vertex *from, uint32_t count, float (*out)[4],
+                       float (*rest)[4])
 {
     const struct frame *frame = side->frame;
     bool clamped = frame->gl1 && output_is_picture(frame->output);
     for (uint32_t first = 0; first < count; first += LANES, from += LANES, out += LANES) {
         surface s = surface_of(side, from);
         vec3 white = vec3_of(num_of(1.0f), num_of(1.0f), num_of(1.0f));
-        vec3 color = output_is_vector(frame->output)
-                         ? output_vector(side, s)
-                         : output_terms(side, evaluate_terms(side, s, side->mesh->colors ? load3(from, 6) : white,
-                                                             sign_of(side, from)));
-        if (clamped)
-            color = vec3_of(saturate(color.x), saturate(color.y), saturate(color.z));
+        vec3 color;
+        if (output_is_vector(frame->output)) {
+            color = output_vector(side, s);
+        } else {
+            terms t = evaluate_terms(side, s, side->mesh->colors ? load3(from, 6) : white, sign_of(side, from));
+            color = side->apart ? part_terms(side, t, true) : output_terms(side, t);
+            if (side->apart)
+                store_vertices(rest, clamped3(part_terms(side, t, false), clamped));
+        }
+        rest += LANES;
+        store_vertices(out, clamped3(color, clamped));
         for (int i = 0; i < LANES; i++) {
-            out[i][0] = lane(color.x, i);
-            out[i][1] = lane(color.y, i);
-            out[i][2] = lane(color.z, i);
-            out[i][3] = 1;
             if (side->translucent)
                 out[i][3] = side->material->diffuse.a * (side->mesh->colors ? from[i].color[3] : 1.0f);
             if (frame->gl1)
@@ -335,7 +369,7 @@ static bool make_key(struct gl_frame *f, struct gl_vertex_lighting *row, const s
 
 // Lights the vertices of a range, and interleaves front and back colours.
 static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const struct frame_draw_range *run,
-                      uint32_t first, uint32_t end, float (*lit)[2][4])
+                      uint32_t first, uint32_t end, uint32_t each, float (*lit)[4])
 {
     const struct frame_draw *draw = &f->frame->draws[run->draw];
     struct side side = {.frame = f->frame,
@@ -343,9 +377,12 @@ static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const stru
                         .draw = draw,
                         .mesh = &mesh->mesh,
                         .translucent = run->translucent,
+                        .apart = glsl_keeps_apart(f->frame, run),
                         .reflection = run->reflection};
+    for (int back = 0; back < 2; back++)
+        side.glows |= f->frame->materials[back ? run->back : run->front]->maps[LAM_MAP_EMISSION] != NULL;
     struct mesh_vertex *from = f->device->scratch.data;
-    float(*colors)[4] = (float(*)[4])(from + CHUNK);
+    float(*colors)[4] = (float(*)[4])(from + CHUNK), (*rest)[4] = colors + CHUNK;
     for (; first < end; first += CHUNK) {
         uint32_t chunk = end - first < CHUNK ? end - first : CHUNK, padded = (chunk + LANES - 1) / LANES * LANES;
         if (!call_should_continue(f->call))
@@ -358,12 +395,14 @@ static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const stru
                 side.material = f->frame->materials[back ? run->back : run->front];
                 frame_material_colors(side.material, side.kd, side.ks);
                 side.flip = back;
-                light_side(&side, from, padded, colors);
+                light_side(&side, from, padded, colors, rest);
                 f->device->base.report.points_lit += chunk;
                 f->device->base.report.lights_evaluated += (uint64_t)chunk * (uint64_t)f->frame->light_count;
             }
             for (uint32_t i = 0; i < chunk; i++)
-                memcpy(lit[first + i][back], colors[i], sizeof colors[i]);
+                memcpy(lit[(first + i) * each + (uint32_t)back], colors[i], sizeof colors[i]);
+            for (uint32_t i = 0; i < chunk && side.apart; i++)
+                memcpy(lit[(first + i) * each + 2 + (uint32_t)back], rest[i], sizeof rest[i]);
         }
     }
     return true;
@@ -375,12 +414,13 @@ static bool send_colors(struct gl_frame *f, struct gl_vertex_lighting *row, cons
     const struct frame *frame = f->frame;
     uint64_t start = now_ns();
     uint32_t count = mesh_vertex_count(&mesh->mesh, mesh->form);
-    uint64_t bytes = (uint64_t)count * 8 * sizeof(float);
-    if (!buffer_reserve(&f->device->scratch, CHUNK * (sizeof(struct mesh_vertex) + 4 * sizeof(float)), f->call,
+    uint32_t each = row->apart ? 4 : 2; // colours of a vertex
+    uint64_t bytes = (uint64_t)count * each * 4 * sizeof(float);
+    if (!buffer_reserve(&f->device->scratch, CHUNK * (sizeof(struct mesh_vertex) + 8 * sizeof(float)), f->call,
                         error) ||
         !gl_charge(f, &row->bytes, bytes, error))
         return false;
-    float(*lit)[2][4] = gl_buffer_map_new(f, row->colors, (size_t)bytes, GL_DYNAMIC_DRAW, error);
+    float(*lit)[4] = gl_buffer_map_new(f, row->colors, (size_t)bytes, GL_DYNAMIC_DRAW, error);
     if (!lit)
         return false;
     bool on = true;
@@ -390,7 +430,7 @@ static bool send_colors(struct gl_frame *f, struct gl_vertex_lighting *row, cons
         uint32_t first = 3 * (s->first_id - frame->draws[number].first_id);
         if (s->draw != number)
             continue;
-        on = light_run(f, mesh, s, shared ? 0 : first, shared ? count : first + 3 * s->count, lit);
+        on = light_run(f, mesh, s, shared ? 0 : first, shared ? count : first + 3 * s->count, each, lit);
         done = shared;
     }
     f->gl->UnmapBuffer(GL_ARRAY_BUFFER);
@@ -413,6 +453,43 @@ static bool reserve_row(struct gl_device *device, int draw, lam_error *error)
     return true;
 }
 
+// An attribute of the vertex array, of `size` floats.
+static void point_to(struct gl_frame *f, GLuint location, GLint size, size_t stride, size_t at)
+{
+    f->gl->EnableVertexAttribArray(location);
+    f->gl->VertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, (GLsizei)(stride * sizeof(float)),
+                               (const void *)(at * sizeof(float)));
+}
+
+// Sets the vertex attributes: those of the mesh that fragments read, and the colours.
+static void describe(struct gl_frame *f, struct gl_vertex_lighting *row, const struct gl_mesh *mesh)
+{
+    const struct gl *gl = f->gl;
+    const lam_mesh *m = &mesh->mesh;
+    size_t stride = mesh_vertex_floats(m), at = 6;
+    gl_use_array(f->device, row->array);
+    gl->BindBuffer(GL_ARRAY_BUFFER, mesh->vertices);
+    point_to(f, 0, 3, stride, 0);
+    if (m->colors)
+        point_to(f, 2, 4, stride, at);
+    at += (m->colors ? 4 : 0) + (m->tangents ? 4u : 0);
+    if (m->texcoords)
+        point_to(f, 7, 2, stride, at);
+    at += m->texcoords ? 2 : 0;
+    if (m->second_texcoords)
+        point_to(f, 8, 2, stride, at);
+    gl->BindBuffer(GL_ARRAY_BUFFER, row->colors);
+    for (GLuint side = 0; side < 2; side++) {
+        point_to(f, 4 + side, 4, row->apart ? 16 : 8, side * 4);
+        if (row->apart)
+            point_to(f, 9 + side, 3, 16, 8 + side * 4);
+        else
+            gl->DisableVertexAttribArray(9 + side);
+    }
+    gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh->elements);
+    row->of_vertices = mesh->vertices;
+}
+
 GLuint vertex_lighting_upload(struct gl_frame *f, int draw, struct gl_mesh *mesh, lam_error *error)
 {
     struct gl_device *device = f->device;
@@ -421,6 +498,12 @@ GLuint vertex_lighting_upload(struct gl_frame *f, int draw, struct gl_mesh *mesh
     if (!reserve_row(device, draw, error) || !make_key(f, &device->vertex_lighting[draw], mesh, draw, &size, error))
         return 0;
     struct gl_vertex_lighting *row = &device->vertex_lighting[draw];
+    bool apart = false;
+    for (int i = 0; i < f->frame->range_count; i++)
+        apart |= f->frame->ranges[i].draw == draw && glsl_keeps_apart(f->frame, &f->frame->ranges[i]);
+    if (row->apart != apart)
+        row->sent_key_size = row->of_vertices = 0;
+    row->apart = apart;
     if (!row->colors) {
         gl->GenBuffers(1, &row->colors);
         gl->GenVertexArrays(1, &row->array);
@@ -436,21 +519,8 @@ GLuint vertex_lighting_upload(struct gl_frame *f, int draw, struct gl_mesh *mesh
         lam_environment_free(row->environment);
         row->environment = cube_share(f->frame->environment);
     }
-    if (row->of_vertices != mesh->vertices) {
-        size_t stride = mesh_vertex_floats(&mesh->mesh) * sizeof(float);
-        gl_use_array(device, row->array);
-        gl->BindBuffer(GL_ARRAY_BUFFER, mesh->vertices);
-        gl->EnableVertexAttribArray(0);
-        gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, (GLsizei)stride, NULL);
-        gl->BindBuffer(GL_ARRAY_BUFFER, row->colors);
-        for (GLuint side = 0; side < 2; side++) {
-            gl->EnableVertexAttribArray(4 + side);
-            gl->VertexAttribPointer(4 + side, 4, GL_FLOAT, GL_FALSE, 8 * sizeof(float),
-                                    (const void *)(side * 4 * sizeof(float)));
-        }
-        gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh->elements);
-        row->of_vertices = mesh->vertices;
-    }
+    if (row->of_vertices != mesh->vertices)
+        describe(f, row, mesh);
     return row->array;
 }
 

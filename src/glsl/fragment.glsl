@@ -38,19 +38,6 @@ void main()
         discard;
     }
 //@end
-//@if output_geometry
-//@if depth
-    float depth = -eye_position.z; // in front of the eye
-    @pixel@ = vec4(depth, depth, depth, 1.0);
-//@elif facing
-    float side = gl_FrontFacing ? 1.0 : -1.0;
-    @pixel@ = vec4(side, side, side, 1.0);
-//@elif ids
-    @pixel@ = vec4(float(triangle % 16777216), object, float(triangle / 16777216), 1.0);
-//@else
-    @pixel@ = vec4(1.0);
-//@end
-//@elif per_fragment
 //@if mapped
 //@if first_texcoords
     footprint first = footprint_of(surface_texcoord);
@@ -65,6 +52,22 @@ void main()
     }
 //@end
 //@end
+//@if value_masks
+@value_mask@
+//@end
+//@if output_geometry
+//@if depth
+    float depth = -eye_position.z; // in front of the eye
+    @pixel@ = vec4(depth, depth, depth, 1.0);
+//@elif facing
+    float side = gl_FrontFacing ? 1.0 : -1.0;
+    @pixel@ = vec4(side, side, side, 1.0);
+//@elif ids
+    @pixel@ = vec4(float(triangle % 16777216), object, float(triangle / 16777216), 1.0);
+//@else
+    @pixel@ = vec4(1.0);
+//@end
+//@elif per_fragment
 //@if passes_normal
 //@if bends
     // None of the three is made unit after interpolation (MikkTSpace).
@@ -109,16 +112,38 @@ void main()
 //@if shadows
     lit_triangle = first_triangle + triangle;
 //@end
+//@if apart
+    vec3 rest;
+//@end
     vec4 light = light_point(@fragment_arguments@);
 //@else
     vec4 light = front_light;
+//@if apart
+    vec3 rest = front_rest;
+//@end
 //@if two_sided
     if (!gl_FrontFacing) {
         light = back_light;
+//@if apart
+        rest = back_rest;
+//@end
     }
 //@end
 //@end
 //@if !output_geometry
+//@if apart
+    // The diffuse map multiplies the ambient and diffuse light alone.
+//@if late_color
+    light.rgb = light.rgb * maps.color;
+//@end
+    light.rgb = light.rgb + rest;
+//@if late_emission
+    light.rgb = light.rgb + @glow@.rgb * maps.emission;
+//@end
+//@end
+//@if late_opacity
+    light.a = light.a * maps.opacity;
+//@end
     light.a = saturate(light.a);
 //@if alpha_ruled
 @alpha_rule@

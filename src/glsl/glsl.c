@@ -121,6 +121,43 @@ static void add_output_material(struct text *text, const struct glsl_facts *f)
     }
 }
 
+// The parts of that term that the diffuse map multiplies, and does not. An emission map multiplies the emission apart from both.
+static const char *mapped_term(const struct glsl_choices *c)
+{
+    switch (c->output) {
+    case LAM_OUTPUT_AMBIENT:
+    case LAM_OUTPUT_DIFFUSE:
+        return output_term(c);
+    case LAM_OUTPUT_SPECULAR:
+    case LAM_OUTPUT_EMISSION:
+    case LAM_OUTPUT_REFLECTION:
+        return "black3()";
+    default:
+        return c->output == LAM_OUTPUT_LIGHT && c->reflection == LAM_REFLECTION_NONE ? "black3()"
+                                                                                     : "add3(sum.ambient, sum.diffuse)";
+    }
+}
+
+static const char *rest_term(const struct glsl_facts *f)
+{
+    const struct glsl_choices *c = f->choices;
+    bool glows = f->maps[0][LAM_MAP_EMISSION] || f->maps[1][LAM_MAP_EMISSION];
+    switch (c->output) {
+    case LAM_OUTPUT_SPECULAR:
+    case LAM_OUTPUT_REFLECTION:
+        return output_term(c);
+    case LAM_OUTPUT_EMISSION:
+        return glows ? "black3()" : "sum.emission";
+    case LAM_OUTPUT_AMBIENT:
+    case LAM_OUTPUT_DIFFUSE:
+        return "black3()";
+    case LAM_OUTPUT_LIGHT:
+        return c->reflection == LAM_REFLECTION_NONE ? "black3()" : "sum.specular";
+    default:
+        return glows ? "add3(sum.specular, sum.reflection)" : "add3(add3(sum.emission, sum.specular), sum.reflection)";
+    }
+}
+
 static void add_output_vector(struct text *text, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
@@ -173,6 +210,21 @@ static void add_alpha_rule(struct text *text, const struct glsl_facts *f)
         text->bytes[--text->length] = 0;
 }
 
+// Leaves out the points of masked surfaces where the fragment writes no light.
+static void add_value_mask(struct text *text, const struct glsl_facts *f)
+{
+    const struct glsl_choices *c = f->choices;
+    text_print(text, "    float opacity = %s%s;", glsl_maps_have(f, "opacity") ? "maps.opacity" : "1.0",
+               c->colors ? " * tint.a" : "");
+    for (int side = 0; side <= f->back_material; side++)
+        if (c->alpha[side] == LAM_ALPHA_MASK)
+            text_print(text, "\n    if (%s!(saturate(opacity) >= %salpha_cutoff)) {\n        discard;\n    }",
+                       !f->back_material ? ""
+                       : side            ? "!gl_FrontFacing && "
+                                         : "gl_FrontFacing && ",
+                       side ? "back_" : "");
+}
+
 static void add_stage(struct text *text, const struct glsl_facts *f, bool fragment)
 {
     const struct glsl_choices *c = f->choices;
@@ -184,10 +236,13 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     bool eye = surface || c->output == LAM_OUTPUT_DEPTH;
     bool triangle_ids = c->output == LAM_OUTPUT_IDS || c->layer != GLSL_NO_LAYERS || c->shadows;
     struct text groups = {0}, vector = {0}, attributes = {0}, chosen = {0}, metallic = {0}, roughness = {0},
-                alpha = {0}, of_material = {0}, layers = {0};
-    bool samples = fragment && f->mapped, reads_maps = f->mapped && !f->output_vector;
+                alpha = {0}, of_material = {0}, layers = {0}, value_mask = {0};
+    bool samples = fragment && f->mapped, reads_maps = f->mapped && !f->output_vector && !f->late;
+    bool passes_tint = tints || (f->value_masks && c->colors);
     if (fragment)
         add_alpha_rule(&alpha, f);
+    if (fragment && f->value_masks)
+        add_value_mask(&value_mask, f);
     glsl_declare_attributes(&attributes, f);
     add_groups(&groups, f);
     if (f->layers)
@@ -228,6 +283,12 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"tilts", f->tilts},
         {"alpha_ruled", alpha.bytes != NULL},
         {"mapped", f->mapped},
+        {"apart", f->apart},
+        {"value_masks", fragment && f->value_masks},
+        {"passes_tint", f->per_fragment ? passes_tint : f->value_masks && c->colors},
+        {"late_color", f->apart && glsl_maps_have(f, "color")},
+        {"late_emission", f->apart && glsl_maps_have(f, "emission")},
+        {"late_opacity", f->late && !f->value_masks && glsl_maps_have(f, "opacity")},
         {"first_texcoords", f->texcoords[0]},
         {"second_texcoords", f->texcoords[1]},
         {"anisotropic", c->anisotropy > 1},
@@ -241,7 +302,8 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"passes_tangent", passes_tangent},
         {"passes_normal", surface},
         {"passes_position", eye},
-        {"has_varyings", eye || surface || tints || f->application || f->per_vertex || triangle_ids},
+        {"has_varyings",
+         f->mapped || passes_tint || eye || surface || tints || f->application || f->per_vertex || triangle_ids},
         {"tangent_field", field},
         {"vertex_colors", tints},
         {"reads_lights", (f->lights || f->hemispheres) && !f->output_vector},
@@ -312,9 +374,12 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
                               !f->back_material ? ""
                               : i == 0          ? "bool front"
                                                 : sides[i]);
+        static const char *const rests[] = {"out vec3 rest", "front_rest", "back_rest", "rest"};
         if (reads_maps)
             snprintf(arguments[i] + length, sizeof arguments[i] - (size_t)length, "%s%smaps", length ? ", " : "",
                      i == 0 ? "surface_maps " : "");
+        else if (f->apart)
+            snprintf(arguments[i] + length, sizeof arguments[i] - (size_t)length, "%s%s", length ? ", " : "", rests[i]);
     }
     if (f->output_vector)
         add_output_vector(&vector, f);
@@ -358,6 +423,13 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"roughness", roughness.bytes ? roughness.bytes : ""},
         {"output_term", output_term(c)},
         {"output_material", of_material.bytes ? of_material.bytes : ""},
+        {"output_mapped", mapped_term(c)},
+        {"output_rest", rest_term(f)},
+        {"value_mask", value_mask.bytes ? value_mask.bytes : ""},
+        {"glow", f->back_material ? "(gl_FrontFacing ? glow : back_glow)" : "glow"},
+        {"smooth_varying", glsl_120   ? "varying "
+                           : fragment ? "in "
+                                      : "out "},
         {"output_vector", vector.bytes ? vector.bytes : ""},
         {"texture_cube", glsl_120 ? "textureCube" : "texture"},
         {"varying", varying},
@@ -373,7 +445,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     };
     const struct preprocess_words words = {flags, values};
     const struct text *parts[] = {&groups, &vector, &attributes, &chosen,      &metallic, &roughness,
-                                  &alpha,  &sizes,  &starts,     &of_material, &layers};
+                                  &alpha,  &sizes,  &starts,     &of_material, &layers, &value_mask};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         if (parts[i]->failed) {
             text->failed = true;
@@ -397,6 +469,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     free(roughness.bytes);
     free(alpha.bytes);
     free(layers.bytes);
+    free(value_mask.bytes);
     free(sizes.bytes);
     free(starts.bytes);
     free(of_material.bytes);

@@ -52,7 +52,7 @@ struct glsl_group {
 };
 enum { GLSL_KINDS = 5, GLSL_FALLOFFS = 3, GLSL_GROUPS_MAX = GLSL_KINDS * GLSL_FALLOFFS };
 
-// A map of one side's material. Only Phong shading reads maps.
+// A map of one side's material.
 struct glsl_map {
     uint8_t used;
     uint8_t texels; // maps of a range with the same number have the same texels everywhere
@@ -159,12 +159,25 @@ void glsl_pack_products(const struct glsl_choices *choices, const struct frame *
 // Sets the choices about maps for a range.
 void glsl_choose_maps(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range);
 
-// Whether shaders of the frame read a map of the material, and convert it at each point.
+// Whether shaders of the frame read a map of the material; whether they light each point by what its maps say, which Phong shading
+// does; and whether they convert it at each point.
 bool glsl_reads_maps(const struct frame *frame, const lam_material *material);
+static inline bool glsl_lights_maps(const struct frame *frame, const lam_material *material)
+{
+    return frame->shading == LAM_SHADING_PHONG && glsl_reads_maps(frame, material);
+}
 static inline bool glsl_converts(const struct frame *frame, const lam_material *material)
 {
-    return frame_material_is_converted(frame, material) && glsl_reads_maps(frame, material);
+    return frame_material_is_converted(frame, material) && glsl_lights_maps(frame, material);
 }
+
+// Whether a shader of these materials keeps the light apart that the diffuse map multiplies (glsl_facts.apart).
+bool glsl_keeps_apart(const struct frame *frame, const struct frame_draw_range *range);
+
+// The least opacity of a masked surface that is seen. Numbers of surfaces are decided by the maps and vertex colours alone.
+float glsl_alpha_cutoff(const struct frame *frame, const lam_material *material);
+// The emission that an emission map multiplies where it is added late (glsl_facts.late).
+void glsl_glow(const struct frame *frame, const struct frame_draw_range *range, bool back, float out[4]);
 
 // The rows of a map's uniforms NAME_map_s and NAME_map_t: those of the matrix from the mesh's texture coordinates to the
 // picture's, with the scale and the offset of the texel. NULL: a map whose value is 1 everywhere.

@@ -11,25 +11,31 @@
 
 static bool is_drawn(int map) { return map != LAM_MAP_DISPLACEMENT && map != LAM_MAP_REFLECTION; }
 
+// Where light is evaluated at vertices or once for a triangle, these maps are applied at each fragment.
+static bool is_late(int map) { return map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY || map == LAM_MAP_EMISSION; }
+
+static bool is_read(const struct frame *frame, const lam_material *material, int map)
+{
+    return material->maps[map] && is_drawn(map) && (frame->shading == LAM_SHADING_PHONG || is_late(map));
+}
+
 bool glsl_reads_maps(const struct frame *frame, const lam_material *material)
 {
     bool any = false;
     for (int i = 0; i < LAM_MAP_COUNT; i++)
-        any |= material->maps[i] && is_drawn(i);
-    return any && frame->shading == LAM_SHADING_PHONG;
+        any |= is_read(frame, material, i);
+    return any;
 }
 
 static void choose_side(struct glsl_choices *c, const struct frame *frame, const lam_material *material, int side,
                         const lam_mesh *mesh, const lam_texture_map *seen[2 * LAM_MAP_COUNT], int *seen_count)
 {
     c->converted[side] = glsl_converts(frame, material);
-    if (frame->shading != LAM_SHADING_PHONG)
-        return;
     for (int i = 0; i < LAM_MAP_COUNT; i++) {
         const lam_texture_map *map = material->maps[i];
         bool placed = map && glsl_has_texcoords(mesh, map);
         bool needs_tangents = i == LAM_MAP_NORMAL || i == LAM_MAP_CLEARCOAT_NORMAL;
-        if (!map || !is_drawn(i) || (needs_tangents && (!mesh->tangents || !placed)) || (i == LAM_MAP_BUMP && !placed))
+        if (!is_read(frame, material, i) || (needs_tangents && (!mesh->tangents || !placed)) || (i == LAM_MAP_BUMP && !placed))
             continue;
         if (map_layer((lam_map)i) && !(map_layer((lam_map)i) & material_layers(material)))
             continue;
@@ -90,6 +96,37 @@ void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4
     }
 }
 
+bool glsl_keeps_apart(const struct frame *frame, const struct frame_draw_range *range)
+{
+    bool any = false;
+    for (int side = 0; side < 2; side++) {
+        const lam_material *material = frame->materials[side ? range->back : range->front];
+        if (!side || (!frame->draws[range->draw].one_sided && range->back != range->front))
+            any |= material->maps[LAM_MAP_DIFFUSE] || material->maps[LAM_MAP_EMISSION];
+    }
+    return any && frame->shading != LAM_SHADING_PHONG && !output_is_vector(frame->output) &&
+           !glsl_output_is_geometry(frame->output);
+}
+
+float glsl_alpha_cutoff(const struct frame *frame, const lam_material *material)
+{
+    float cutoff = material->alpha_mode == LAM_ALPHA_MASK ? material->alpha_cutoff : 0, opacity = material->diffuse.a;
+    if (!output_is_value(frame->output) || !(cutoff > 0))
+        return cutoff;
+    return opacity > 0 ? cutoff / opacity : 2;
+}
+
+void glsl_glow(const struct frame *frame, const struct frame_draw_range *range, bool back, float out[4])
+{
+    const lam_material *material = frame->materials[back ? range->back : range->front];
+    bool shown = output_is_picture(frame->output) || frame->output == LAM_OUTPUT_EMISSION;
+    shown &= range->reflection != LAM_REFLECTION_NONE;
+    out[0] = shown ? material->emission.r : 0;
+    out[1] = shown ? material->emission.g : 0;
+    out[2] = shown ? material->emission.b : 0;
+    out[3] = 1;
+}
+
 // --- facts
 
 bool glsl_is_physical(const struct glsl_facts *f) { return frame_is_physical(f->choices->reflection); }
@@ -124,12 +161,15 @@ static bool material_reads(const struct glsl_facts *f, int side, lam_map map)
 static bool reads(const struct glsl_facts *f, int side, lam_map map)
 {
     if (f->output_material)
-        return material_reads(f, side, map);
+        return material_reads(f, side, map) ||
+               (f->value_masks && (map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY));
     bool sums = f->adds_lights, surface = f->lit && !f->unlit;
     switch (map) {
     case LAM_MAP_DIFFUSE:
     case LAM_MAP_OPACITY:
-        return f->lit && !f->output_vector;
+        return f->value_masks || (!f->output_geometry && !f->output_vector);
+    case LAM_MAP_EMISSION:
+        return sums || (f->application && !f->output_vector);
     case LAM_MAP_NORMAL:
     case LAM_MAP_BUMP: // GLSL 120 has no textureSize
         return surface && (f->lights || f->hemispheres || f->environment || f->output_vector) &&
@@ -147,14 +187,20 @@ static bool reads(const struct glsl_facts *f, int side, lam_map map)
 void glsl_find_maps(struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
-    for (int side = 0; side <= f->back_material; side++) {
-        f->masks |= c->alpha[side] == LAM_ALPHA_MASK && !f->output_vector && !f->output_geometry;
-        f->converts |= c->converted[side] && f->adds_lights && f->lights;
+    bool two = c->two_sided && c->back_material, values = f->output_vector || f->output_geometry || f->output_material;
+    for (int side = 0; side <= two; side++) {
+        f->masks |= c->alpha[side] == LAM_ALPHA_MASK;
+        f->apart |= c->maps[side][LAM_MAP_DIFFUSE].used || c->maps[side][LAM_MAP_EMISSION].used;
     }
-    for (int side = 0; side <= f->back_material && f->lit; side++)
+    f->value_masks = f->masks && values;
+    f->late = !(f->lit && f->per_fragment && f->shading == LAM_SHADING_PHONG);
+    f->apart &= f->late && !values;
+    f->back_material |= two && (f->value_masks || (f->application && !values));
+    for (int side = 0; side <= f->back_material; side++)
+        f->converts |= c->converted[side] && f->adds_lights && f->lights;
+    for (int side = 0; side <= f->back_material; side++)
         for (int i = 0; i < LAM_MAP_COUNT; i++) {
-            if (!c->maps[side][i].used || !f->per_fragment || f->shading != LAM_SHADING_PHONG ||
-                !reads(f, side, (lam_map)i))
+            if (!c->maps[side][i].used || (f->late && !is_late(i)) || !reads(f, side, (lam_map)i))
                 continue;
             f->maps[side][i] = f->mapped = true;
             f->texcoords[c->maps[side][i].texcoords] = true;

@@ -193,6 +193,12 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
             list.rows[list.count - 1].back = back;
         }
     add_maps(&list, f);
+    bool glows = f->late && (f->maps[0][LAM_MAP_EMISSION] || f->maps[1][LAM_MAP_EMISSION]);
+    for (int back = 0; back <= f->back_material && glows; back++) {
+        add(&list, GLSL_GLOW, "vec4", 0, NULL, "%sglow", back ? "back_" : "");
+        set_meaning(&list, "emission, which the emission map multiplies");
+        list.rows[list.count - 1].back = back;
+    }
     if (c->output == LAM_OUTPUT_IDS) {
         add(&list, GLSL_OBJECT, "float", 0, NULL, "object");
         set_meaning(&list, "index of the object");
@@ -276,7 +282,7 @@ int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_
         rows[count++] = (struct glsl_attribute){1, "vec3", "normal",
                                                 flat ? "mesh normal of the triangle, equal at its three vertices"
                                                      : "mesh normal, of any length"};
-    if (c->colors && f->lit && !f->output_vector)
+    if (c->colors && ((f->lit && !f->output_vector) || f->value_masks))
         rows[count++] = (struct glsl_attribute){
             2, "vec4", "color",
             flat && glsl_120 ? "linear, not premultiplied; at all three vertices that of the triangle's last vertex"
@@ -295,6 +301,12 @@ int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_
         if (c->two_sided)
             rows[count++] = (struct glsl_attribute){5, "vec4", "back_color",
                                                     "light that leaves the back at the vertex, and the opacity"};
+    }
+    if (f->application && f->apart) {
+        static const char meaning[] = "the part of that light which the diffuse map does not multiply";
+        rows[count++] = (struct glsl_attribute){9, "vec3", "front_plain", meaning};
+        if (c->two_sided)
+            rows[count++] = (struct glsl_attribute){10, "vec3", "back_plain", meaning};
     }
     if (flat && glsl_120 && shaded)
         rows[count++] = (struct glsl_attribute){6, "vec3", "provoking_position",
@@ -331,6 +343,7 @@ bool glsl_row_is_in(const struct glsl_facts *f, const struct glsl_row *row, bool
     case GLSL_MAP_S:
     case GLSL_MAP_T:
     case GLSL_ALPHA_CUTOFF:
+    case GLSL_GLOW:
         return fragment;
     case GLSL_MODEL_VIEW: // field_tangent reads its columns
         return !fragment || (f->per_fragment && ((f->tangent && !f->choices->tangents) || f->layers & LAYER_VOLUME));

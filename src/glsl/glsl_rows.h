@@ -34,6 +34,7 @@ enum glsl_semantic {
     GLSL_MAP_S, // glsl_map_values
     GLSL_MAP_T,
     GLSL_ALPHA_CUTOFF,
+    GLSL_GLOW, // glsl_glow
 };
 
 struct glsl_row {
@@ -48,7 +49,7 @@ struct glsl_row {
     int at;
     lam_map map; // of GLSL_MAP…
 };
-enum { GLSL_ROWS_MAX = 28 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
+enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
 
 // Properties of a shader that follow from its choices.
 struct glsl_facts {
@@ -84,6 +85,9 @@ struct glsl_facts {
     bool signed_tangent;         // the tangent attribute has that sign, and the fragment shader reads it
     bool converts;               // a side's material is converted (glsl_choices.converted)
     bool masks;                  // a side is masked
+    bool value_masks;            // and the fragment writes a number of the surface
+    bool late;                   // the fragment applies maps to light that was evaluated without them
+    bool apart;                  // late, with the light that the diffuse map multiplies apart from the rest
 };
 struct glsl_facts glsl_facts_of(const struct glsl_choices *choices);
 
@@ -121,7 +125,7 @@ struct glsl_attribute {
     int location;
     const char *type, *name, *meaning;
 };
-enum { GLSL_ATTRIBUTES_MAX = 9 };
+enum { GLSL_ATTRIBUTES_MAX = 11 };
 // Lists the vertex attributes. Returns their number.
 int glsl_attributes(const struct glsl_facts *facts, struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX]);
 

@@ -193,7 +193,7 @@ void glsl_material_colors(const struct frame *frame, const lam_material *materia
 {
     bool converted = glsl_converts(frame, material);
     frame_material_colors(material, kd, ks);
-    if (converted || (glsl_reads_maps(frame, material) && material->maps[LAM_MAP_METALLIC])) {
+    if (converted || (glsl_lights_maps(frame, material) && material->maps[LAM_MAP_METALLIC])) {
         memcpy(kd, converted ? &material->ambient.r : &material->diffuse.r, 3 * sizeof *kd);
         ks[0] = ks[1] = ks[2] = 1;
     }

@@ -22,20 +22,29 @@
 //@if signed_tangent
 @varying@float bitangent_sign;
 //@end
-//@if first_texcoords
-@varying@vec2 surface_texcoord;
-//@end
-//@if second_texcoords
-@varying@vec2 surface_second_texcoord;
-//@end
-//@if vertex_colors
+//@if passes_tint
 @varying@vec4 tint;
 //@end
-//@else
+//@elif !output_geometry
 @varying@vec4 front_light;
 //@if two_sided
 @varying@vec4 back_light;
 //@end
+//@if apart
+@varying@vec3 front_rest;
+//@if two_sided
+@varying@vec3 back_rest;
+//@end
+//@end
+//@if passes_tint
+@smooth_varying@vec4 tint;
+//@end
+//@end
+//@if first_texcoords
+@smooth_varying@vec2 surface_texcoord;
+//@end
+//@if second_texcoords
+@smooth_varying@vec2 surface_second_texcoord;
 //@end
 //@if triangle_ids
 @flat_varying@int triangle;

@@ -263,7 +263,9 @@ hemisphere hemisphere_of(int i@list_parameter@)
 //@if vertex_colors
 // `tint` is the vertex colour: a factor of the ambient and diffuse terms, and of the opacity.
 //@end
-//@if mapped
+//@if apart
+// `rest` is the part of the light that the diffuse map does not multiply.
+//@elif mapped
 // `maps` is what the material's textures say of the point.
 //@end
 vec4 light_point(@lit_parameters@)
@@ -412,7 +414,15 @@ vec4 light_point(@lit_parameters@)
 //@end
     return vec4(@output_material@, 1.0);
 //@else
+//@if apart
+    vec3 color = @output_mapped@;
+    rest = @output_rest@;
+//@if clamped
+    rest = vec3(saturate(rest.x), saturate(rest.y), saturate(rest.z));
+//@end
+//@else
     vec3 color = @output_term@;
+//@end
 //@if clamped
     // As in OpenGL 1, the colour of a vertex is clamped to 0...1.
     color = vec3(saturate(color.x), saturate(color.y), saturate(color.z));

@@ -269,8 +269,11 @@ static int value_of(const struct build *m, const struct frame_draw_range *range,
         return put(out, rows[row->semantic == GLSL_MAP_T], 4);
     }
     case GLSL_ALPHA_CUTOFF:
-        out[0] = material->alpha_mode == LAM_ALPHA_MASK ? material->alpha_cutoff : 0;
+        out[0] = glsl_alpha_cutoff(&m->frame, material);
         return 1;
+    case GLSL_GLOW:
+        glsl_glow(&m->frame, range, row->back, out);
+        return 4;
     case GLSL_MAP:
     case GLSL_ENVIRONMENT:
     case GLSL_ENVIRONMENT_LIGHT:

@@ -5,6 +5,15 @@ void main()
 //@if triangle_ids
     triangle = gl_VertexID / 3;
 //@end
+//@if first_texcoords
+    surface_texcoord = texcoord;
+//@end
+//@if second_texcoords
+    surface_second_texcoord = second_texcoord;
+//@end
+//@if passes_tint
+    tint = color;
+//@end
 //@if per_fragment
 //@if passes_position
     eye_position = (model_view * vec4(@lit_position@, 1.0)).xyz;
@@ -20,19 +29,16 @@ void main()
     mat3 axes = mat3(model_view);
     bitangent_sign = dot3(cross3(axes[0], axes[1]), axes[2]) < 0.0 ? -tangent.w : tangent.w;
 //@end
-//@if first_texcoords
-    surface_texcoord = texcoord;
-//@end
-//@if second_texcoords
-    surface_second_texcoord = second_texcoord;
-//@end
-//@if vertex_colors
-    tint = color;
-//@end
 //@elif application
     front_light = front_color;
 //@if two_sided
     back_light = back_color;
+//@end
+//@if apart
+    front_rest = front_plain;
+//@if two_sided
+    back_rest = back_plain;
+//@end
 //@end
 //@else
 //@if passes_normal

@@ -339,8 +339,8 @@ static void check_scene(void **state)
         skip();
     if (!demo_build(row, &demo, &error))
         fail_msg("%s: %s", row->name, error.text);
-    // Textures under Gouraud shading, and shadows of these kinds, are not drawn there yet.
-    static const char *const not_yet[] = {"textured-gouraud", "shadows-gouraud", "shadows-soft", "shadows-leaves"};
+    // Shadows of these kinds are not drawn there yet.
+    static const char *const not_yet[] = {"shadows-gouraud", "shadows-soft", "shadows-leaves"};
     bool refused = false;
     for (size_t i = 0; i < sizeof not_yet / sizeof *not_yet; i++)
         refused |= strcmp(row->name, not_yet[i]) == 0;

@@ -211,3 +211,23 @@ uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragmen
         }
     return uncovered;
 }
+
+void show_layers(const struct sample_pattern *pattern, const struct fragments *fragments, const struct layer_rows *rows,
+                 struct tile_samples *samples)
+{
+    struct cells cells = cells_of(pattern->count);
+    for (int i = 0; i < fragments->count; i++) {
+        int pixel = fragments->pixel[i];
+        size_t first = (size_t)pixel_index(&cells, pixel % TILE, pixel / TILE);
+        const float *keys = rows->keys + (size_t)i * (size_t)pattern->count;
+        for (unsigned rest = rows->samples[i]; rest; rest &= rest - 1) {
+            int s = __builtin_ctz(rest);
+            size_t at = first + (size_t)s;
+            if (samples->ids[at] != NOTHING &&
+                rank_of(samples->keys[at], samples->ids[at]) >= rank_of(keys[s], fragments->id[i]))
+                continue;
+            samples->keys[at] = keys[s];
+            samples->ids[at] = fragments->id[i];
+        }
+    }
+}

@@ -2,6 +2,7 @@
 #ifndef BLEND_H
 #define BLEND_H
 
+#include "coverage.h"
 #include "fragments.h"
 #include "resolve.h"
 #include "samples.h"
@@ -33,5 +34,9 @@ void sort_layers(const struct sample_pattern *pattern, struct fragments *fragmen
 uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragments *fragments,
                       const struct layer_rows *rows, struct blend_scratch *scratch, const uint32_t *ids,
                       const struct rectangle *area, struct pixel_sums *sums, struct recorder *recorder);
+
+// In place of sorting and blending: puts the nearest fragment of each sample into the tile's visibility buffer.
+void show_layers(const struct sample_pattern *pattern, const struct fragments *fragments, const struct layer_rows *rows,
+                 struct tile_samples *samples);
 
 #endif

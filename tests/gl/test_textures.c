@@ -246,12 +246,12 @@ static void lit_at_vertices(void **state)
 static void values_of_masked(void **state)
 {
     (void)state;
-    static const lam_output outputs[] = {LAM_OUTPUT_NORMALS, LAM_OUTPUT_DEPTH, LAM_OUTPUT_FACING, LAM_OUTPUT_IDS,
-                                         LAM_OUTPUT_COVERAGE};
+    static const lam_output outputs[] = {LAM_OUTPUT_NORMALS,  LAM_OUTPUT_DEPTH,      LAM_OUTPUT_FACING, LAM_OUTPUT_IDS,
+                                         LAM_OUTPUT_COVERAGE, LAM_OUTPUT_BASE_COLOR, LAM_OUTPUT_LOD};
     lam_texture *texture = random_texture(8, 8, 1);
     lam_texture_map map = {.texture = texture};
     for (int shading = 0; shading < 3; shading++)
-        for (int i = 0; i < 5; i++)
+        for (int i = 0; i < 7; i++)
             for (int mode = LAM_ALPHA_BLEND; mode < LAM_ALPHA_COUNT; mode++) {
                 lam_scene *scene = floor_scene(&map);
                 lam_material m = *lam_scene_material(scene, 0);

@@ -33,7 +33,7 @@ enum texture_unit {
     UNIT_COPY,
     UNIT_SHADOW_TREE = UNIT_COPY, // no program reads both
     UNIT_FIRST_MAP,               // the maps of materials
-    UNIT_COUNT = 48 // at most; every driver has 16 (OpenGL 3.3 and ES 3.0), most 32: gl_device.unit_count
+    UNIT_COUNT = 48               // at most; every driver has 16 (OpenGL 3.3 and ES 3.0), most 32: gl_device.unit_count
 };
 enum block_point { POINT_LIGHTS, POINT_PRODUCTS, POINT_BACK_PRODUCTS, POINT_COUNT };
 

@@ -445,7 +445,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
     };
     const struct preprocess_words words = {flags, values};
     const struct text *parts[] = {&groups, &vector, &attributes, &chosen,      &metallic, &roughness,
-                                  &alpha,  &sizes,  &starts,     &of_material, &layers, &value_mask};
+                                  &alpha,  &sizes,  &starts,     &of_material, &layers,   &value_mask};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         if (parts[i]->failed) {
             text->failed = true;

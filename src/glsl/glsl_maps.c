@@ -35,7 +35,8 @@ static void choose_side(struct glsl_choices *c, const struct frame *frame, const
         const lam_texture_map *map = material->maps[i];
         bool placed = map && glsl_has_texcoords(mesh, map);
         bool needs_tangents = i == LAM_MAP_NORMAL || i == LAM_MAP_CLEARCOAT_NORMAL;
-        if (!is_read(frame, material, i) || (needs_tangents && (!mesh->tangents || !placed)) || (i == LAM_MAP_BUMP && !placed))
+        if (!is_read(frame, material, i) || (needs_tangents && (!mesh->tangents || !placed)) ||
+            (i == LAM_MAP_BUMP && !placed))
             continue;
         if (map_layer((lam_map)i) && !(map_layer((lam_map)i) & material_layers(material)))
             continue;
@@ -161,8 +162,7 @@ static bool material_reads(const struct glsl_facts *f, int side, lam_map map)
 static bool reads(const struct glsl_facts *f, int side, lam_map map)
 {
     if (f->output_material)
-        return material_reads(f, side, map) ||
-               (f->value_masks && (map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY));
+        return material_reads(f, side, map) || (f->value_masks && (map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY));
     bool sums = f->adds_lights, surface = f->lit && !f->unlit;
     switch (map) {
     case LAM_MAP_DIFFUSE:
@@ -288,7 +288,8 @@ static const struct {
 static bool has_member(const struct glsl_facts *f, int member)
 {
     bool level = f->output_material && f->choices->output == LAM_OUTPUT_LOD;
-    if (level || member == LEVEL)
+    bool masks = member == OPACITY && f->value_masks;
+    if ((level && !masks) || member == LEVEL)
         return level && member == LEVEL && f->mapped;
     static const lam_map maps[MEMBERS] = {[COLOR] = LAM_MAP_DIFFUSE,
                                           [AMBIENT] = LAM_MAP_AMBIENT,
@@ -400,7 +401,7 @@ static void add_sampling(struct text *text, const struct glsl_facts *f, const st
 
 static void add_texels(struct text *text, const struct glsl_facts *f, int side)
 {
-    for (int i = 0; i < LAM_MAP_COUNT && !has_member(f, LEVEL); i++) {
+    for (int i = 0; i < LAM_MAP_COUNT && (!has_member(f, LEVEL) || f->value_masks); i++) {
         if (!f->maps[side][i] || i == LAM_MAP_BUMP || glsl_map_owner(f, side, (lam_map)i) != (lam_map)i)
             continue;
         const char *name = lam_map_name((lam_map)i), *p = prefix(side);

@@ -332,7 +332,7 @@ static void test_errors(void **unused)
     }
     lam_error error = {0};
     assert_null(load_scene("{\"lambent\": 1, \"objects\": [{\"file\": \"points.obj\"}]}", &error));
-    assert_non_null(strstr(error.text, "no triangles"));
+    assert_non_null(strstr(error.text, "no faces, lines or points"));
 }
 
 static const char whole[] =

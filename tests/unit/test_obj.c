@@ -6,6 +6,7 @@
 #include <lambent/image.h>
 #include <lambent/lambent.h>
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -511,11 +512,57 @@ static void test_mtl_maps(void **unused)
     assert_null(m->map_names[LAM_MAP_AMBIENT]);
     assert_true(m->diffuse.r == 1); // the texture's own colour
     assert_string_equal(m->map_names[LAM_MAP_ROUGHNESS], "rough.png");
-    assert_string_equal(lam_scene_warning(scene, 0), "t.obj: 2 maps of materials that this version does not draw");
-    for (int i = 1; i <= 4; i++) // none of the pictures is there
+    assert_string_equal(lam_scene_warning(scene, 0),
+                        "t.obj: 1 reflection map (refl) is not drawn: materials mirror the scene's environment, which "
+                        "they have in common");
+    assert_string_equal(lam_scene_warning(scene, 1), "t.obj: 1 map of materials that this version does not draw");
+    for (int i = 2; i <= 5; i++) // none of the pictures is there
         assert_non_null(strstr(lam_scene_warning(scene, i), "drawn without this texture"));
-    assert_null(lam_scene_warning(scene, 5));
+    assert_null(lam_scene_warning(scene, 6));
     lam_scene_free(scene);
+}
+
+// Options with numbers that are none, or absurd: a warning each, and the map as without the option.
+static void test_mtl_options(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *mtl, *sentence;
+    } rows[] = {
+        {"map_Kd -s nan inf x.ppm", "option -s of its diffuse map is nan, expected numbers from -1000000 to 1000000"},
+        {"map_Kd -s 1 -inf x.ppm", "option -s of its diffuse map is -inf, expected numbers from -1000000 to 1000000"},
+        {"map_Kd -o 1e38 x.ppm", "option -o of its diffuse map is 1e+38, expected numbers from -1000000 to 1000000"},
+        {"map_Kd -mm 0 1e9 x.ppm", "option -mm of its diffuse map is 1e+09, expected numbers from -1000000 to 1000000"},
+        {"map_Bump -bm 1e30 x.ppm", "option -bm of its bump map is 1e+30, expected numbers from -1000000 to 1000000"},
+        {"map_d -imfchan q x.ppm", "option -imfchan of its opacity map is 'q', expected r, g, b, m, l or z"},
+        {"map_Kd -s 2 3 -clamp on x.ppm", NULL},
+        {"map_d -imfchan l x.ppm", NULL},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char mtl[200], sentence[300];
+        lam_error error = {0};
+        snprintf(mtl, sizeof mtl, "newmtl a\n%s\n", rows[i].mtl);
+        const struct library libraries[] = {{"a.mtl", mtl}, {"x.ppm", "P6\n1 1\n255\nabc"}, {NULL, NULL}};
+        lam_scene *scene =
+            load_with("mtllib a.mtl\n" TRIANGLE "usemtl a\nf 1 2 3\n", (lam_load_params){0}, libraries, &error);
+        assert_non_null(scene);
+        const lam_material *m = lam_scene_material(scene, 0);
+        int maps = 0;
+        for (int slot = 0; slot < LAM_MAP_COUNT; slot++) {
+            const lam_texture_map *map = m->maps[slot];
+            maps += map != NULL;
+            for (int k = 0; map && k < 6; k++)
+                assert_true(fabsf(map->transform[k / 3][k % 3]) <= 3);
+            assert_true(!map || (fabsf(map->scale) <= 1 && map->offset == 0));
+        }
+        assert_int_equal(maps, 1);
+        if (rows[i].sentence) {
+            snprintf(sentence, sizeof sentence, "t.obj: material 'a': %s; it is left out", rows[i].sentence);
+            assert_string_equal(lam_scene_warning(scene, 0), sentence);
+        }
+        assert_null(lam_scene_warning(scene, rows[i].sentence != NULL));
+        lam_scene_free(scene);
+    }
 }
 
 static void test_mtl_warnings(void **unused)
@@ -768,6 +815,7 @@ int main(void)
         cmocka_unit_test(test_origin),
         cmocka_unit_test(test_mtl),
         cmocka_unit_test(test_mtl_maps),
+        cmocka_unit_test(test_mtl_options),
         cmocka_unit_test(test_mtl_exponents),
         cmocka_unit_test(test_clear),
         cmocka_unit_test(test_mtl_warnings),

@@ -228,7 +228,8 @@ static bool read_map(struct reader *reader, enum lam_map map, const uint8_t *at,
     struct arena *arena = &reader->scene->arena;
     reader->material.map_names[map] = text_name(arena, name, (size_t)(end - name));
     reader->material.map_options[map] = last > at ? text_name(arena, at, (size_t)(last - at)) : NULL;
-    reader->set->other_maps += map == LAM_MAP_DISPLACEMENT || map == LAM_MAP_REFLECTION;
+    reader->set->other_maps += map == LAM_MAP_DISPLACEMENT;
+    reader->set->reflection_maps += map == LAM_MAP_REFLECTION;
     if (!reader->material.map_names[map] || (last > at && !reader->material.map_options[map]))
         return call_memory_error(arena->call, (size_t)(end - at), error);
     return true;

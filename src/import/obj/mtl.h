@@ -9,6 +9,7 @@
 struct mtl_set {
     struct name_table by_name; // of the model; the value is the index in the scene
     size_t other_maps;         // statements that name a texture which is not drawn
+    size_t reflection_maps;    // statements refl, which give one material surroundings of its own
 };
 
 // Reads a file's materials into the scene and the set; of equal names the first is kept. Errors in the file become

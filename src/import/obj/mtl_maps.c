@@ -8,6 +8,7 @@
 
 #include "fail.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -38,7 +39,21 @@ static bool is_drawn(int slot) { return slot != LAM_MAP_DISPLACEMENT && slot != 
 
 struct options {
     const uint8_t *at, *end;
+    // For warnings: the option that is read, of which map of which material.
+    struct lam_scene *scene;
+    const char *file, *material, *option;
+    int slot;
 };
+
+enum { OPTION_MAX = 1000000 }; // of a number's magnitude: texture coordinates beyond have no digits left for a texel
+
+static void warn_option(const struct options *o, const char *found, const char *expected)
+{
+    char shown[SHOWN_NAME_SIZE];
+    shown_name(o->material ? o->material : "", shown);
+    scene_warn(o->scene, "%s: material '%s': option %s of its %s map is %s, expected %s; it is left out", o->file,
+               shown, o->option, lam_map_name((lam_map)o->slot), found, expected);
+}
 
 // Takes up to `most` numbers; returns how many there are.
 static int take_numbers(struct options *o, float *out, int most)
@@ -54,21 +69,44 @@ static int take_numbers(struct options *o, float *out, int most)
     return count;
 }
 
+// The same for numbers that count: where one is absurd, none is taken, with a warning.
+static int take_checked(struct options *o, float *out, int most)
+{
+    float numbers[3];
+    int count = take_numbers(o, numbers, most);
+    for (int i = 0; i < count; i++)
+        if (!(numbers[i] >= -OPTION_MAX && numbers[i] <= OPTION_MAX)) {
+            char found[32];
+            snprintf(found, sizeof found, "%g", (double)numbers[i]);
+            warn_option(o, found, "numbers from -1000000 to 1000000");
+            return 0;
+        }
+    memcpy(out, numbers, (size_t)count * sizeof *out);
+    return count;
+}
+
 static bool take_word(struct options *o, const char *word)
 {
     if (!text_is_word(o->at, o->end, word))
         return false;
+    o->option = word;
     o->at = text_skip_white(text_skip_word(o->at, o->end), o->end);
     return true;
 }
 
-// The channel of -imfchan; m, l and z are the matte (alpha), the luminance and the depth.
-static int channel_of(struct options *o)
+// Takes the channel of -imfchan; m, l and z are the matte (alpha), the luminance and the depth. False: it is none of them.
+static bool take_channel(struct options *o, int *channel)
 {
-    static const char letters[] = "rgbm";
+    static const char letters[] = "rgbmlz";
     const char *found = o->at < o->end ? strchr(letters, *o->at | 32) : NULL;
+    char text[TEXT_FOUND_SIZE];
+    bool known = found && *found;
+    if (known)
+        *channel = found - letters < 4 ? (int)(found - letters) : 0;
+    else
+        warn_option(o, text_found(o->at, o->end, text), "r, g, b, m, l or z");
     o->at = text_skip_white(text_skip_word(o->at, o->end), o->end);
-    return found && *found ? (int)(found - letters) : 0;
+    return known;
 }
 
 // MTL's texture coordinates have t upwards; -s and -o change them first.
@@ -78,28 +116,29 @@ static void set_transform(lam_texture_map *map, const float scale[2], const floa
     memcpy(map->transform, m, sizeof m);
 }
 
-static lam_texture_map map_of(const char *text, bool *channel_given)
+static lam_texture_map map_of(struct lam_scene *scene, const char *file, const lam_material *material, int slot,
+                              bool *channel_given)
 {
+    const char *text = material->map_options[slot];
     const uint8_t *begin = (const uint8_t *)(text ? text : "");
-    struct options o = {begin, begin + strlen((const char *)begin)};
+    struct options o = {begin, begin + strlen((const char *)begin), scene, file, material->name, NULL, slot};
     float scale[3] = {1, 1, 1}, offset[3] = {0, 0, 0}, unused[3], range[2] = {0, 1}, bump = 1;
     lam_texture_map map = {0};
     o.at = text_skip_white(o.at, o.end);
     while (o.at < o.end) {
         if (take_word(&o, "-s")) {
-            if (take_numbers(&o, scale, 3) == 1)
+            if (take_checked(&o, scale, 3) == 1)
                 scale[1] = scale[0];
         } else if (take_word(&o, "-o")) {
-            take_numbers(&o, offset, 3);
+            take_checked(&o, offset, 3);
         } else if (take_word(&o, "-mm")) {
-            take_numbers(&o, range, 2);
+            take_checked(&o, range, 2);
         } else if (take_word(&o, "-bm")) {
-            take_numbers(&o, &bump, 1);
+            take_checked(&o, &bump, 1);
         } else if (take_word(&o, "-clamp")) {
             map.wrap_s = map.wrap_t = take_word(&o, "on") ? LAM_WRAP_CLAMP : LAM_WRAP_REPEAT;
         } else if (take_word(&o, "-imfchan")) {
-            map.channel = channel_of(&o);
-            *channel_given = true;
+            *channel_given |= take_channel(&o, &map.channel);
         } else {
             o.at = text_skip_white(text_skip_word(o.at, o.end), o.end);
             take_numbers(&o, unused, 3);
@@ -149,14 +188,14 @@ static bool is_own_alpha(const lam_material *m)
            strcmp(m->map_names[LAM_MAP_OPACITY], m->map_names[LAM_MAP_DIFFUSE]) == 0;
 }
 
-static bool add_map(struct lam_scene *scene, lam_material *material, int slot, const struct picture *picture,
-                    lam_error *error)
+static bool add_map(struct lam_scene *scene, const char *file, lam_material *material, int slot,
+                    const struct picture *picture, lam_error *error)
 {
     bool channel_given = false;
     lam_texture_map *map = arena_alloc(&scene->arena, sizeof *map);
     if (!map)
         return call_memory_error(scene->arena.call, sizeof *map, error);
-    *map = map_of(material->map_options[slot], &channel_given);
+    *map = map_of(scene, file, material, slot, &channel_given);
     map->texture = picture->texture;
     // The opacity of a picture with alpha is its alpha, else its grey.
     if (slot == LAM_MAP_OPACITY && !channel_given)
@@ -186,7 +225,7 @@ static bool give_map(struct pictures *pictures, struct lam_scene *scene, lam_mat
                      lam_error *error)
 {
     const struct picture *picture = picture_of(pictures, material->map_names[slot], slot);
-    return !picture->texture || add_map(scene, material, slot, picture, error);
+    return !picture->texture || add_map(scene, pictures->source->name, material, slot, picture, error);
 }
 
 static bool for_each_map(struct pictures *pictures, struct lam_scene *scene, int first, map_fn *run, lam_error *error)

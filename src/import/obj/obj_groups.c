@@ -318,7 +318,12 @@ static void warn_materials(struct state *state)
                        "materials, which are drawn in neutral grey",
                        name, line, shown, state->unknown_materials);
     }
-    size_t maps = obj->materials.other_maps;
+    size_t maps = obj->materials.other_maps, reflections = obj->materials.reflection_maps;
+    if (reflections)
+        scene_warn(obj->scene,
+                   "%s: %zu reflection map%s (refl) %s not drawn: materials mirror the scene's environment, which they "
+                   "have in common",
+                   name, reflections, reflections == 1 ? "" : "s", reflections == 1 ? "is" : "are");
     if (maps)
         scene_warn(obj->scene, "%s: %zu map%s of materials that this version does not draw", name, maps,
                    maps == 1 ? "" : "s");

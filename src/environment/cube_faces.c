@@ -5,12 +5,24 @@
 
 void cube_direction(int face, double major, double across, double down, double out[3])
 {
-    const double table[LAM_FACE_COUNT][3] = {
-        [LAM_FACE_PX] = {major, -down, -across}, [LAM_FACE_NX] = {-major, -down, across},
-        [LAM_FACE_PY] = {across, major, down},   [LAM_FACE_NY] = {across, -major, -down},
-        [LAM_FACE_PZ] = {across, -down, major},  [LAM_FACE_NZ] = {-across, -down, -major},
-    };
-    memcpy(out, table[face], sizeof table[face]);
+    switch (face) {
+    case LAM_FACE_PX:
+    case LAM_FACE_NX:
+        out[0] = face == LAM_FACE_PX ? major : -major;
+        out[1] = -down;
+        out[2] = face == LAM_FACE_PX ? -across : across;
+        break;
+    case LAM_FACE_PY:
+    case LAM_FACE_NY:
+        out[0] = across;
+        out[1] = face == LAM_FACE_PY ? major : -major;
+        out[2] = face == LAM_FACE_PY ? down : -down;
+        break;
+    default:
+        out[0] = face == LAM_FACE_PZ ? across : -across;
+        out[1] = -down;
+        out[2] = face == LAM_FACE_PZ ? major : -major;
+    }
 }
 
 // The texel beside the edge on the neighbouring face. A face is taken from −size to size, so that texel i lies at the

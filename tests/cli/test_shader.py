@@ -44,6 +44,17 @@ class Shader(Case):
         self.assertEqual(self.good("shader", "cube.obj", "-q", "-o", "again.frag").stdout, b"")
         self.assertTrue((self.folder / "again.vert").exists())
 
+    def test_host_code_says_which_pictures_it_leaves_out(self):
+        (self.folder / "red.ppm").write_bytes(b"P6\n2 1\n255\nabcdef")
+        (self.folder / "a.mtl").write_text("newmtl a\nmap_Kd red.ppm\nnewmtl b\n")
+        (self.folder / "a.obj").write_text("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\nusemtl b\nf 3/1 2/1 1/1\n")
+        host = self.good("shader", "a.obj", "--host", "c").stdout.decode().split("// ===== host code =====")[1]
+        self.assertIn("// LEFT OUT: the pictures of textures", host)
+        self.assertRegex(host, r"// LEFT OUT: diffuse_map is the picture .*red\.ppm, 2x1, sRGB colours, to be made linear: bind it with "
+                               r"glActiveTexture\(GL_TEXTURE0 \+ 4\)\n    glUniform1i\(glGetUniformLocation\(program, \"diffuse_map\"\), 4\);")
+        self.assertIn("// diffuse_map: this draw has no such map, and reads 1 whatever is bound to unit 4", host)
+        self.assertNotIn("LEFT OUT", self.good("shader", "cube.obj", "--host", "c").stdout.decode())
+
     def test_every_uniform_of_the_text_is_in_the_contract_and_back(self):
         for words in (["--glsl", "120"], ["--glsl", "120", "--products"], ["--lights-in", "array", "--back-material", "gold"],
                       ["--glsl", "300es", "--products", "--lights-in", "texture"], ["--gl1", "--shading", "gouraud", "--glsl", "120"]):

@@ -106,9 +106,34 @@ static int binding_of(const char *block)
     return binding == 3 ? 1 : binding; // a shader has Materials or Products, never both
 }
 
+// Whether a uniform is the sampler of a material's map: its picture is the caller's to load.
+static bool is_map(const lam_shader_uniform *u)
+{
+    return !u->count && strcmp(u->type, "sampler2D") == 0 && strcmp(u->name, "light_list") != 0 &&
+           strcmp(u->name, "product_list") != 0 && strcmp(u->name, "environment_light") != 0;
+}
+
+// A comment about the picture of a map. A name from a file must not end the comment.
+static void write_map(FILE *file, const lam_shader_uniform *u, int unit)
+{
+    if (!u->map) {
+        fprintf(file, "    // %s: this draw has no such map, and reads 1 whatever is bound to unit %d\n", u->name,
+                unit);
+        return;
+    }
+    const char *name = lam_texture_name(u->map->texture);
+    fprintf(file, "    // LEFT OUT: %s is the picture ", u->name);
+    for (const char *c = name ? name : "in the model"; *c; c++)
+        fputc((unsigned char)*c < 32 || *c == 127 || *c == '\\' ? '?' : *c, file);
+    fprintf(file, ", %dx%d, %s: bind it with glActiveTexture(GL_TEXTURE0 + %d)\n",
+            lam_texture_width(u->map->texture, 0), lam_texture_height(u->map->texture, 0),
+            lam_texture_values_of(u->map->texture) == LAM_TEXTURE_COLOR ? "sRGB colours, to be made linear" : "numbers",
+            unit);
+}
+
 static void set_all(FILE *file, const lam_shader_uniform *list, int count)
 {
-    int unit = 2, map_unit = 3; // 0 and 1 are the lists of lights, 2 is the environment
+    int unit = 2, map_unit = 4; // 0 and 1 are the lists of lights, 2 and 3 the environment and its light
     for (int i = 0; i < count;) {
         const lam_shader_uniform *u = &list[i];
         if (u->block) {
@@ -120,12 +145,9 @@ static void set_all(FILE *file, const lam_shader_uniform *list, int count)
         bool lights = strcmp(u->name, "light_list") == 0;
         if (!u->count && (lights || strcmp(u->name, "product_list") == 0)) {
             fprintf(file, "    set_list(program, \"%s\", %d, %s, %s_texels);\n", u->name, !lights, u->name, u->name);
-        } else if (!u->count && strcmp(u->type, "sampler2D") == 0) {
-            fprintf(file,
-                    "    // %s\n    glUniform1i(glGetUniformLocation(program, \"%s\"), %d); // your texture (--json "
-                    "names it): "
-                    "glActiveTexture(GL_TEXTURE0 + %d)\n",
-                    u->meaning, u->name, map_unit, map_unit);
+        } else if (is_map(u)) {
+            write_map(file, u, map_unit);
+            fprintf(file, "    glUniform1i(glGetUniformLocation(program, \"%s\"), %d);\n", u->name, map_unit);
             map_unit++;
         } else if (!u->count) {
             fprintf(file,
@@ -320,6 +342,17 @@ void shader_host(FILE *file, const lam_shader *s, const char *name, const char *
             "// where the buffer holds three vertices for each triangle of the object's mesh, in the "
             "order of the file.\n\n",
             name, name, model, lam_version());
+    bool maps = false;
+    for (int i = 0; i < s->draw_count; i++)
+        for (int k = 0; k < s->draws[i].uniform_count; k++)
+            maps |= is_map(&s->draws[i].uniforms[k]);
+    if (maps)
+        fputs("// LEFT OUT: the pictures of textures, which this code does not load. Before a draw, bind those that "
+              "set_draw names: linear\n"
+              "// RGBA, the first row at the top, with all levels of detail (glGenerateMipmap), GL_TEXTURE_MIN_FILTER\n"
+              "// GL_NEAREST_MIPMAP_NEAREST, GL_TEXTURE_MAG_FILTER GL_NEAREST: the shader filters. Nothing bound is "
+              "black.\n\n",
+              file);
     write_vertices(file, s);
     write_program(file, s);
     if (has_blocks(s))

@@ -1,4 +1,5 @@
-// layers.c: spheres of physical materials with layers: index of refraction, clear coat, sheen, anisotropy, iridescence.
+// layers.c: spheres of physical materials with layers: index of refraction, clear coat, sheen, anisotropy, iridescence,
+// transmission.
 #include "textured.h"
 
 enum { SPHERES = 8 };
@@ -75,4 +76,39 @@ bool layers_environment(struct demo *d, lam_error *error)
     bool ok = environment && layers_uniform(d, error) && lam_scene_set_environment(d->scene, environment, 0, error);
     lam_environment_free(environment);
     return ok;
+}
+
+// Coloured glass in front of a white box and of one another, over a background; the last ball is tinted by its volume.
+bool layers_transmission(struct demo *d, lam_error *error)
+{
+    static const lam_rgba colors[3] = {{1, 0.8f, 0.1f, 1}, {0.2f, 0.9f, 0.4f, 1}, {0.9f, 0.9f, 0.9f, 1}};
+    lam_shape_params params = {.slices = 32, .stacks = 24};
+    lam_object o = lam_object_default();
+    lam_material white = lam_material_default();
+    int ball = lam_scene_add_shape(d->scene, "sphere", &params, error);
+    o.mesh = lam_scene_add_shape(d->scene, "cube", &params, error);
+    o.material = lam_scene_add_material(d->scene, &white, error);
+    o.transform.m[0][0] = 2;
+    o.transform.m[1][1] = o.transform.m[2][2] = 0.5;
+    o.transform.m[2][3] = -1.5;
+    bool ok = ball >= 0 && o.mesh >= 0 && o.material >= 0 && lam_scene_add_object(d->scene, &o, error) >= 0;
+    for (int i = 0; ok && i < 3; i++) {
+        lam_material m = base_material(0, 0.4f);
+        m.diffuse = colors[i];
+        m.alpha_mode = LAM_ALPHA_OPAQUE;
+        m.transmission = i == 1 ? 0.6f : 1;
+        m.thickness = i == 2 ? 0.8f : 0;
+        m.attenuation_distance = 0.5f;
+        m.attenuation_color = (lam_rgb){0.9f, 0.3f, 0.5f};
+        m.clearcoat = i == 0 ? 0.5f : 0;
+        m.clearcoat_roughness = 0.3f;
+        o = lam_object_default();
+        o.mesh = ball;
+        o.material = lam_scene_add_material(d->scene, &m, error);
+        o.transform.m[0][3] = 1.5 * (i - 1);
+        o.transform.m[2][3] = 0.4 * i;
+        ok = o.material >= 0 && lam_scene_add_object(d->scene, &o, error) >= 0;
+    }
+    d->params.background = (lam_rgba){0.5f, 0.6f, 0.9f, 1};
+    return ok && textured_light_up(d, error);
 }

@@ -662,6 +662,8 @@ const struct demo_row demos[] = {
      layers_uniform},
     {"layers-environment", "the same in a studio", layers_environment},
     {"layers-gouraud", "the same lit at the vertices", layers_gouraud},
+    {"layers-transmission", "coloured glass over a box, a background and other glass; a volume that tints",
+     layers_transmission},
     {"textured-layers", "a coat of bricks over a smooth ball, a brushed ring under a film: every map of the layers",
      textured_layers},
     {"samples-1", "no antialiasing", samples_1},

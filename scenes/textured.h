@@ -15,6 +15,7 @@ bool textured_layers(struct demo *d, lam_error *error);
 bool layers_uniform(struct demo *d, lam_error *error);
 bool layers_gouraud(struct demo *d, lam_error *error);
 bool layers_environment(struct demo *d, lam_error *error);
+bool layers_transmission(struct demo *d, lam_error *error);
 
 // Adds a point light and ambient light, in place of a rig, and fits the camera.
 bool textured_light_up(struct demo *d, lam_error *error);

@@ -73,6 +73,8 @@ static void lay_out_thread(struct suballocator *from, struct thread_state *threa
     thread->sums.unclipped = NULL;
     if (frame->output == LAM_OUTPUT_CLIPPED)
         ARRAY(thread->sums.unclipped, TILE * TILE * 4);
+    for (int c = 0; c < 3; c++)
+        thread->fragments.through[c] = thread->sums.tint[c] = NULL;
     if (!frame->translucent)
         return;
     ARRAY(thread->layers.samples, LAYERS_MAX);
@@ -81,6 +83,12 @@ static void lay_out_thread(struct suballocator *from, struct thread_state *threa
     ARRAY(thread->blend.start, TILE * TILE + 1);
     ARRAY(thread->blend.layers, LAYERS_MAX);
     ARRAY(thread->sums.transmittance, samples);
+    for (int c = 0; frame->transmits && c < 3; c++) {
+        ARRAY(thread->fragments.through[c], fragments);
+        ARRAY(thread->sums.tint[c], samples);
+        thread->sums.background[c] = (&frame->background.r)[c] * frame->background.a / frame->exposure;
+    }
+    thread->sums.background[3] = frame->background.a;
 }
 
 static bool set_up_thread(struct thread_state *thread, const struct cpu_frame *cpu, lam_error *error)

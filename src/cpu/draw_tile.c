@@ -67,6 +67,9 @@ static void blend_tile(const struct cpu_frame *cpu, struct thread_state *thread,
         memset(thread->sums.sum[c], 0, TILE * TILE * sizeof(float));
     for (int i = 0; i < tile_samples_count(cpu->raster.frame->samples); i++)
         thread->sums.transmittance[i] = 1;
+    for (int c = 0; c < 3 && thread->sums.tint[c]; c++)
+        for (int i = 0; i < tile_samples_count(cpu->raster.frame->samples); i++)
+            thread->sums.tint[c][i] = 1;
     draw_layers(cpu, thread, tile, &(struct rectangle){0, 0, tile->width - 1, tile->height - 1});
 }
 

@@ -4,6 +4,7 @@
 #include "cube_map.h"
 #include "environment_samples.h"
 #include "fail.h"
+#include "fields.h"
 #include "frame_strokes.h"
 #include "linear.h"
 #include "view_extents.h"
@@ -329,6 +330,12 @@ static bool sees_through(const lam_material *material, bool varies)
     return material->alpha_mode != LAM_ALPHA_OPAQUE && (varies || material->diffuse.a < 1);
 }
 
+// Whether light goes through a material.
+static bool transmits(const struct frame *frame, int material, lam_reflection model)
+{
+    return frame_is_physical(model) && frame_layers(frame, frame->materials[material]) & LAYER_TRANSMISSION;
+}
+
 static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_index)
 {
     const struct frame_draw *draw = &frame->draws[draw_index];
@@ -358,12 +365,14 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
             back = front;
         }
         bool varies = scene_extent(scene, object->mesh)->translucent;
-        bool translucent = sees_through(frame->materials[front], varies) ||
+        bool passes = transmits(frame, front, reflection) || (!draw->one_sided && transmits(frame, back, reflection));
+        bool translucent = passes || sees_through(frame->materials[front], varies) ||
                            (!draw->one_sided && sees_through(frame->materials[back], varies));
         bool masks = frame->materials[front]->alpha_mode == LAM_ALPHA_MASK ||
                      (!draw->one_sided && frame->materials[back]->alpha_mode == LAM_ALPHA_MASK);
         if (output_is_value(frame->output)) // overdraw counts triangles
             translucent = translucent && masks && frame->output != LAM_OUTPUT_OVERDRAW;
+        frame->transmits |= passes && !output_is_value(frame->output);
         frame->translucent |= translucent;
         frame->masked |= translucent && masks;
         frame->ranges[frame->range_count++] = (struct frame_draw_range){draw->first_id + part->first_triangle,
@@ -475,7 +484,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
                                                       : 0;
     frame->draw_count = frame->range_count = frame->light_count = frame->hemisphere_count = 0;
     frame->triangle_count = 0;
-    frame->translucent = frame->masked = frame->makes_normals = false;
+    frame->translucent = frame->masked = frame->transmits = frame->makes_normals = false;
 
     frame_materials_build(frame, scene);
 

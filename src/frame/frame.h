@@ -38,7 +38,7 @@ struct frame_draw_range {
     uint32_t first_id, count;
     int draw;
     int front, back;           // indices into materials
-    bool translucent;          // some opacity may be below 1: the triangles are blended or masked
+    bool translucent;          // some opacity may be below 1, or it transmits: the triangles are blended or masked
     lam_reflection reflection; // of both sides; never AUTO
 };
 
@@ -98,6 +98,7 @@ struct frame {
     bool orthographic;
     bool translucent;   // any range is
     bool masked;        // and one has a material of LAM_ALPHA_MASK
+    bool transmits;     // and one has LAYER_TRANSMISSION: layers let each channel through by a share of its own
     bool makes_normals; // a draw has a crease_rad, and the output needs its normals
     // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.
     float near_plane, far_plane;
@@ -155,6 +156,9 @@ bool frame_is_physical(lam_reflection model);
 // The greatest number of materials that frame_materials_build and frame_back_material turn into the other kind.
 size_t frame_materials_turned(const struct frame *frame, const lam_scene *scene);
 void frame_materials_build(struct frame *frame, const lam_scene *scene);
+// The layers of a material that the frame draws: LAYER_…. Light goes through surfaces under Phong shading only.
+int frame_layers(const struct frame *frame, const lam_material *material);
+
 // The index of a back's material beside this front.
 int frame_back_material(struct frame *frame, int front, int back);
 

@@ -125,6 +125,12 @@ bool frame_material_is_converted(const struct frame *frame, const lam_material *
     return !material->physical && material >= frame->turned && material < frame->turned + frame->turned_count;
 }
 
+int frame_layers(const struct frame *frame, const lam_material *material)
+{
+    int set = material_layers(material);
+    return frame->shading == LAM_SHADING_PHONG ? set : set & ~(LAYER_TRANSMISSION | LAYER_VOLUME);
+}
+
 float frame_lobe_max(const lam_material *material)
 {
     if (!material->physical)

@@ -22,6 +22,7 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->storage = f->storage;
     c->encoding = GLSL_PREMULTIPLIED;
     c->layer = !f->layered ? GLSL_NO_LAYERS : range_blends(f->frame, range) ? GLSL_PEELS : GLSL_WRITES_DEPTH_IDS;
+    c->transmits = c->layer == GLSL_PEELS && f->frame->transmits;
     c->products = true;
     c->two_sided = wanted.two_sided;
     c->output = wanted.output;
@@ -227,7 +228,7 @@ static bool draw_parts(struct gl_frame *f, lam_error *error)
     lam_frame_report *report = &f->device->base.report;
     int max = f->device->texture_size_max < PART_SIZE_MAX ? f->device->texture_size_max : PART_SIZE_MAX;
     int width = f->image->width < max ? f->image->width : max, height = f->image->height < max ? f->image->height : max;
-    if (!targets_make(f, width, height, f->layered, error))
+    if (!targets_make(f, width, height, f->layered, f->frame->transmits, error))
         return false;
     for (f->top = 0; f->top < f->image->height; f->top += max)
         for (f->left = 0; f->left < f->image->width; f->left += max) {

@@ -16,6 +16,7 @@
 
 #include "context.h"
 #include "device_type.h"
+#include "fields.h"
 #include "glsl.h"
 #include "hierarchy.h"
 
@@ -135,11 +136,13 @@ struct gl_program {
 // A framebuffer and its textures; 0: the target has none. depth_id: depth and triangle number of each pixel.
 struct gl_target {
     GLuint framebuffer, color, depth_id, depth;
+    GLuint through; // the share of each channel that a layer lets through
 };
 
 struct gl_targets {
     int width, height; // of all textures; at least the part's
-    bool layered;
+    bool layered, tinted;
+    struct gl_target tint;      // with `tinted`: the share that all layers so far let through
     struct gl_target sample;    // one sample of each pixel: the opaque surfaces
     struct gl_target layers[2]; // the current layer of translucent surfaces, and the previous one
     struct gl_target sum;       // the layers composited
@@ -164,6 +167,7 @@ enum gl_blending {
     BLENDING_NEAREST, // depth test
     BLENDING_ADD,     // sum
     BLENDING_UNDER,   // composited under the target's contents
+    BLENDING_MULTIPLY,
 };
 
 // Current state of the context, so that no state is set twice. Unknown at the start of a frame in the caller's context.
@@ -201,6 +205,8 @@ struct gl_device {
     struct gl_program *programs;
     int program_count, program_capacity;
     GLuint copy_program, empty_array;
+    GLuint tint_program; // multiplies a layer, or the opaque surfaces, by the tint of the layers before
+    GLint tint_last, tint_background;
     GLint copy_factor; // location of the copy program's uniform `factor`
     float copy_factor_value;
     GLuint query;
@@ -256,6 +262,10 @@ struct gl_frame {
 // Whether a range is composited over what is behind it. Masked surfaces are opaque where they are not left out.
 static inline bool range_blends(const struct frame *frame, const struct frame_draw_range *range)
 {
+    if (frame->transmits && frame_is_physical(range->reflection) &&
+        (frame_layers(frame, frame->materials[range->front]) | frame_layers(frame, frame->materials[range->back])) &
+            LAYER_TRANSMISSION)
+        return true;
     return range->translucent &&
            (frame->materials[range->front]->alpha_mode == LAM_ALPHA_BLEND ||
             (!frame->draws[range->draw].one_sided && frame->materials[range->back]->alpha_mode == LAM_ALPHA_BLEND));
@@ -339,7 +349,7 @@ void shadows_use(struct gl_frame *f, struct gl_program *program);
 void shadows_free(struct gl_device *device);
 
 // --- gl_targets.c
-bool targets_make(struct gl_frame *f, int width, int height, bool layered, lam_error *error);
+bool targets_make(struct gl_frame *f, int width, int height, bool layered, bool tinted, lam_error *error);
 bool targets_find_format(struct gl_device *device, lam_error *error);
 void targets_free(struct gl_device *device);
 

@@ -156,19 +156,21 @@ enum { DEPTH_ID_NEAREST = 0, DEPTH_ID_FARTHEST = -1 };
 
 static void clear_target(struct gl_frame *f, const struct gl_target *t, int depth_id)
 {
-    static const GLfloat black[4] = {0}, far[1] = {1};
+    static const GLfloat black[4] = {0}, white[4] = {1, 1, 1, 1}, far[1] = {1};
     const GLuint empty[4] = {(GLuint)depth_id, (GLuint)depth_id, 0, 0};
     gl_use_framebuffer(f->device, t->framebuffer);
     f->gl->ClearBufferfv(GL_COLOR, 0, black);
     if (t->depth_id)
         f->gl->ClearBufferuiv(GL_COLOR, 1, empty);
+    if (t->through)
+        f->gl->ClearBufferfv(GL_COLOR, 2, white);
     if (t->depth)
         f->gl->ClearBufferfv(GL_DEPTH, 0, far);
 }
 
-// Blends a target's colours, times the factor, into another target.
-static void copy_target(struct gl_frame *f, const struct gl_target *from, const struct gl_target *to,
-                        enum gl_blending how, float factor)
+// Blends a texture's colours, times the factor, into a target.
+static void copy_texture(struct gl_frame *f, GLuint from, const struct gl_target *to, enum gl_blending how,
+                         float factor)
 {
     const struct gl *gl = f->gl;
     struct gl_device *device = f->device;
@@ -178,7 +180,32 @@ static void copy_target(struct gl_frame *f, const struct gl_target *from, const 
     gl_use_program(device, device->copy_program);
     if (device->copy_factor_value != factor)
         gl->Uniform1f(device->copy_factor, device->copy_factor_value = factor);
+    gl_use_texture(device, UNIT_COPY, GL_TEXTURE_2D, from);
+    gl_use_array(device, device->empty_array);
+    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+static void copy_target(struct gl_frame *f, const struct gl_target *from, const struct gl_target *to,
+                        enum gl_blending how, float factor)
+{
+    copy_texture(f, from->color, to, how, factor);
+}
+
+// Adds a target's colours times the tint to the sum; `last`: the opaque surfaces behind all layers, with the alpha.
+static void add_tinted(struct gl_frame *f, const struct gl_target *from, bool last)
+{
+    const struct gl *gl = f->gl;
+    struct gl_device *device = f->device;
+    const lam_rgba *b = &f->frame->background;
+    float scale = b->a / f->frame->exposure, background[4] = {b->r * scale, b->g * scale, b->b * scale, b->a};
+    gl_use_framebuffer(device, device->targets.sum.framebuffer);
+    gl_use_blending(device, BLENDING_ADD);
+    gl_use_cull(device, LAM_CULL_NONE);
+    gl_use_program(device, device->tint_program);
+    gl->Uniform1f(device->tint_last, last);
+    gl->Uniform4fv(device->tint_background, 1, background);
     gl_use_texture(device, UNIT_COPY, GL_TEXTURE_2D, from->color);
+    gl_use_texture(device, UNIT_NEARER_DEPTH_IDS, GL_TEXTURE_2D, device->targets.tint.color);
     gl_use_array(device, device->empty_array);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -193,6 +220,12 @@ static bool draw_layers(struct gl_frame *f, lam_error *error)
     struct gl_targets *t = &device->targets;
     clear_target(f, &t->sum, DEPTH_ID_NEAREST);
     clear_target(f, &t->layers[1], DEPTH_ID_NEAREST); // the layer before the first
+    bool tinted = f->frame->transmits;
+    if (tinted) {
+        static const GLfloat white[4] = {1, 1, 1, 1};
+        gl_use_framebuffer(device, t->tint.framebuffer);
+        gl->ClearBufferfv(GL_COLOR, 0, white);
+    }
     GLuint samples_passed = 1;
     for (int layer = 0; samples_passed; layer++) {
         if (!call_should_continue(f->call))
@@ -205,10 +238,17 @@ static bool draw_layers(struct gl_frame *f, lam_error *error)
         draw_all(f, true, BLENDING_NEAREST);
         gl->EndQuery(GL_ANY_SAMPLES_PASSED);
         gl->GetQueryObjectuiv(device->query, GL_QUERY_RESULT, &samples_passed);
-        if (samples_passed)
+        if (samples_passed && tinted) {
+            add_tinted(f, target, false);
+            copy_texture(f, target->through, &t->tint, BLENDING_MULTIPLY, 1);
+        } else if (samples_passed) {
             copy_target(f, target, &t->sum, BLENDING_UNDER, 1);
+        }
     }
-    copy_target(f, &t->sample, &t->sum, BLENDING_UNDER, 1);
+    if (tinted)
+        add_tinted(f, &t->sample, true);
+    else
+        copy_target(f, &t->sample, &t->sum, BLENDING_UNDER, 1);
     return true;
 }
 

@@ -210,12 +210,35 @@ static const char copy_fragment[] =
     "out vec4 pixel;\n"
     "void main() { pixel = texelFetch(picture, ivec2(gl_FragCoord.xy), 0) * factor; }\n";
 
+// As blend_tinted_pixel (src/cpu/shade/blend.c): one alpha, the mean of the channels'; the background has the colour that it
+// leaves out.
+static const char tint_fragment[] =
+    "uniform sampler2D picture;\n"
+    "uniform sampler2D tint;\n"
+    "uniform float last;\n"
+    "uniform vec4 background;\n"
+    "out vec4 pixel;\n"
+    "void main()\n"
+    "{\n"
+    "    vec4 p = texelFetch(picture, ivec2(gl_FragCoord.xy), 0);\n"
+    "    vec3 t = texelFetch(tint, ivec2(gl_FragCoord.xy), 0).rgb;\n"
+    "    pixel = vec4(p.rgb * t, 0.0);\n"
+    "    if (last > 0.5) {\n"
+    "        bool open = p.a == 0.0 && background.a > 0.0;\n"
+    "        float left = open ? min(min(t.r, t.g), t.b) : (t.r + t.g + t.b) * (1.0 / 3.0);\n"
+    "        if (open) {\n"
+    "            pixel.rgb = (t - left) * background.rgb;\n"
+    "        }\n"
+    "        pixel.a = 1.0 - left * (1.0 - p.a);\n"
+    "    }\n"
+    "}\n";
+
 bool program_copy_make(struct gl_device *device, lam_error *error)
 {
     static const char *const starts[] = {
         "#version 330 core\n",
         "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"};
-    char vertex[512], fragment[512];
+    char vertex[512], fragment[512], tint[1024];
     snprintf(vertex, sizeof vertex, "%s%s", starts[device->context.es], copy_vertex);
     snprintf(fragment, sizeof fragment, "%s%s", starts[device->context.es], copy_fragment);
     const struct gl *gl = &device->context.gl;
@@ -226,6 +249,15 @@ bool program_copy_make(struct gl_device *device, lam_error *error)
     gl_use_program(device, device->copy_program);
     gl->Uniform1i(gl->GetUniformLocation(device->copy_program, "picture"), UNIT_COPY);
     gl->Uniform1f(device->copy_factor, device->copy_factor_value = 1);
+    snprintf(tint, sizeof tint, "%s%s", starts[device->context.es], tint_fragment);
+    device->tint_program = link_program(gl, vertex, tint, error);
+    if (!device->tint_program)
+        return false;
+    gl_use_program(device, device->tint_program);
+    gl->Uniform1i(gl->GetUniformLocation(device->tint_program, "picture"), UNIT_COPY);
+    gl->Uniform1i(gl->GetUniformLocation(device->tint_program, "tint"), UNIT_NEARER_DEPTH_IDS);
+    device->tint_last = gl->GetUniformLocation(device->tint_program, "last");
+    device->tint_background = gl->GetUniformLocation(device->tint_program, "background");
     gl->GenVertexArrays(1, &device->empty_array);
     return true;
 }
@@ -238,6 +270,8 @@ void programs_free(struct gl_device *device)
     free(device->programs);
     if (device->copy_program)
         gl->DeleteProgram(device->copy_program);
+    if (device->tint_program)
+        gl->DeleteProgram(device->tint_program);
     if (device->empty_array)
         gl->DeleteVertexArrays(1, &device->empty_array);
 }

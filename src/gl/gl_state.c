@@ -51,7 +51,10 @@ void gl_use_blending(struct gl_device *device, enum gl_blending blending)
         (nearest ? gl->Disable : gl->Enable)(GL_BLEND);
     }
     if (!nearest && device->current.factors != blending) {
-        gl->BlendFunc(blending == BLENDING_UNDER ? GL_ONE_MINUS_DST_ALPHA : GL_ONE, GL_ONE);
+        gl->BlendFunc(blending == BLENDING_UNDER      ? GL_ONE_MINUS_DST_ALPHA
+                      : blending == BLENDING_MULTIPLY ? GL_ZERO
+                                                      : GL_ONE,
+                      blending == BLENDING_MULTIPLY ? GL_SRC_COLOR : GL_ONE);
         device->current.factors = blending;
     }
     device->current.blending = blending;

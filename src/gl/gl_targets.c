@@ -22,15 +22,15 @@ static GLuint make_texture(struct gl_frame *f, GLenum format, int width, int hei
 static void free_target(struct gl_device *device, struct gl_target *t)
 {
     const struct gl *gl = &device->context.gl;
-    const GLuint textures[] = {t->color, t->depth_id, t->depth};
-    gl->DeleteTextures(3, textures); // OpenGL ignores 0
+    const GLuint textures[] = {t->color, t->depth_id, t->depth, t->through};
+    gl->DeleteTextures(4, textures); // OpenGL ignores 0
     gl->DeleteFramebuffers(1, &t->framebuffer);
     *t = (struct gl_target){0};
 }
 
 // Makes a target with a colour texture and, on request, textures of depth ids and depth.
 static bool make_target(struct gl_frame *f, struct gl_target *t, int width, int height, bool depth_id, bool depth,
-                        lam_error *error)
+                        bool through, lam_error *error)
 {
     const struct gl *gl = f->gl;
     gl->GenFramebuffers(1, &t->framebuffer);
@@ -42,6 +42,12 @@ static bool make_target(struct gl_frame *f, struct gl_target *t, int width, int 
         t->depth_id = make_texture(f, GL_RG32UI, width, height, GL_RG_INTEGER, GL_UNSIGNED_INT);
         gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, t->depth_id, 0);
         gl->DrawBuffers(2, both);
+    }
+    if (through) {
+        static const GLenum three[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+        t->through = make_texture(f, f->device->float_format, width, height, GL_RGBA, GL_FLOAT);
+        gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT2, GL_TEXTURE_2D, t->through, 0);
+        gl->DrawBuffers(3, three);
     }
     if (depth) {
         t->depth = make_texture(f, GL_DEPTH_COMPONENT32F, width, height, GL_DEPTH_COMPONENT, GL_FLOAT);
@@ -61,7 +67,7 @@ static bool can_draw(struct gl_device *device, GLenum format)
     struct gl_target t = {0};
     device->float_format = format;
     lam_error unused;
-    bool can = make_target(&f, &t, 4, 4, false, true, &unused);
+    bool can = make_target(&f, &t, 4, 4, false, true, false, &unused);
     free_target(device, &t);
     return can;
 }
@@ -80,26 +86,32 @@ bool targets_find_format(struct gl_device *device, lam_error *error)
                 device->context.renderer);
 }
 
-bool targets_make(struct gl_frame *f, int width, int height, bool layered, lam_error *error)
+bool targets_make(struct gl_frame *f, int width, int height, bool layered, bool tinted, lam_error *error)
 {
     struct gl_device *device = f->device;
     struct gl_targets *t = &device->targets;
-    if (t->sample.framebuffer && width <= t->width && height <= t->height && (t->layered || !layered))
+    if (t->sample.framebuffer && width <= t->width && height <= t->height && (t->layered || !layered) &&
+        (t->tinted || !tinted))
         return true;
     width = width > t->width ? width : t->width;
     height = height > t->height ? height : t->height;
     layered |= t->layered;
+    tinted |= t->tinted;
     targets_free(device);
     uint64_t pixels = (uint64_t)width * (uint64_t)height;
-    if (!gl_charge(f, &device->target_bytes, pixels * (layered ? 3 * 28 + 2 * 16 : 20 + 16), error))
+    if (!gl_charge(f, &device->target_bytes, pixels * ((layered ? 3 * 28 + 2 * 16 : 20 + 16) + (tinted ? 3 * 16 : 0)),
+                   error))
         return false;
     t->layered = layered;
-    bool ok = make_target(f, &t->sample, width, height, layered, true, error) &&
-              make_target(f, &t->picture, width, height, false, false, error);
+    t->tinted = tinted;
+    bool ok = make_target(f, &t->sample, width, height, layered, true, false, error) &&
+              make_target(f, &t->picture, width, height, false, false, false, error);
     if (ok && layered)
-        ok = make_target(f, &t->layers[0], width, height, true, true, error) &&
-             make_target(f, &t->layers[1], width, height, true, true, error) &&
-             make_target(f, &t->sum, width, height, false, false, error);
+        ok = make_target(f, &t->layers[0], width, height, true, true, tinted, error) &&
+             make_target(f, &t->layers[1], width, height, true, true, tinted, error) &&
+             make_target(f, &t->sum, width, height, false, false, false, error);
+    if (ok && tinted)
+        ok = make_target(f, &t->tint, width, height, false, false, false, error);
     if (!ok) {
         targets_free(device);
         return false;
@@ -112,8 +124,8 @@ bool targets_make(struct gl_frame *f, int width, int height, bool layered, lam_e
 void targets_free(struct gl_device *device)
 {
     struct gl_targets *t = &device->targets;
-    struct gl_target *all[] = {&t->sample, &t->layers[0], &t->layers[1], &t->sum, &t->picture};
-    for (int i = 0; i < 5; i++)
+    struct gl_target *all[] = {&t->sample, &t->layers[0], &t->layers[1], &t->sum, &t->picture, &t->tint};
+    for (int i = 0; i < 6; i++)
         if (all[i]->framebuffer)
             free_target(device, all[i]);
     *t = (struct gl_targets){0};

@@ -81,7 +81,7 @@ LANE_FN terms layered_terms(const struct side *side, surface s, vec3 color, num 
 {
     const struct frame *frame = side->frame;
     const lam_material *m = side->material;
-    int set = material_layers(m);
+    int set = frame_layers(frame, m);
     layer_values given = layers_of(m);
     given.base = mul3(given.base, color);
     given.clearcoat_normal = s.n;
@@ -127,7 +127,7 @@ LANE_FN terms evaluate_terms(const struct side *side, surface s, vec3 color, num
         sum = add_hemisphere(
             sum, s, (hemisphere){of3(h->up), product3(&m->ambient.r, h->sky), product3(&m->ambient.r, h->ground)});
     }
-    if (model == LAM_REFLECTION_GGX && material_layers(m))
+    if (model == LAM_REFLECTION_GGX && frame_layers(frame, m))
         return layered_terms(side, s, color, sign, sum);
     num gain = frame->single_scattering || !(lobe_properties(model) & LOBE_MICROFACET)
                    ? num_of(0.0f)

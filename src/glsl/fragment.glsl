@@ -9,6 +9,9 @@ uniform usampler2D opaque_depth_ids;
 //@end
 layout(location = 0) out vec4 pixel;
 layout(location = 1) out uvec2 depth_id; // bits of the depth, and triangle number + 1; 0: empty
+//@if transmits
+layout(location = 2) out vec4 through;
+//@end
 //@elif !glsl_120
 
 out vec4 pixel;
@@ -147,6 +150,17 @@ void main()
     light.a = saturate(light.a);
 //@if alpha_ruled
 @alpha_rule@
+//@end
+//@if transmits
+//@if passes
+    through = vec4(1.0 - light.a * (1.0 - passing), 1.0);
+//@else
+    through = vec4(vec3(1.0 - light.a), 1.0);
+//@end
+//@elif passes_one_alpha
+    // One alpha for all channels: what goes through is blended without its colour.
+    float solid = 1.0 - dot(passing, vec3(1.0 / 3.0));
+    light = vec4(light.rgb / max(solid, 1.0e-3), light.a * solid);
 //@end
 //@if exposed
     light.rgb = light.rgb * exposure;

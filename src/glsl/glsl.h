@@ -68,6 +68,7 @@ struct glsl_choices {
     // The environment lights a physical material: sampler2D environment_light beside it (environment_light.h).
     bool environment_light;
     enum glsl_layer layer;
+    bool transmits;  // a layer has a third output, `through`: the share of each channel that passes it
     lam_stage stage; // never AUTO
     lam_shading shading;
     lam_reflection reflection; // never AUTO

@@ -38,7 +38,7 @@ static void choose_side(struct glsl_choices *c, const struct frame *frame, const
         if (!is_read(frame, material, i) || (needs_tangents && (!mesh->tangents || !placed)) ||
             (i == LAM_MAP_BUMP && !placed))
             continue;
-        if (map_layer((lam_map)i) && !(map_layer((lam_map)i) & material_layers(material)))
+        if (map_layer((lam_map)i) && !(map_layer((lam_map)i) & frame_layers(frame, material)))
             continue;
         int texels = 0;
         while (texels < *seen_count && !texture_map_same(seen[texels], map))

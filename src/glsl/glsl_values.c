@@ -44,10 +44,10 @@ struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_dr
                (mirrors(frame->materials[range->front]) || (c.back_material && mirrors(frame->materials[range->back]))))
         c.environment = GLSL_FACES;
     for (int i = 0; i < frame->material_count; i++)
-        c.field_layers |= (uint8_t)material_layers(frame->materials[i]);
+        c.field_layers |= (uint8_t)frame_layers(frame, frame->materials[i]);
     if (frame_is_physical(range->reflection))
-        c.layers = (uint8_t)(material_layers(frame->materials[range->front]) |
-                             (c.back_material ? material_layers(frame->materials[range->back]) : 0));
+        c.layers = (uint8_t)(frame_layers(frame, frame->materials[range->front]) |
+                             (c.back_material ? frame_layers(frame, frame->materials[range->back]) : 0));
     find_groups(&c, frame);
     glsl_choose_maps(&c, frame, range);
     return c;

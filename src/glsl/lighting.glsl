@@ -252,6 +252,11 @@ hemisphere hemisphere_of(int i@list_parameter@)
 //@end
 //@end
 
+//@if passes
+// What the last point that was lit lets through of the light behind it.
+vec3 passing = vec3(0.0);
+
+//@end
 // --- lighting of a point
 
 //@if unlit
@@ -364,6 +369,9 @@ vec4 light_point(@lit_parameters@)
 //@end
 //@if layered
     sum = cover_terms(sum, layering, 0);
+//@if passes
+    passing = layered_transmittance(s, layering, given, 0);
+//@end
 //@end
 //@if has_environment
     if (present(s.n) && present(s.v)) {

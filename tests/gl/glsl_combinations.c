@@ -90,6 +90,7 @@ static void maps(struct visitor *v, const struct glsl_choices *base)
         c.converted[0] = i & 4 && c.reflection != LAM_REFLECTION_GGX;
         c.layers = c.reflection == LAM_REFLECTION_GGX ? (uint8_t)(i == 3 ? 0 : 37 * i + 2) : 0;
         c.field_layers = (uint8_t)(c.layers | (i & 8 ? 127 : 0));
+        c.transmits = c.layer == GLSL_PEELS && i % 2;
         c.alpha[0] = (uint8_t)(i % 3);
         c.alpha[1] = (uint8_t)(i / 4 % 3);
         for (int side = 0; side <= c.back_material; side++)

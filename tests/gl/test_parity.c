@@ -41,6 +41,8 @@ static const struct {
     {"masked", 2e-3, false},
     // At the pole of the brushed ball rounding decides the direction of its marks. Highlights are as bright as 3.
     {"layers", 2e-3, false},
+    // Next to a ball's rim what glass lets through falls steeply with n.v, where a triangle is seen almost from its edge.
+    {"layers-transmission", 2e-2, false},
     {"layers-gouraud", 2e-3, false},
     {"layers-environment", 5e-2, true},
 };

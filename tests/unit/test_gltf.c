@@ -584,7 +584,10 @@ static void test_layers(void **state)
         "\"clearcoatRoughnessFactor\": 0.5}, \"KHR_materials_sheen\": {\"sheenColorFactor\": [0.5, 0.25, 3], "
         "\"sheenRoughnessFactor\": 0.75}, \"KHR_materials_anisotropy\": {\"anisotropyStrength\": 0.5, "
         "\"anisotropyRotation\": 13.5}, \"KHR_materials_iridescence\": {\"iridescenceFactor\": 0.5, "
-        "\"iridescenceIor\": 0.5, \"iridescenceThicknessMinimum\": 50, \"iridescenceThicknessMaximum\": 700}";
+        "\"iridescenceIor\": 0.5, \"iridescenceThicknessMinimum\": 50, \"iridescenceThicknessMaximum\": 700}, "
+        "\"KHR_materials_transmission\": {\"transmissionFactor\": 0.5}, \"KHR_materials_volume\": "
+        "{\"thicknessFactor\": 2, "
+        "\"attenuationDistance\": 0.25, \"attenuationColor\": [0.5, 2, 0]}";
     char text[2000];
     snprintf(text, sizeof text,
              "%s, \"materials\": [{\"extensions\": {%s}}, {\"extensions\": {\"KHR_materials_unlit\": {}, %s}}, {}]",
@@ -599,6 +602,10 @@ static void test_layers(void **state)
     assert_near((double)m->anisotropy_rotation_rad, 13.5 - 4 * acos(-1.0), 1e-5); // less two turns
     assert_true(m->iridescence == 0.5f && m->iridescence_ior == 1 && m->iridescence_thickness_min == 50 &&
                 m->iridescence_thickness_max == 700);
+    assert_true(m->transmission == 0.5f && m->thickness == 2 && m->attenuation_distance == 0.25f);
+    assert_true(m->attenuation_color.r == 0.5f && m->attenuation_color.g == 1 && m->attenuation_color.b == 0);
+    assert_non_null(strstr(lam_scene_warning(scene, 0), "neither bent nor blurred")); // one note for all of them
+    assert_null(lam_scene_warning(scene, 1));
     for (int i = 1; i < 3; i++) {
         lam_material plain = lam_material_default();
         m = lam_scene_material(scene, i);

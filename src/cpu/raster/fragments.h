@@ -16,6 +16,8 @@ struct fragments {
     uint32_t *group; // surface·2 + back
     uint32_t *order; // fragments sorted by group
     float *color[4]; // r, g, b, a; not premultiplied
+    // Of translucent fragments, where the frame transmits: the share of each channel that goes through; NULL elsewhere.
+    float *through[3];
     // Scratch of the step that runs: three words for each fragment.
     uint32_t *scratch;
 };

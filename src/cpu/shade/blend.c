@@ -175,6 +175,50 @@ static void blend_pixel(const struct fragments *fragments, const struct layer_ro
     }
 }
 
+// The same where layers let each channel through by a share of its own: a fragment of opacity a and colour C that lets T
+// through makes of the light L behind it C a + L (1 - a (1 - T)). A picture has one alpha, the mean of the channels'; where
+// the background is seen, it is coloured by what the one alpha leaves out.
+static void blend_tinted_pixel(const struct fragments *fragments, const struct layer_rows *rows,
+                               struct blend_scratch *scratch, const uint32_t *ids, int samples, int pixel,
+                               struct pixel_sums *sums, struct recorder *recorder)
+{
+    uint32_t first = scratch->start[pixel], count = scratch->start[pixel + 1] - first;
+    struct layer *layers = scratch->layers;
+    float share = 1.0f / (float)samples;
+    for (uint32_t i = 0; i < count; i++)
+        layers[i].fragment = scratch->order[first + i];
+    for (int s = 0; s < samples; s++) {
+        for (uint32_t i = 0; i < count; i++) {
+            uint32_t f = layers[i].fragment;
+            layers[i].rank = rank_of(rows->keys[(size_t)f * (size_t)samples + (size_t)s], fragments->id[f]);
+        }
+        sort_by_rank(layers, count);
+        float sum[3] = {0, 0, 0}, left[3] = {1, 1, 1}, mean = 1;
+        for (uint32_t i = 0; i < count && mean > 0; i++) {
+            uint32_t f = layers[i].fragment;
+            float alpha = fragments->color[3][f];
+            if (!(rows->samples[f] >> s & 1) || !(alpha > 0))
+                continue;
+            if (recorder)
+                recorder_layer(recorder, pixel, f, s, mean, share);
+            for (int c = 0; c < 3; c++) {
+                sum[c] += fragments->color[c][f] * (left[c] * alpha);
+                left[c] = left[c] * (1 - alpha * (1 - fragments->through[c][f]));
+            }
+            mean = (left[0] + left[1] + left[2]) * (1 / 3.0f);
+        }
+        float least = left[0] < left[1] ? left[0] : left[1];
+        least = least < left[2] ? least : left[2];
+        bool open = ids[s] == NOTHING && sums->background[3] > 0;
+        for (int c = 0; c < 3; c++) {
+            sums->sum[c][pixel] += (sum[c] + (open ? (left[c] - least) * sums->background[c] : 0)) * share;
+            sums->tint[c][pixel * samples + s] = left[c];
+        }
+        sums->sum[3][pixel] += (1 - (open ? least : mean)) * share;
+        sums->transmittance[pixel * samples + s] = mean;
+    }
+}
+
 static bool is_uncovered(const uint32_t *ids, int samples)
 {
     for (int s = 0; s < samples; s++)
@@ -206,8 +250,12 @@ uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragmen
             int pixel = y * TILE + x;
             if (scratch->start[pixel] == scratch->start[pixel + 1])
                 continue;
-            blend_pixel(fragments, rows, scratch, pattern->count, pixel, sums, recorder);
-            uncovered += is_uncovered(ids + pixel_index(&cells, x, y), pattern->count);
+            const uint32_t *own = ids + pixel_index(&cells, x, y);
+            if (sums->tint[0])
+                blend_tinted_pixel(fragments, rows, scratch, own, pattern->count, pixel, sums, recorder);
+            else
+                blend_pixel(fragments, rows, scratch, pattern->count, pixel, sums, recorder);
+            uncovered += is_uncovered(own, pattern->count);
         }
     return uncovered;
 }

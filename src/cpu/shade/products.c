@@ -25,7 +25,7 @@ static unsigned maps_of(const lam_material *material, const struct frame *frame)
     if (frame->shading != LAM_SHADING_PHONG)
         drawn = 1u << LAM_MAP_DIFFUSE | 1u << LAM_MAP_OPACITY | 1u << LAM_MAP_EMISSION;
     for (int i = 0; i < LAM_MAP_COUNT; i++)
-        if (material->maps[i] && (!map_layer((lam_map)i) || map_layer((lam_map)i) & material_layers(material)))
+        if (material->maps[i] && (!map_layer((lam_map)i) || map_layer((lam_map)i) & frame_layers(frame, material)))
             maps |= 1u << i;
     return maps & drawn;
 }
@@ -39,7 +39,7 @@ static void multiply_material(struct material_products *out, const lam_material 
     out->maps = maps_of(material, frame);
     out->converted = out->maps && frame->shading == LAM_SHADING_PHONG && frame_material_is_converted(frame, material);
     out->shininess = frame_shininess(frame, material);
-    out->layers = material_layers(material);
+    out->layers = frame_layers(frame, material);
     out->stretch[0] = (float)math_cos((double)material->anisotropy_rotation_rad);
     out->stretch[1] = (float)math_sin((double)material->anisotropy_rotation_rad);
     memcpy(out->reflectivity, &material->reflectivity, sizeof out->reflectivity);

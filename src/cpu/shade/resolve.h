@@ -21,6 +21,9 @@ struct pixel_sums {
     float *pixels;    // the tile's pixels before they are converted
     // Of each sample: the fraction of light that the translucent layers let through.
     float *transmittance;
+    // The same for each channel, where the frame transmits; then `transmittance` is their mean. NULL: it does not.
+    float *tint[3];
+    float background[4]; // what such layers are in front of: colour times alpha over the exposure, and alpha
 };
 
 // Of the two working formats: constants, with which short copies are inlined.

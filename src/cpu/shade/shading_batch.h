@@ -45,8 +45,9 @@ struct shading_batch {
         float stretch[2][BATCH_ROW], anisotropy[BATCH_ROW]; // by tangent and bitangent
         float iridescence[BATCH_ROW], film[BATCH_ROW], transmission[BATCH_ROW], thickness[BATCH_ROW];
     } layered;
-    float sign[BATCH_ROW];    // of the bitangent
-    float rest[3][BATCH_ROW]; // as vertex_cache.rest
+    float through[3][BATCH_ROW]; // of surfaces that transmit: the share of what is behind them
+    float sign[BATCH_ROW];       // of the bitangent
+    float rest[3][BATCH_ROW];    // as vertex_cache.rest
     struct triangle_runs runs;
 };
 

@@ -32,6 +32,10 @@ static const struct {
     {KHR("iridescence"), "iridescenceIor", MEMBER(iridescence_ior), 1, 1, 1e30},
     {KHR("iridescence"), "iridescenceThicknessMinimum", MEMBER(iridescence_thickness_min), 1, 0, 1e6},
     {KHR("iridescence"), "iridescenceThicknessMaximum", MEMBER(iridescence_thickness_max), 1, 0, 1e6},
+    {KHR("transmission"), "transmissionFactor", MEMBER(transmission), 1, 0, 1},
+    {KHR("volume"), "thicknessFactor", MEMBER(thickness), 1, 0, 1e30},
+    {KHR("volume"), "attenuationDistance", MEMBER(attenuation_distance), 1, 0, 1e30},
+    {KHR("volume"), "attenuationColor", MEMBER(attenuation_color), 3, 0, 1},
 };
 
 static const struct {
@@ -50,6 +54,8 @@ static const struct {
     {KHR("anisotropy"), "anisotropyTexture", LAM_MAP_ANISOTROPY, LAM_TEXTURE_NUMBERS, 0},
     {KHR("iridescence"), "iridescenceTexture", LAM_MAP_IRIDESCENCE, LAM_TEXTURE_NUMBERS, 0},
     {KHR("iridescence"), "iridescenceThicknessTexture", LAM_MAP_IRIDESCENCE_THICKNESS, LAM_TEXTURE_NUMBERS, 1},
+    {KHR("transmission"), "transmissionTexture", LAM_MAP_TRANSMISSION, LAM_TEXTURE_NUMBERS, 0},
+    {KHR("volume"), "thicknessTexture", LAM_MAP_THICKNESS, LAM_TEXTURE_NUMBERS, 1},
 };
 
 static bool take_numbers(struct gltf *gltf, const struct place *place, const json_t *object, lam_material *material)
@@ -102,5 +108,13 @@ bool gltf_take_layers(struct gltf *gltf, const struct place *place, const json_t
     // The extensions exclude one another with these two.
     if (material->unlit || gltf_extension(object, "KHR_materials_pbrSpecularGlossiness"))
         return true;
-    return take_numbers(gltf, place, object, material) && take_maps(gltf, place, object, index);
+    if (!take_numbers(gltf, place, object, material) || !take_maps(gltf, place, object, index))
+        return false;
+    if (material->transmission > 0 && !gltf->transmits)
+        scene_warn(gltf->scene,
+                   "%s: materials[%d]: what lies behind a surface that transmits is seen straight through it, neither "
+                   "bent nor blurred",
+                   gltf->source->name, index);
+    gltf->transmits |= material->transmission > 0;
+    return true;
 }

@@ -230,5 +230,8 @@ bool gltf_material_is_opaque(const struct gltf *gltf, int32_t material)
 
 bool gltf_material_is_double_sided(const struct gltf *gltf, int32_t material)
 {
+    const lam_material *m = (const lam_material *)gltf->scene->materials.items + material;
+    if (m->transmission > 0 && m->thickness > 0) // the boundary of a volume (KHR_materials_volume)
+        return false;
     return json_is_true(json_object_get(object_of(gltf, material), "doubleSided"));
 }

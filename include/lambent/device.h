@@ -139,6 +139,8 @@ typedef enum lam_output {
     // Level of detail of the diffuse map, else of the first map that the material has; 0: no map. Below 0 the map is
     // magnified, by -50 where it has no footprint. 8 bits: level / 10.
     LAM_OUTPUT_LOD,
+    // The share of the light from all around that reaches the point (lam_occlusion), 0…1.
+    LAM_OUTPUT_AMBIENT_OCCLUSION,
     LAM_OUTPUT_COUNT,
 } lam_output;
 
@@ -174,6 +176,23 @@ LAM_API bool lam_output_is_light(lam_output output);
 // The samples per pixel of a picture of this size, where lam_draw_params do not say: 8 up to 512² pixels, whose edges show
 // steps at 4, and 4 above.
 LAM_API int lam_default_samples(int width, int height);
+
+// Ambient occlusion: how much of the light from all around reaches a point past the surfaces near it
+// (docs/lighting/occlusion.md). It dims ambient, hemisphere and environment light and the share lam_light.occluded of other
+// lights, under Phong shading. Translucent surfaces have none.
+typedef enum lam_occlusion {
+    // SCREEN under Phong shading where a light of the frame has a share `occluded`, or an environment lights the frame;
+    // else OFF.
+    LAM_OCCLUSION_AUTO = 0,
+    LAM_OCCLUSION_OFF,
+    // From the distances of the visible surfaces around each pixel (Jimenez et al., "Practical Real-Time Strategies for
+    // Accurate Indirect Occlusion", 2016). Surfaces that the picture does not show occlude nothing.
+    LAM_OCCLUSION_SCREEN,
+    LAM_OCCLUSION_COUNT
+} lam_occlusion;
+
+// The name of a kind of occlusion: "auto", "screen". A static string; NULL out of range.
+LAM_API const char *lam_occlusion_name(lam_occlusion occlusion);
 
 // How a frame is drawn. All zero is the default.
 typedef struct lam_draw_params {
@@ -223,7 +242,10 @@ typedef struct lam_draw_params {
     bool flat_terminator;
     // Points of a light with a radius that are tested for each lit point, 1..256; 0: 16.
     int shadow_samples;
-    LAM_RESERVED(25);
+    lam_occlusion occlusion; // LAM_BAD_ARGUMENT: SCREEN without Phong shading
+    // How far away surfaces occlude, as a share of half the diagonal of the scene's box, above 0 … 10. 0: 0.1.
+    float occlusion_radius;
+    LAM_RESERVED(24);
 } lam_draw_params;
 
 // The times of a frame in milliseconds, and counts.
@@ -233,8 +255,9 @@ typedef struct lam_frame_report {
     double triangles_ms; // rejecting, clipping, binning
     // Making the normals that meshes lack (lam_load_params.normals_when_drawn).
     double normals_ms;
-    double tiles_ms; // coverage, lighting and resolve of all tiles
-    double total_ms; // the whole call
+    double occlusion_ms; // ambient occlusion, after the distances were found
+    double tiles_ms;     // coverage, lighting and resolve of all tiles
+    double total_ms;     // the whole call
     // tiles_ms divided by work, in proportion to the times summed over the threads.
     double coverage_ms, lighting_ms, resolve_ms;
     // The OpenGL device: making and sending buffers that are new or have changed (without lighting_ms, that of the
@@ -254,7 +277,7 @@ typedef struct lam_frame_report {
     // Building the bounding volume hierarchy, in milliseconds; 0: it was not needed, or the last frame's still held.
     double hierarchy_ms;
     uint64_t rays; // from lit points to lights
-    LAM_RESERVED(12);
+    LAM_RESERVED(11);
 } lam_frame_report;
 
 // Draws the scene as the camera sees it into `image`, which the caller made with the size and pixel format

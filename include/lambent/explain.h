@@ -61,7 +61,9 @@ typedef struct lam_explained_light {
     float distribution, visibility;
     // F, Fresnel's factor with the light that mirrors send to one another; ks_Ls = F ⊙ Ls. 0 of other models.
     lam_rgb fresnel;
-    LAM_RESERVED(3);
+    // The factor of ambient occlusion, 1 − occluded (1 − unoccluded), which both terms hold; 1: none.
+    float occlusion;
+    LAM_RESERVED(2);
 } lam_explained_light;
 
 // A hemisphere light at a lit point.
@@ -110,7 +112,10 @@ typedef struct lam_explained_point {
     float environment_scale, environment_bias; // of the split sum
     lam_rgb irradiance, prefiltered;           // light that falls in, linear
     lam_rgb environment_diffuse;               // the part of the reflection term that `irradiance` gives
-    LAM_RESERVED(1);
+    // The share of the light from all around that ambient occlusion lets through, of which the ambient and reflection
+    // terms are multiplied (a classic material's reflection is not); 1 without occlusion.
+    float unoccluded;
+    LAM_RESERVED(8);
 } lam_explained_point;
 
 // A map that was read for a fragment.

@@ -39,6 +39,9 @@ typedef enum lam_light_frame {
     LAM_FRAME_OBJECT, // the space of a named object, which the light moves with
     // The space of the whole scene as it was made. The light moves with lam_scene_transform.
     LAM_FRAME_MODEL,
+    // The camera's axes, as in eye space, with the origin at the centre of the scene's box: the light keeps its side of
+    // the picture and its distance from the scene, wherever the camera stands.
+    LAM_FRAME_VIEW,
 } lam_light_frame;
 
 // Attenuation with the distance d from the lit point to the light, in model units:
@@ -87,6 +90,9 @@ typedef struct lam_light {
     float radius;
     // Directional: the angular radius of the disc that gives the light (the sun's is 0.27 degrees). 0: a point.
     float angular_radius_rad;
+    // Point, directional, spot: the share of this light that ambient occlusion dims (lam_draw_params.occlusion), 0..1. 1
+    // suits large, soft lights. Ambient and hemisphere light is always dimmed.
+    float occluded;
     LAM_RESERVED(30);
 } lam_light;
 
@@ -103,7 +109,8 @@ typedef enum lam_rig {
     // environment, and if it has none of those either the built-in environment "studio".
     LAM_RIG_AUTO = 0,
     LAM_RIG_NONE, // the scene's own lights only, even if it has none
-    // The default look: key, fill and rim light fixed to the camera, and a hemisphere light.
+    // The default look: a near key light, a fill and a rim light that turn with the camera, and a hemisphere light. Ambient
+    // occlusion dims half of the key and all of the fill.
     LAM_RIG_STUDIO,
     LAM_RIG_HEADLIGHT, // one directional light from the eye
     // Key, fill and back light of a portrait, directional, fixed to the camera: diffuse and specular 0.8 from
@@ -117,8 +124,8 @@ typedef enum lam_rig {
 // The most lights that a rig has.
 enum { LAM_RIG_LIGHTS_MAX = 8 };
 
-// Writes the lights of a rig and returns their number, 0 for AUTO and NONE. Positions are for a scene whose sphere has
-// its centre at the origin and radius 1; lam_scene_rig_lights places them in a scene.
+// Writes the lights of a rig and returns their number, 0 for AUTO and NONE. Positions and attenuation are for a scene whose
+// sphere has its centre at the origin and radius 1; lam_scene_rig_lights places them in a scene.
 LAM_API int lam_rig_lights(lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX]);
 
 #ifdef __cplusplus

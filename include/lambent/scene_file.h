@@ -31,6 +31,8 @@ enum {
     LAM_SETTING_ANISOTROPY = 1 << 18,        // draw.anisotropy
     LAM_SETTING_REFERENCE = 1 << 19,         // draw.reference
     LAM_SETTING_SHADOWS = 1 << 20,           // draw.shadows, draw.flat_terminator, draw.shadow_samples
+    LAM_SETTING_OCCLUSION = 1 << 21,         // draw.occlusion
+    LAM_SETTING_OCCLUSION_RADIUS = 1 << 22,  // draw.occlusion_radius
 };
 
 // The picture that a scene file describes: its size, camera and way of drawing. lam_scene has the rest. Settings that

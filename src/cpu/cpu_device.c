@@ -202,10 +202,16 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     if (!step_done(&cpu, error))
         return false;
     cpu.shade.recorder = base->recorder;
-    bool ok =
-        !frame->makes_normals || (make_normals_of_visible(&cpu, &device->visible, error) && step_done(&cpu, error));
-    if (frame->makes_normals)
+    bool ok = true;
+    if (frame->makes_normals || cpu.shade.occlusion)
+        ok = cover_in_advance(&cpu, &device->visible, error) && step_done(&cpu, error);
+    if (frame->makes_normals || cpu.shade.occlusion)
         base->report.normals_ms = milliseconds_since(&clock) - device->visible.search_ms;
+    if (ok && cpu.shade.occlusion) {
+        screen_occlusion_find(&cpu.occlusion, cpu.kernels->occlusion, device->pool, call);
+        base->report.occlusion_ms = milliseconds_since(&clock);
+        ok = step_done(&cpu, error);
+    }
     if (ok && base->recorder)
         record_tile(&cpu, base->recorder);
     else if (ok)

@@ -205,6 +205,12 @@ static bool set_up_shading(struct cpu_frame *cpu, struct frame_memory *memory, l
 
 bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
 {
+    const struct frame *frame = cpu->raster.frame;
+    if (frame->occlusion != LAM_OCCLUSION_OFF) {
+        if (!screen_occlusion_start(&cpu->occlusion, frame, &memory->occlusion, cpu->call, error))
+            return false;
+        cpu->shade.occlusion = &cpu->occlusion;
+    }
     return list_pieces(cpu, memory, error) && set_up_shading(cpu, memory, error) &&
            set_up_threads(cpu, &memory->bins, error);
 }
@@ -212,7 +218,7 @@ bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_er
 uint64_t frame_memory_bytes(const struct frame_memory *memory)
 {
     return memory->vertices.capacity + memory->pieces.capacity + memory->products.capacity + memory->lights.capacity +
-           memory->bins.capacity + memory->reference.capacity;
+           memory->bins.capacity + memory->reference.capacity + memory->occlusion.capacity;
 }
 
 void frame_memory_free(struct frame_memory *memory)
@@ -223,4 +229,5 @@ void frame_memory_free(struct frame_memory *memory)
     buffer_free(&memory->lights);
     buffer_free(&memory->bins);
     buffer_free(&memory->reference);
+    buffer_free(&memory->occlusion);
 }

@@ -19,6 +19,7 @@
 #include "light_bounds.h"
 #include "pool.h"
 #include "resolve.h"
+#include "screen_occlusion.h"
 #include "shade_frame.h"
 #include "shading_batch.h"
 
@@ -45,6 +46,7 @@ struct cpu_frame {
     struct thread_state *threads;
     const struct piece *vertex_pieces, *triangle_pieces;
     size_t vertex_piece_count, triangle_piece_count;
+    struct screen_occlusion occlusion;      // with ambient occlusion
     struct fragment_store *fragment_stores; // of each tile; NULL: each tile is drawn in one go
     enum failure failure;
 };
@@ -68,6 +70,7 @@ struct frame_memory {
     struct buffer lights;    // the rows of light_bounds
     struct buffer bins;      // heads of all threads' bins
     struct buffer reference; // directions
+    struct buffer occlusion; // rows of struct screen_occlusion
     struct light_bounds light_bounds;
     struct environment_samples samples;
 };

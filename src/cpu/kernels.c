@@ -7,6 +7,7 @@
 #include "fragments.h"
 #include "light_bounds.h"
 #include "resolve.h"
+#include "screen_occlusion.h"
 #include "shade_frame.h"
 #include "shading_batch.h"
 #include "translucent_fragments.h"
@@ -28,6 +29,7 @@
 #include "translucent_fragments.inc"
 #include "visibility_resolve.inc"
 #include "fragment_store.inc"
+#include "tile_depth.inc"
 #include "shade.inc"
 #include "resolve.inc"
 #include "record_pixel.inc"
@@ -49,6 +51,8 @@ const struct kernels NAME(ISA) = {
     .save_fragments = save_fragments,
     .load_fragments = load_fragments,
     .shade_fragments = shade_fragments,
+    .depth_of_tile = depth_of_tile,
+    .occlusion = &occlusion_kernels,
     .resolve = resolve,
     .resolve_empty = resolve_empty,
 #ifdef RECORDING

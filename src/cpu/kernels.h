@@ -18,6 +18,8 @@ struct raster_frame;
 struct rectangle;
 struct resolve_target;
 struct sample_pattern;
+struct occlusion_kernels;
+struct screen_occlusion;
 struct shade_frame;
 struct shading;
 struct thread_bins;
@@ -69,6 +71,11 @@ struct kernels {
     // Fills in the colours of grouped fragments.
     void (*shade_fragments)(const struct shade_frame *shade, struct fragments *fragments, struct shading *shading,
                             const struct tile *tile);
+
+    // Writes the distances of a covered tile's surfaces into the rows of ambient occlusion, whose steps follow.
+    void (*depth_of_tile)(const struct raster_frame *raster, const struct tile_samples *samples,
+                          const struct tile *tile, struct screen_occlusion *occlusion);
+    const struct occlusion_kernels *occlusion;
 
     // Sums the fragments' colours into their pixels, weighted by samples, under the blended layers if the tile has any,
     // and writes the tile to the picture. Pixels without fragments get target->empty_pixel.

@@ -7,6 +7,7 @@
 #include "linear.h"
 #include "pixels.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 // --- the limits of the call

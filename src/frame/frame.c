@@ -74,6 +74,16 @@ static bool check_params(const lam_draw_params *params, lam_error *error)
         if (!(sizes[i] >= 0 && sizes[i] <= 1000))
             return fail(error, LAM_BAD_ARGUMENT, "%s is %g, expected pixels from 0 to 1000",
                         i ? "point_size" : "line_width", sizes[i]);
+    if ((unsigned)params->occlusion >= LAM_OCCLUSION_COUNT)
+        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: occlusion %d is not one of lam_occlusion",
+                    (int)params->occlusion);
+    if (!(params->occlusion_radius >= 0 && params->occlusion_radius <= 10))
+        return fail(error, LAM_BAD_ARGUMENT, "occlusion_radius is %g, expected more than 0, up to 10",
+                    (double)params->occlusion_radius);
+    if (params->occlusion > LAM_OCCLUSION_OFF && params->shading != LAM_SHADING_PHONG)
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "ambient occlusion is found for pixels: it goes with Phong shading, not with %s",
+                    params->shading == LAM_SHADING_FLAT ? "flat" : "Gouraud");
     if (params->anisotropy < 0 || params->anisotropy > 16)
         return fail(error, LAM_BAD_ARGUMENT, "anisotropy is %d, expected 0 to 16", params->anisotropy);
     int n = params->reference;
@@ -207,6 +217,14 @@ static bool light_space(const lam_scene *scene, const lam_light *light, const la
         *out = lam_mat4_identity();
         return true;
     }
+    if (light->frame == LAM_FRAME_VIEW) {
+        lam_vec3 low, high, centre = v3(0, 0, 0);
+        if (lam_scene_bounds(scene, &low, &high))
+            centre = v3_scale(v3_add(low, high), 0.5);
+        centre = mat4_point(view, centre);
+        *out = mat4_translate(centre.x, centre.y, centre.z);
+        return true;
+    }
     *out = *view;
     if (light->frame == LAM_FRAME_WORLD)
         return true;
@@ -270,6 +288,7 @@ static void build_light(struct frame_light *out, const lam_light *light, const l
     store3(out->axis, v3_unit(mat4_vector(space, light->direction)));
     store_rgb(out->diffuse, light->diffuse);
     store_rgb(out->specular, light->specular);
+    out->occluded = light->occluded;
 }
 
 static bool add_light(struct frame *frame, const lam_scene *scene, const lam_light *light, int index,
@@ -310,7 +329,7 @@ static bool build_lights(struct frame *frame, const lam_scene *scene, lam_rig ri
     for (int i = 0; i < scene->lights.count; i++)
         if ((only < 0 || only == i) && !add_light(frame, scene, lam_scene_light(scene, i), i, view, error))
             return false;
-    int count = lam_scene_rig_lights(scene, rig, frame->rig);
+    int count = frame->rig_count = lam_scene_rig_lights(scene, rig, frame->rig);
     for (int i = 0; i < count; i++)
         if ((only < 0 || only == scene->lights.count + i) && !add_light(frame, scene, &frame->rig[i], -1, view, error))
             return false;
@@ -448,6 +467,31 @@ static bool build_environment(struct frame *frame, const lam_scene *scene, lam_r
     return true;
 }
 
+// Decides about ambient occlusion, once the lights are known.
+static void set_occlusion(struct frame *frame, const lam_scene *scene, const lam_draw_params *params, bool physical)
+{
+    // A picture of one light or term has the occlusion that the whole picture has.
+    bool wanted = physical && (scene->environment || (params->rig == LAM_RIG_AUTO && scene_lit_by_environment(scene)));
+    for (int i = 0; i < scene->lights.count; i++)
+        wanted |= lam_scene_light(scene, i)->occluded > 0;
+    for (int i = 0; i < frame->rig_count; i++)
+        wanted |= frame->rig[i].occluded > 0;
+    bool shown = lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_CLIPPED;
+    frame->occlusion = params->occlusion                               ? params->occlusion
+                       : wanted && frame->shading == LAM_SHADING_PHONG ? LAM_OCCLUSION_SCREEN
+                                                                       : LAM_OCCLUSION_OFF;
+    if (frame->output == LAM_OUTPUT_AMBIENT_OCCLUSION && !params->occlusion)
+        frame->occlusion = LAM_OCCLUSION_SCREEN;
+    else if (!shown && frame->output != LAM_OUTPUT_AMBIENT_OCCLUSION)
+        frame->occlusion = LAM_OCCLUSION_OFF;
+    lam_vec3 low, high;
+    double share = params->occlusion_radius > 0 ? (double)params->occlusion_radius : 0.1;
+    if (frame->occlusion && lam_scene_bounds(scene, &low, &high))
+        frame->occlusion_radius = rounded(0.5 * share * v3_length(v3_sub(high, low)));
+    if (!(frame->occlusion_radius > 0))
+        frame->occlusion = LAM_OCCLUSION_OFF; // a scene without extent
+}
+
 bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
                  int width, int height, struct call_control *call, lam_error *error)
 {
@@ -560,6 +604,9 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->shadow_samples = params->shadow_samples ? params->shadow_samples : 16;
     if (frame->shadows)
         frame_shadows_build(frame, scene, &view);
+    frame->pixel_size =
+        rounded(2 * (frame->orthographic ? camera->ortho_half_height : math_tan(0.5 * camera->fovy_rad)) / height);
+    set_occlusion(frame, scene, params, physical);
     return true;
 }
 

@@ -53,7 +53,8 @@ struct frame_light {
     float cos_outer, inverse_width;
     float ambient[3]; // with gl1: the light's own ambient term, which the frame's sum then leaves out
     float diffuse[3], specular[3];
-    int light; // index in the scene; −1: a light of the rig
+    float occluded; // share that ambient occlusion dims
+    int light;      // index in the scene; −1: a light of the rig
     const lam_light *source;
     // With shadows only.
     bool casts_shadows;
@@ -96,10 +97,13 @@ struct frame {
     float light_cutoff;
     bool distant_viewer; // v = +z at every point: the camera is orthographic, or the viewer LAM_VIEWER_INFINITE
     bool orthographic;
-    bool translucent;   // any range is
-    bool masked;        // and one has a material of LAM_ALPHA_MASK
-    bool transmits;     // and one has LAYER_TRANSMISSION: layers let each channel through by a share of its own
-    bool makes_normals; // a draw has a crease_rad, and the output needs its normals
+    float pixel_size;        // of a pixel in eye units, at distance 1 or, where orthographic, everywhere
+    lam_occlusion occlusion; // never AUTO
+    float occlusion_radius;  // eye units
+    bool translucent;        // any range is
+    bool masked;             // and one has a material of LAM_ALPHA_MASK
+    bool transmits;          // and one has LAYER_TRANSMISSION: layers let each channel through by a share of its own
+    bool makes_normals;      // a draw has a crease_rad, and the output needs its normals
     // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.
     float near_plane, far_plane;
     // LAM_OUTPUT_DEPTH: the range of distances that 8 bits spread over, that of the scene's vertices between the planes.
@@ -130,6 +134,7 @@ struct frame {
     float to_environment[3][3];         // directions in eye space to the environment's axes
 
     lam_light rig[LAM_RIG_LIGHTS_MAX];
+    int rig_count;
     lam_material default_material;
     struct buffer storage; // of the arrays
     struct buffer strokes; // of the arrays of stroke_meshes

@@ -32,6 +32,16 @@ static lam_mat4 world_of(const lam_scene *scene, const lam_light *light, const l
     switch (light->frame) {
     case LAM_FRAME_CAMERA:
         return *eye_to_world;
+    case LAM_FRAME_VIEW: { // from the middle of the scene, along the camera's axes
+        lam_mat4 world = *eye_to_world;
+        lam_vec3 low, high, middle = v3(0, 0, 0);
+        if (lam_scene_bounds(scene, &low, &high))
+            middle = v3_scale(v3_add(low, high), 0.5);
+        world.m[0][3] = middle.x;
+        world.m[1][3] = middle.y;
+        world.m[2][3] = middle.z;
+        return world;
+    }
     case LAM_FRAME_MODEL:
         return scene->placement;
     case LAM_FRAME_OBJECT:

@@ -28,6 +28,7 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->output = wanted.output;
     c->stage = wanted.stage;
     c->shading = wanted.shading;
+    c->occlusion = f->occlusion && !range->translucent;
     c->reflection = LAM_REFLECTION_LAMBERT;
     c->alpha[0] = c->alpha[1] = LAM_ALPHA_BLEND;
     bool geometry = glsl_output_is_geometry(c->output),
@@ -235,6 +236,8 @@ static bool draw_parts(struct gl_frame *f, lam_error *error)
             f->width = f->image->width - f->left < max ? f->image->width - f->left : max;
             f->height = f->image->height - f->top < max ? f->image->height - f->top : max;
             uint64_t clock = now_ns();
+            if (f->occlusion)
+                occlusion_send(f);
             if (!passes_draw(f, error))
                 return false;
             f->gl->Finish();
@@ -266,6 +269,37 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
     return draw_parts(f, error) && check_errors(f, error);
 }
 
+// Draws the distances of the frame's opaque surfaces, and finds its ambient occlusion from them.
+static bool draw_occlusion(struct gl_frame *f, struct screen_occlusion *occlusion, lam_error *error)
+{
+    struct frame distances = *f->frame; // shares the arrays
+    distances.output = LAM_OUTPUT_DEPTH;
+    distances.samples = 1;
+    distances.occlusion = LAM_OCCLUSION_OFF;
+    distances.translucent = distances.masked = distances.environment_lights = distances.shadows = false;
+    struct buffer pixels = {0};
+    size_t stride = (size_t)distances.width * 4 * sizeof(float);
+    if (!buffer_reserve(&pixels, stride * (size_t)distances.height, f->call, error))
+        return false;
+    lam_image image = {.width = distances.width,
+                       .height = distances.height,
+                       .format = LAM_RGBA32F,
+                       .stride = stride,
+                       .pixels = pixels.data};
+    struct gl_frame g = {.device = f->device,
+                         .gl = f->gl,
+                         .frame = &distances,
+                         .call = f->call,
+                         .image = &image,
+                         .stage = LAM_STAGE_FRAGMENT,
+                         .only_opaque = true};
+    bool ok = draw_frame(&g, error) && occlusion_find(f, &image, occlusion, error);
+    call_refund(f->call, pixels.capacity);
+    buffer_free(&pixels);
+    f->occlusion = occlusion;
+    return ok;
+}
+
 static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_image *image, struct call_control *call,
                     lam_error *error)
 {
@@ -284,7 +318,9 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
         f.layered |= range_blends(frame, &frame->ranges[i]);
     gl_state_save(device, &state);
     device->frame_number++;
-    bool ok = draw_frame(&f, error);
+    struct screen_occlusion occlusion;
+    bool ok = frame->occlusion == LAM_OCCLUSION_OFF || draw_occlusion(&f, &occlusion, error);
+    ok = ok && draw_frame(&f, error);
     gl_state_restore(device, &state);
     gl_context_leave(&device->context, &previous);
     return ok;
@@ -295,7 +331,7 @@ static uint64_t gl_memory(const struct lam_device *base)
     const struct gl_device *device = (const struct gl_device *)base;
     uint64_t bytes = device->scratch.capacity + device->runs.capacity + device->pixels.capacity +
                      device->draw_calls.capacity + device->environment_bytes + device->target_bytes +
-                     device->shadow_bytes + hierarchy_bytes(&device->hierarchy);
+                     device->shadow_bytes + device->occlusion.capacity + hierarchy_bytes(&device->hierarchy);
     const struct gl_light_buffer *lists[] = {&device->lights, &device->products};
     for (int i = 0; i < 2; i++)
         bytes += lists[i]->shadow.capacity + lists[i]->next.capacity + lists[i]->size;
@@ -321,12 +357,15 @@ static void gl_free(struct lam_device *base)
         light_buffers_free(device);
         shadows_free(device);
         targets_free(device);
+        if (device->occlusion_texture)
+            device->context.gl.DeleteTextures(1, &device->occlusion_texture);
         if (device->query)
             device->context.gl.DeleteQueries(1, &device->query);
         gl_context_leave(&device->context, &previous);
     }
     gl_context_free(&device->context);
     buffer_free(&device->scratch);
+    buffer_free(&device->occlusion);
     buffer_free(&device->runs);
     buffer_free(&device->pixels);
     buffer_free(&device->draw_calls);

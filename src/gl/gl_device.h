@@ -5,6 +5,7 @@
 //   textures         a material's textures -> textures, once                     gl_textures.c
 //   light buffers    lights and products -> uniform blocks or textures           gl_light_buffers.c
 //   vertex lighting  vertex colours from the CPU's equations                     gl_vertex_lighting.c
+//   occlusion        distances -> ambient occlusion of each pixel                gl_occlusion.c
 //   targets          framebuffers of one part of the picture                     gl_targets.c
 //   passes           samples, opaque surfaces, layers of translucent ones        gl_passes.c
 //   readback         linear light -> the image                                   gl_readback.c
@@ -19,6 +20,7 @@
 #include "fields.h"
 #include "glsl.h"
 #include "hierarchy.h"
+#include "screen_occlusion.h"
 
 enum {
     PART_SIZE_MAX = 2048, // largest width and height, in pixels, of a part of the picture that is drawn in one go
@@ -28,9 +30,10 @@ enum texture_unit {
     UNIT_ENVIRONMENT,
     UNIT_LIGHTS,
     UNIT_PRODUCTS,
-    UNIT_NEARER_DEPTH_IDS, // of the previous layer
-    UNIT_OPAQUE_DEPTH_IDS, // of the opaque surfaces
-    UNIT_ENVIRONMENT_LIGHT,
+    UNIT_NEARER_DEPTH_IDS,                  // of the previous layer
+    UNIT_OPAQUE_DEPTH_IDS,                  // of the opaque surfaces
+    UNIT_OCCLUSION = UNIT_NEARER_DEPTH_IDS, // those are read by translucent surfaces, which no occlusion dims
+    UNIT_ENVIRONMENT_LIGHT = UNIT_OPAQUE_DEPTH_IDS + 1,
     UNIT_COPY,
     UNIT_SHADOW_TREE = UNIT_COPY, // no program reads both
     UNIT_FIRST_MAP,               // the maps of materials
@@ -211,6 +214,8 @@ struct gl_device {
     float copy_factor_value;
     GLuint query;
     struct gl_targets targets;
+    struct buffer occlusion;  // rows of struct screen_occlusion
+    GLuint occlusion_texture; // of the part that is drawn
     struct gl_light_buffer lights, products;
     struct lam_environment *environment; // retained; its faces are in environment_texture
     GLuint environment_texture, environment_light_texture;
@@ -252,6 +257,8 @@ struct gl_frame {
     enum glsl_storage storage;
     const struct environment_light *environment_light; // on physical materials; NULL: none
     bool layered;                                      // blended surfaces are peeled
+    bool only_opaque;                                  // translucent and masked surfaces are left out
+    const struct screen_occlusion *occlusion;          // NULL: none
     lam_stage stage;
     size_t material_stride; // distance between the products of consecutive materials, in bytes or texels
     // The part of the picture that is being drawn, and the sample's offset from the pixel's centre (pixels, y down).
@@ -324,6 +331,14 @@ void textures_free(struct gl_device *device);
 // Returns the vertex array of a draw, with vertex colours from the CPU's equations. 0 on failure.
 GLuint vertex_lighting_upload(struct gl_frame *f, int draw, struct gl_mesh *mesh, lam_error *error);
 void vertex_lighting_free(struct gl_device *device);
+
+// --- gl_occlusion.c
+// Finds the ambient occlusion of the frame's pixels from a float picture of the distances of its opaque surfaces
+// (LAM_OUTPUT_DEPTH). The rows belong to the device.
+bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct screen_occlusion *occlusion,
+                    lam_error *error);
+// Uploads the part that is drawn.
+void occlusion_send(struct gl_frame *f);
 
 // --- gl_programs.c
 // Returns the program of the choices, compiled on first use. NULL on failure.

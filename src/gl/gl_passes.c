@@ -121,6 +121,8 @@ static void issue_draw_call(struct gl_frame *f, const struct gl_draw_call *call)
         gl_use_texture(f->device, UNIT_ENVIRONMENT_LIGHT, GL_TEXTURE_2D, f->device->environment_light_texture);
     if (call->program->choices.shadows)
         shadows_use(f, call->program);
+    if (call->program->choices.occlusion)
+        gl_use_texture(f->device, UNIT_OCCLUSION, GL_TEXTURE_2D, f->device->occlusion_texture);
     float object = (float)draw->object;
     program_set(f, call->program, UNIFORM_OBJECT, &object, 1);
     program_set_int(f, call->program, UNIFORM_FIRST_TRIANGLE, (int)draw->first_id);
@@ -145,7 +147,7 @@ static void draw_all(struct gl_frame *f, bool layers, enum gl_blending blending)
 {
     gl_use_blending(f->device, blending);
     for (int i = 0; i < f->draw_call_count; i++)
-        if (is_layer(f, &f->draw_calls[i]) == layers)
+        if (is_layer(f, &f->draw_calls[i]) == layers && !(f->only_opaque && f->draw_calls[i].range->translucent))
             issue_draw_call(f, &f->draw_calls[i]);
 }
 

@@ -118,6 +118,9 @@ static bool find_uniforms(struct gl_frame *f, struct gl_program *program, lam_er
     GLint tree = gl->GetUniformLocation(program->name, "shadow_tree");
     if (tree >= 0)
         gl->Uniform1i(tree, UNIT_SHADOW_TREE);
+    GLint occlusion = gl->GetUniformLocation(program->name, "ambient_occlusion");
+    if (occlusion >= 0)
+        gl->Uniform1i(occlusion, UNIT_OCCLUSION);
     static const char *const blocks[POINT_COUNT] = {"Lights", "Products", "BackProducts"};
     for (GLuint point = 0; point < POINT_COUNT; point++) {
         GLuint block = gl->GetUniformBlockIndex(program->name, blocks[point]);

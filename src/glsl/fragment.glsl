@@ -65,6 +65,13 @@ void main()
 //@elif facing
     float side = gl_FrontFacing ? 1.0 : -1.0;
     @pixel@ = vec4(side, side, side, 1.0);
+//@elif occlusion
+//@if occluded
+    float share = texelFetch(ambient_occlusion, ivec2(gl_FragCoord.xy), 0).r;
+//@else
+    float share = 1.0;
+//@end
+    @pixel@ = vec4(share, share, share, 1.0);
 //@elif ids
     @pixel@ = vec4(float(triangle % 16777216), object, float(triangle / 16777216), 1.0);
 //@else

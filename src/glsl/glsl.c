@@ -317,6 +317,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"has_environment", f->environment},
         {"cube_map", c->environment == GLSL_CUBE},
         {"environment_light", f->environment_light},
+        {"occluded", f->occlusion},
         {"highlights", f->highlights},
         {"microfacet", f->microfacet},
         {"single_scattering", c->single_scattering},
@@ -325,6 +326,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"depth", c->output == LAM_OUTPUT_DEPTH},
         {"facing", c->output == LAM_OUTPUT_FACING},
         {"ids", c->output == LAM_OUTPUT_IDS},
+        {"occlusion", c->output == LAM_OUTPUT_AMBIENT_OCCLUSION},
         {"triangle_ids", triangle_ids},
         {"depth_ids", c->layer != GLSL_NO_LAYERS},
         {"shadows", c->shadows},
@@ -541,7 +543,8 @@ static char *make_stage(const struct glsl_facts *f, bool fragment, lam_error *er
     if (c->version == GLSL_300_ES && fragment && c->layer == GLSL_PEELS)
         text_add(&text, "precision highp usampler2D;\n");
     if (c->version == GLSL_300_ES &&
-        ((fragment == f->per_fragment && (c->storage == GLSL_TEXTURE || f->environment_light || c->shadows)) ||
+        ((fragment == f->per_fragment &&
+          (c->storage == GLSL_TEXTURE || f->environment_light || c->shadows || f->occlusion)) ||
          (fragment && f->mapped)))
         text_add(&text, "precision highp sampler2D;\n");
     if (c->version == GLSL_300_ES && fragment == f->per_fragment && f->environment)

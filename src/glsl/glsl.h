@@ -67,6 +67,7 @@ struct glsl_choices {
     enum glsl_environment environment;
     // The environment lights a physical material: sampler2D environment_light beside it (environment_light.h).
     bool environment_light;
+    bool occlusion; // ambient occlusion: sampler2D ambient_occlusion has a texel for each pixel of the target
     enum glsl_layer layer;
     bool transmits;  // a layer has a third output, `through`: the share of each channel that passes it
     lam_stage stage; // never AUTO
@@ -107,7 +108,7 @@ struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_dr
 static inline bool glsl_output_is_geometry(lam_output output)
 {
     return output == LAM_OUTPUT_DEPTH || output == LAM_OUTPUT_FACING || output == LAM_OUTPUT_IDS ||
-           output == LAM_OUTPUT_COVERAGE || output == LAM_OUTPUT_OVERDRAW;
+           output == LAM_OUTPUT_COVERAGE || output == LAM_OUTPUT_OVERDRAW || output == LAM_OUTPUT_AMBIENT_OCCLUSION;
 }
 
 struct glsl_text {
@@ -124,7 +125,7 @@ void glsl_free(struct glsl_text *text);
 // A light, with the layout of struct Light. With products the struct ends after `cone`, without gl1 before `ambient`.
 struct glsl_light {
     float position[4];    // eye space; w 1
-    float direction[4];   // eye space, unit, in the direction of travel; w 0
+    float direction[4];   // eye space, unit, in the direction of travel; w 0, with `occlusion` the share occluded
     float attenuation[4]; // constant, linear, quadratic, 1 / range (0: none)
     float cone[4];        // cos cutoff, exponent, cos outer, 1 / max(0.001, cos inner − cos outer)
     float diffuse[4], specular[4], ambient[4];

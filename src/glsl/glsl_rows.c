@@ -26,6 +26,7 @@ struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
     f.tangent = (sums && lobe->tangents) || (f.lit && c->output == LAM_OUTPUT_TANGENTS);
     f.highlights = sums && c->light_count > 0 && lobe->base;
     f.environment_light = f.environment && c->environment_light;
+    f.occlusion = c->occlusion && f.per_fragment && (sums || c->output == LAM_OUTPUT_AMBIENT_OCCLUSION);
     f.microfacet = lobe && lobe->microfacet && (f.highlights || f.environment_light);
     f.layers = f.microfacet ? c->layers : 0;
     f.tangent |= (f.layers & LAYER_ANISOTROPY) != 0;
@@ -217,6 +218,10 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
             add(&list, GLSL_ENVIRONMENT_LIGHT, "sampler2D", 0, NULL, "environment_light");
             set_meaning(&list, "float texture, 1024 texels wide, no filter: lam_environment_light_image");
         }
+    }
+    if (f->occlusion) {
+        add(&list, GLSL_OCCLUSION, "sampler2D", 0, NULL, "ambient_occlusion");
+        set_meaning(&list, "a texel for each pixel: the share of the light from all around that arrives there");
     }
     if (!f->lit || f->output_vector) {
         if (f->lights) {

@@ -14,6 +14,7 @@ enum glsl_semantic {
     GLSL_ENVIRONMENT_MATRIX,
     GLSL_ENVIRONMENT,
     GLSL_ENVIRONMENT_LIGHT,
+    GLSL_OCCLUSION,
     GLSL_LIGHT_LIST,
     GLSL_PRODUCT_LIST,
     GLSL_FIRST_PRODUCT,
@@ -72,6 +73,7 @@ struct glsl_facts {
     bool tangent;                // light_point reads a tangent
     bool environment;            // light_point reads the environment
     bool environment_light;      // as light of a physical material
+    bool occlusion;              // the fragment shader reads ambient occlusion
     bool back_material;          // the back has a material of its own
     bool mapped;                 // the fragment shader reads maps
     bool maps[2][LAM_MAP_COUNT]; // those of the front, of the back

@@ -166,6 +166,8 @@ void glsl_pack_lights(const struct glsl_choices *c, const struct frame *frame, f
             if (light->kind != c->groups[g].kind || light->falloff != c->groups[g].falloff)
                 continue;
             struct glsl_light packed = glsl_light_of(light);
+            if (c->occlusion)
+                packed.direction[3] = light->occluded;
             memcpy(out, &packed, each * sizeof *out);
             out += each;
         }

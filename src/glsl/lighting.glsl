@@ -99,6 +99,13 @@ surroundings surroundings_of(surface s, float roughness)
     return e;
 }
 //@end
+//@if occluded
+
+// --- ambient occlusion
+
+// The share of the light from all around that reaches this pixel's surface.
+float unoccluded_share() { return texelFetch(ambient_occlusion, ivec2(gl_FragCoord.xy), 0).r; }
+//@end
 //@if reads_lights
 
 // --- lights and materials
@@ -184,6 +191,17 @@ light_source light_of(int i@list_parameter@)
     light.specular = black3();
 //@end
 //@end
+//@end
+//@if occluded
+    // w: the share of the light that occlusion dims.
+//@if texture
+    float occluded = list_texel(light_list, first + 1).w;
+//@else
+    float occluded = lights[i].direction.w;
+//@end
+    float kept = 1.0 - occluded * (1.0 - unoccluded_share());
+    light.diffuse = scale3(light.diffuse, kept);
+    light.specular = scale3(light.specular, kept);
 //@end
     return light;
 }
@@ -367,6 +385,9 @@ vec4 light_point(@lit_parameters@)
 //@if map_occlusion
     sum.ambient = scale3(sum.ambient, maps.occlusion);
 //@end
+//@if occluded
+    sum.ambient = scale3(sum.ambient, unoccluded_share());
+//@end
 //@if layered
     sum = cover_terms(sum, layering, 0);
 //@if passes
@@ -395,6 +416,9 @@ vec4 light_point(@lit_parameters@)
 //@end
 //@if map_occlusion
         arriving = scale3(arriving, maps.occlusion);
+//@end
+//@if occluded
+        arriving = scale3(arriving, unoccluded_share());
 //@end
         sum.reflection = add3(sum.reflection, arriving);
 //@elif products

@@ -277,6 +277,7 @@ static int value_of(const struct build *m, const struct frame_draw_range *range,
     case GLSL_MAP:
     case GLSL_ENVIRONMENT:
     case GLSL_ENVIRONMENT_LIGHT:
+    case GLSL_OCCLUSION:
     case GLSL_LIGHT_LIST:
     case GLSL_PRODUCT_LIST:
         break;

@@ -58,9 +58,9 @@ bool lam_light_check(const lam_light *light, lam_error *error)
     if ((unsigned)light->type > LAM_LIGHT_SPOT)
         return fail(error, LAM_BAD_ARGUMENT, "light: type is %d, expected 0 to %d", (int)light->type,
                     (int)LAM_LIGHT_SPOT);
-    if ((unsigned)light->frame > LAM_FRAME_MODEL)
+    if ((unsigned)light->frame > LAM_FRAME_VIEW)
         return fail_field(error, light, "frame", (double)light->frame,
-                          "0 (world), 1 (camera), 2 (object) or 3 (model)");
+                          "0 (world), 1 (camera), 2 (object), 3 (model) or 4 (view)");
     struct field_fault fault;
     for (int i = 0; lam_light_field(i); i++)
         if (field_is_of(lam_light_field(i), light->type) && !field_fits(lam_light_field(i), light, &fault))
@@ -82,18 +82,25 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
     return light;
 }
 
-// The default rig. A point reflects ka or kd times at most
+// The default rig. The key stands near, 3.2 radii from the centre, so that the light changes across a flat face: from 1.5
+// times its strength on the side of the model that faces it to 0.7 on the other. A point reflects ka or kd times at most
 //
-//   0.74 (key) + 0.24·cos 79° (fill, at the key's maximum) + 0.17 (sky, there) = 0.96
+//   0.52·1.5 (key) + 0.22·cos 79° (fill, at the key's maximum) + 0.17 (sky, there) = 0.99
 //
-// and at most 0.9 on top, where the rim light contributes: even a white material keeps its shading and does not clip.
-// With the default material's 0.72 the maximum is 0.69 (sRGB 215), plus the highlight; a point lit by the ground alone
-// has 0.72·0.06 (sRGB 58); the side of the fill has about 0.2 (sRGB 124). The rim light brightens the upper edges, so
-// that a model stands out from a dark page.
+// so that even a white material keeps its shading and does not clip. The rim light brightens the upper edges, so that a
+// model stands out from a dark page.
 static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
-    lights[0] = camera_light("key", v3(-0.65, 0.75, 0.80), 0.74f, 0.9f);
-    lights[1] = camera_light("fill", v3(0.95, 0.10, 0.55), 0.24f, 0.15f);
+    lights[0] = lam_light_default(LAM_LIGHT_POINT);
+    lights[0].name = "key";
+    lights[0].frame = LAM_FRAME_VIEW;
+    lights[0].position = v3(-1.65, 1.90, 2.00);
+    lights[0].attenuation = (lam_attenuation){0.35f, 0, 0.0635f}; // 1 at the centre
+    lights[0].diffuse = (lam_rgb){0.52f, 0.52f, 0.52f};
+    lights[0].specular = (lam_rgb){0.8f, 0.8f, 0.8f};
+    lights[0].occluded = 0.5f;
+    lights[1] = camera_light("fill", v3(0.95, 0.10, 0.55), 0.22f, 0.15f);
+    lights[1].occluded = 1;
     lights[2] = camera_light("rim", v3(0.25, 0.70, -0.80), 0.28f, 0.30f);
     lights[3] = lam_light_default(LAM_LIGHT_HEMISPHERE);
     lights[3].name = "sky";

@@ -26,9 +26,17 @@ static const char *const names[LAM_OUTPUT_COUNT] = {
     [LAM_OUTPUT_METALLIC] = "metallic",
     [LAM_OUTPUT_OCCLUSION] = "occlusion",
     [LAM_OUTPUT_LOD] = "lod",
+    [LAM_OUTPUT_AMBIENT_OCCLUSION] = "ao",
 };
 
 const char *lam_output_name(lam_output output) { return (unsigned)output < LAM_OUTPUT_COUNT ? names[output] : NULL; }
+
+static const char *const occlusions[LAM_OCCLUSION_COUNT] = {"auto", "off", "screen"};
+
+const char *lam_occlusion_name(lam_occlusion occlusion)
+{
+    return (unsigned)occlusion < LAM_OCCLUSION_COUNT ? occlusions[occlusion] : NULL;
+}
 
 bool lam_output_is_light(lam_output output) { return (unsigned)output <= LAM_OUTPUT_LIGHT; }
 

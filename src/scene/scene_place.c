@@ -136,19 +136,30 @@ bool scene_lit_by_environment(const struct lam_scene *scene)
     return physical && !classic;
 }
 
+// Moves a light of a rig for a scene of radius 1 to its place in this one.
+static void place_rig_light(const lam_scene *scene, lam_light *light)
+{
+    lam_vec3 low, high, centre = v3(0, 0, 0);
+    double radius = 0;
+    if (light->type != LAM_LIGHT_POINT && light->type != LAM_LIGHT_SPOT)
+        return;
+    if (light->frame == LAM_FRAME_WORLD)
+        lam_scene_sphere(scene, -1, &centre, &radius);
+    else if (scene && lam_scene_bounds(scene, &low, &high)) // around the box, which takes no look at every vertex
+        radius = 0.5 * v3_length(v3_sub(high, low));
+    if (radius == 0)
+        radius = 1;
+    light->position = v3_add(centre, v3_scale(light->position, radius));
+    light->attenuation.linear = (float)((double)light->attenuation.linear / radius);
+    light->attenuation.quadratic = (float)((double)light->attenuation.quadratic / (radius * radius));
+}
+
 int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     if (rig == LAM_RIG_AUTO)
         rig = lam_scene_light_count(scene) || scene_lit_by_environment(scene) ? LAM_RIG_NONE : LAM_RIG_STUDIO;
     int count = lam_rig_lights(rig, lights);
-    if (rig != LAM_RIG_LECTURE)
-        return count;
-    lam_vec3 centre;
-    double radius;
-    lam_scene_sphere(scene, -1, &centre, &radius);
-    if (radius == 0)
-        radius = 1;
     for (int i = 0; i < count; i++)
-        lights[i].position = v3_add(centre, v3_scale(lights[i].position, radius));
+        place_rig_light(scene, &lights[i]);
     return count;
 }

@@ -153,6 +153,15 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
     if (draw->reference && draw->reference < ENVIRONMENT_SAMPLES_MIN)
         return fail_place(r, KEY_OF(NULL, "reference"), "found %d, expected 0 or at least %d", draw->reference,
                           ENVIRONMENT_SAMPLES_MIN);
+    struct json_choice occlusions[LAM_OCCLUSION_COUNT + 1];
+    int occlusion = LAM_OCCLUSION_AUTO;
+    double radius = 0;
+    occlusion_words(occlusions);
+    if (!take_word(r, NULL, root, "ao", occlusions, &occlusion) ||
+        !take_number(r, NULL, root, "ao_radius", 0.001, 10, &radius))
+        return false;
+    draw->occlusion = (lam_occlusion)occlusion;
+    draw->occlusion_radius = (float)radius;
     if (json_object_get(root, "light_cutoff"))
         draw->light_cutoff = cutoff > 0 ? (float)cutoff : -1;
     draw->flat_terminator = !terminator;
@@ -180,6 +189,8 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
                 {"shadow_samples", LAM_SETTING_SHADOWS},
                 {"anisotropy", LAM_SETTING_ANISOTROPY},
                 {"reference", LAM_SETTING_REFERENCE},
+                {"ao", LAM_SETTING_OCCLUSION},
+                {"ao_radius", LAM_SETTING_OCCLUSION_RADIUS},
                 {"light_cutoff", LAM_SETTING_LIGHT_CUTOFF}};
     for (size_t i = 0; i < sizeof bits / sizeof *bits; i++)
         r->settings->present |= json_object_get(root, bits[i].key) ? bits[i].bit : 0;
@@ -207,7 +218,8 @@ static bool read_root(struct scene_reader *r, const json_t *root)
         "lambent",    "image",     "camera",    "ambient",           "environment",      "shading",
         "reflection", "viewer",    "stage",     "flat_normal",       "match_highlights", "single_scattering",
         "gl1",        "up",        "materials", "objects",           "lights",           "light_cutoff",
-        "anisotropy", "reference", "shadows",   "shadow_terminator", "shadow_samples",   NULL};
+        "anisotropy", "reference", "shadows",   "shadow_terminator", "shadow_samples",   "ao",
+        "ao_radius",  NULL};
     int version = 0;
     if (!check_keys(r, NULL, root, keys) || !take_whole(r, NULL, root, "lambent", -1000000, 1000000, &version))
         return false;

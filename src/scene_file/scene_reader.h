@@ -56,6 +56,7 @@ extern const struct json_choice color_words[], shading_words[], stage_words[], v
 void light_type_words(struct json_choice words[LAM_LIGHT_TYPE_COUNT + 1]);
 void reflection_words(struct json_choice words[LAM_REFLECTION_COUNT + 1]);
 void tone_words(struct json_choice words[LAM_TONE_COUNT + 1]);
+void occlusion_words(struct json_choice words[LAM_OCCLUSION_COUNT + 1]);
 
 // The key of a field, set in a material or light.
 bool take_field(struct scene_reader *r, const struct place *place, const json_t *object, const lam_field *field,

@@ -140,8 +140,11 @@ const struct json_choice cull_words[] = {
 const struct json_choice up_words[] = {
     {"x", LAM_UP_X},           {"y", LAM_UP_Y},           {"z", LAM_UP_Z}, {"-x", LAM_UP_NEGATIVE_X},
     {"-y", LAM_UP_NEGATIVE_Y}, {"-z", LAM_UP_NEGATIVE_Z}, {NULL, 0}};
-const struct json_choice frame_words[] = {
-    {"world", LAM_FRAME_WORLD}, {"camera", LAM_FRAME_CAMERA}, {"object", LAM_FRAME_OBJECT}, {NULL, 0}};
+const struct json_choice frame_words[] = {{"world", LAM_FRAME_WORLD},
+                                          {"camera", LAM_FRAME_CAMERA},
+                                          {"object", LAM_FRAME_OBJECT},
+                                          {"view", LAM_FRAME_VIEW},
+                                          {NULL, 0}};
 const struct json_choice tangent_words[] = {{"file", false}, {"field", true}, {NULL, 0}};
 
 void light_type_words(struct json_choice words[LAM_LIGHT_TYPE_COUNT + 1])
@@ -156,6 +159,13 @@ void tone_words(struct json_choice words[LAM_TONE_COUNT + 1])
     for (int i = 0; i < LAM_TONE_COUNT; i++)
         words[i] = (struct json_choice){lam_tone_name((lam_tone)i), i};
     words[LAM_TONE_COUNT] = (struct json_choice){NULL, 0};
+}
+
+void occlusion_words(struct json_choice words[LAM_OCCLUSION_COUNT + 1])
+{
+    for (int i = 0; i < LAM_OCCLUSION_COUNT; i++)
+        words[i] = (struct json_choice){lam_occlusion_name((lam_occlusion)i), i};
+    words[LAM_OCCLUSION_COUNT] = (struct json_choice){NULL, 0};
 }
 
 void reflection_words(struct json_choice words[LAM_REFLECTION_COUNT + 1])
@@ -251,7 +261,9 @@ bool take_field(struct scene_reader *r, const struct place *place, const json_t 
         break;
     case LAM_FIELD_NUMBER:
     case LAM_FIELD_ANGLE:
-        if (!take_number(r, place, object, field->key, min, max, numbers))
+        if (field->light_types && field->max == 1 && json_is_boolean(json_object_get(object, field->key)))
+            numbers[0] = json_is_true(json_object_get(object, field->key)); // a share: all or nothing
+        else if (!take_number(r, place, object, field->key, min, max, numbers))
             return false;
         break;
     }

@@ -196,11 +196,11 @@ static bool read_frame(char *value, struct reading *reading, lam_error *error)
         return !name || *name ||
                fail(error, LAM_BAD_ARGUMENT, "frame is 'object:', expected an object's name after it");
     }
-    bool camera = strcmp(value, "camera") == 0;
-    if (name || (!camera && strcmp(value, "world") != 0))
-        return fail(error, LAM_BAD_ARGUMENT, "found 'frame=%.60s', expected world, camera, object or object:NAME",
+    bool camera = strcmp(value, "camera") == 0, view = strcmp(value, "view") == 0;
+    if (name || (!camera && !view && strcmp(value, "world") != 0))
+        return fail(error, LAM_BAD_ARGUMENT, "found 'frame=%.60s', expected world, camera, view, object or object:NAME",
                     value);
-    light->frame = camera ? LAM_FRAME_CAMERA : LAM_FRAME_WORLD;
+    light->frame = camera ? LAM_FRAME_CAMERA : view ? LAM_FRAME_VIEW : LAM_FRAME_WORLD;
     return true;
 }
 
@@ -434,6 +434,8 @@ static bool sphere_in_frame(const lam_light *light, const lam_light_text_params 
         lam_camera camera = params->camera ? *params->camera : lam_camera_default();
         lam_mat4 view = lam_camera_view_matrix(&camera);
         out->centre = mat4_point(&view, out->centre);
+    } else if (light->frame == LAM_FRAME_VIEW) {
+        out->centre = v3(0, 0, 0);
     } else if (light->frame == LAM_FRAME_OBJECT) {
         int object = find_object(scene, light->object, error);
         if (object < 0)

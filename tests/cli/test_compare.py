@@ -60,7 +60,7 @@ class Compare(Case):
             self.assertEqual(part(page, 3 + i % 3 * 51, 3 + i // 3 * 43, 48, 40), one, i)
         page = self.sheet("cube.obj", "--no-captions", "-s", "48x40", "--across", "rotate=x:0,y:30")
         for i, turns in enumerate((("x:0", "y:0"), ("x:0", "y:30"))):
-            one = self.alone("cube.obj", "-s", "48x40", "--rotate", turns[0], "--rotate", turns[1])
+            one = self.alone("cube.obj", "-s", "48x40", "--ao", "off", "--rotate", turns[0], "--rotate", turns[1])
             self.assertEqual(part(page, 3 + i * 51, 3, 48, 40), one, turns)
 
     def test_inset_shows_the_highlight(self):

@@ -86,7 +86,7 @@ class Docs(Case):
             self.assertTrue(any(re.search(rf"(?m)^  (-\w, |    )--{name}\b", pages[s]) for s in subjects), name)
         self.assertEqual(self.good("help", "-o").stdout, self.good("help", "--output").stdout)
         self.assertEqual(self.good("help", "all").stdout, self.good("--help").stdout)
-        self.assertIn("frame=world|camera|object", pages["lights"])
+        self.assertIn("frame=world|camera|view|object", pages["lights"])
         for key in ("cutoff", "attenuation", "sky"):
             self.assertRegex(pages["lights"], rf"(?m)^  {key} ")
         self.assertRegex(pages["materials"], r"(?m)^  roughness_angle ")

@@ -180,10 +180,10 @@ class Materials(Pictures):
         self.other(("--material", "gold"), ("--material", "ruby"))
 
     def test_keys(self):
-        self.same(("--material", "ambient=0.72,diffuse=0.72,specular=0.12,shininess=32,emission=0"), ())  # the default's numbers
+        self.same(("--material", "ambient=0.55,diffuse=0.55,specular=0.12,shininess=32,emission=0"), ())  # the default's numbers
         self.same(("--material", "color=1/0.5/0,ka=0.2,kd=0.8,specular_color=1,ks=0.3"),
                   ("--material", "ambient=0.2/0.1/0,diffuse=0.8/0.4/0,specular=0.3"))
-        self.same(("--material", "kd=0.5"), ("--material", "diffuse=0.36"))
+        self.same(("--material", "kd=0.5"), ("--material", "diffuse=0.275"))
         self.same(("--material", "color=red,ambient=0"), ("--material", "diffuse=red,ambient=0"))
         self.same(("--material", "shininess=5"), ("--shininess", "5"))
         glow = self.picture("--material", "ambient=0,diffuse=0,specular=0,emission=0.5", "--color-mode", "raw")
@@ -421,4 +421,4 @@ class Markers(Case):
         self.assertEqual(warned(*camera, "--light", "point:position=0/0/7,name=lamp"), "")
         many = [word for i in range(5) for word in ("--light", f"point:position={90 + i}/0/0")]
         self.assertIn("the markers of lights 1, 2, 3 and 2 more lie outside", warned(*camera, *many))
-        self.assertEqual(warned("--zoom", "0.2"), "")
+        self.assertEqual(warned("--zoom", "0.1"), "")

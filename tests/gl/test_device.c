@@ -212,6 +212,7 @@ static void test_sharp_highlights(void **state)
                 assert_true(lam_scene_set_material(demo.scene, i, &m, &error));
             lam_draw_params params = demo.params;
             params.samples = 1;
+            params.occlusion = LAM_OCCLUSION_OFF;
             params.reflection = (lam_reflection)model;
             struct apart apart = compare(gl, &demo, &params);
             print_message("shininess %4d, model %d: %.1e\n", shininess, model, apart.floats);

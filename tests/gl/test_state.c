@@ -244,6 +244,7 @@ static void test_unchanged(void **state)
             for (int method = 0; method < 3; method++) {
                 lam_draw_params params = demo.params;
                 params.samples = api ? 4 : 1;
+                params.occlusion = LAM_OCCLUSION_OFF; // which is sent again for each frame
                 params.stage = stages[method];
                 params.shading = method == 2 ? LAM_SHADING_PHONG : LAM_SHADING_GOURAUD;
                 frame(device, &demo, &params);

@@ -86,6 +86,7 @@ static lam_image draw(lam_device *device, const lam_scene *scene, int anisotropy
     lam_draw_params params = more;
     params.samples = 1;
     params.anisotropy = anisotropy;
+    params.occlusion = LAM_OCCLUSION_OFF;
     if (!lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error) ||
         !lam_draw(device, scene, &camera, &params, &image, NULL, &error))
         fail_msg("%s", error.text);

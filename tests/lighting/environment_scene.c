@@ -91,6 +91,7 @@ lam_image draw_spheres(const lam_scene *scene, lam_draw_params params, int threa
     assert_true(lam_image_make(&image, ACROSS * CELL, DOWN * CELL, LAM_RGBA32F, &error));
     params.samples = 1;
     params.rig = LAM_RIG_NONE;
+    params.occlusion = LAM_OCCLUSION_OFF; // neighbours would occlude one another
     if (!device || !lam_draw(device, scene, &camera, &params, &image, NULL, &error))
         fail_msg("%s", error.text);
     lam_device_free(device);

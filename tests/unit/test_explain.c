@@ -57,8 +57,8 @@ static void check_light(const lam_explained_fragment *f, const lam_explained_poi
         float kd = (&f->surface.diffuse.r)[c] * (&l->diffuse.r)[c],
               ks = (&f->surface.specular.r)[c] * (&l->specular.r)[c];
         assert_true((&l->kd_Ld.r)[c] == kd && (&l->ks_Ls.r)[c] == ks);
-        assert_true((&l->diffuse_term.r)[c] == kd * (weak * l->D));
-        assert_true((&l->specular_term.r)[c] == ks * (weak * l->S));
+        assert_true((&l->diffuse_term.r)[c] == kd * (weak * l->occlusion * l->D));
+        assert_true((&l->specular_term.r)[c] == ks * (weak * l->occlusion * l->S));
     }
     if (cosine)
         assert_true(l->D == (l->n_dot_l > 0 ? l->n_dot_l : 0));
@@ -138,6 +138,7 @@ static void check_point(const lam_explanation *e, const lam_explained_fragment *
             add(specular, p->lights[i].specular_term);
         }
         for (int c = 0; c < 3; c++) {
+            ambient[c] *= p->unoccluded;
             ambient[c] *= (&p->color.r)[c];
             diffuse[c] *= (&p->color.r)[c];
         }

@@ -205,7 +205,8 @@ static void test_light_checks(void **state)
     BAD(LAM_LIGHT_SPOT, inner_rad, 0.2f); // outer is 0
     BAD(LAM_LIGHT_SPOT, outer_rad, 1.6f);
     BAD(LAM_LIGHT_SPOT, type, (lam_light_type)9);
-    BAD(LAM_LIGHT_SPOT, frame, (lam_light_frame)4);
+    BAD(LAM_LIGHT_SPOT, frame, (lam_light_frame)5);
+    BAD(LAM_LIGHT_SPOT, occluded, 1.1f);
     lam_light cone = lam_light_default(LAM_LIGHT_SPOT);
     cone.inner_rad = cone.outer_rad = 0.5f;
     refused(&cone, "inner_rad");
@@ -251,13 +252,13 @@ static void test_rigs(void **state)
         assert_non_null(lights[i].name);
         hemispheres += lights[i].type == LAM_LIGHT_HEMISPHERE;
         if (lights[i].type != LAM_LIGHT_HEMISPHERE) {
-            assert_int_equal(lights[i].type, LAM_LIGHT_DIRECTIONAL);
-            assert_int_equal(lights[i].frame, LAM_FRAME_CAMERA);
+            assert_int_equal(lights[i].type, i ? LAM_LIGHT_DIRECTIONAL : LAM_LIGHT_POINT);
+            assert_int_equal(lights[i].frame, i ? LAM_FRAME_CAMERA : LAM_FRAME_VIEW);
         }
     }
     assert_int_equal(hemispheres, 1);
     // The key comes from the upper left, in front.
-    assert_true(lights[0].direction.x > 0 && lights[0].direction.y < 0 && lights[0].direction.z < 0);
+    assert_true(lights[0].position.x < 0 && lights[0].position.y > 0 && lights[0].position.z > 0);
 }
 
 // Diffuse and ambient light of the rig on the default material, over all visible directions and camera elevations:
@@ -282,16 +283,21 @@ static void test_studio_range(void **state)
                         sum += (double)m.ambient.r * ((double)l->ground.r * (1 - up) + (double)l->sky.r * up);
                         continue;
                     }
-                    lam_vec3 d = l->direction;
-                    double cosine = -(d.x * x + d.y * y + d.z * z) / sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
-                    sum += (double)m.diffuse.r * (double)l->diffuse.r * fmax(cosine, 0);
+                    bool stands = l->type == LAM_LIGHT_POINT; // on a ball as large as the model
+                    lam_vec3 d =
+                        stands ? (lam_vec3){x - l->position.x, y - l->position.y, z - l->position.z} : l->direction;
+                    double square = d.x * d.x + d.y * d.y + d.z * d.z;
+                    double cosine = -(d.x * x + d.y * y + d.z * z) / sqrt(square);
+                    double reach =
+                        stands ? 1 / ((double)l->attenuation.constant + (double)l->attenuation.quadratic * square) : 1;
+                    sum += (double)m.diffuse.r * (double)l->diffuse.r * fmax(cosine, 0) * reach;
                 }
                 least = fmin(least, sum);
                 most = fmax(most, sum);
             }
     }
     assert_true(least > 0.03);     // sRGB 50
-    assert_true(most < 0.9);       // leaves room for the highlight
+    assert_true(most < 0.6);       // sRGB 202: darker than paper, with room for the highlight
     assert_true(most > 8 * least); // and the form shows
 }
 

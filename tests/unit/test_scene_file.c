@@ -207,7 +207,7 @@ static void test_errors(void **unused)
          "s.json: x: unknown key; expected lambent, image, camera, ambient, "
          "environment, shading, reflection, viewer, stage, flat_normal, match_highlights, single_scattering, gl1, up, "
          "materials, objects, lights, light_cutoff, anisotropy, reference, "
-         "shadows, shadow_terminator, shadow_samples"},
+         "shadows, shadow_terminator, shadow_samples, ao, ao_radius"},
         {"{\"lambent\": 1}", "s.json: 'objects' is missing, expected a list of at least one object"},
         {"{\"lambent\": 2, " BALL "}", "s.json: lambent: the format's version is 2, this program reads version 1"},
         {"{\"lambent\": \"1\", " BALL "}", "s.json: lambent: found \"1\", expected a number"},
@@ -294,7 +294,7 @@ static void test_errors(void **unused)
         LIGHT("\"type\": \"point\", \"power\": 4", ".power: unknown key; did you mean 'intensity'?"),
         LIGHT("\"type\": \"point\", \"cutoff\": 4",
               ".cutoff: unknown key; expected name, type, frame, object, color, "
-              "intensity, position, ambient, diffuse, specular, attenuation, range, shadows, radius"),
+              "intensity, position, ambient, diffuse, specular, attenuation, range, occluded, shadows, radius"),
         LIGHT("\"type\": \"point\", \"attenuation\": [0, 0, 0]",
               ".attenuation: all three numbers are 0, expected a + b d + c d^2 to be more than 0"),
         LIGHT("\"type\": \"point\", \"attenuation\": [1, -2, 0]",

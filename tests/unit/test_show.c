@@ -412,7 +412,7 @@ static void test_clipped(void **state)
     (void)state;
     lam_camera camera;
     lam_scene *scene = two_sheets(&camera);
-    lam_draw_params params = {.samples = 4};
+    lam_draw_params params = {.samples = 4, .exposure = 0.6};
     lam_image picture = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
     params.output = LAM_OUTPUT_CLIPPED;
     lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F),

@@ -98,6 +98,9 @@ static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, c
     options.has_size = true;
     if (!options.background)
         options.background = SHEET_BACKGROUND;
+    // Sheets compare methods of local lighting: what its sums leave out comes in only where it is asked for.
+    if (!option_given(&options, "ao"))
+        options.occlusion = LAM_OCCLUSION_OFF;
     if (c->exposure_fitted) {
         options.exposure_kind = EXPOSURE_LITERAL;
         options.exposure = c->exposure;

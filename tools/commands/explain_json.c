@@ -99,6 +99,7 @@ static void write_light(struct json *json, const lam_explained_light *l)
     } else {
         json_none(json, "in_the_way");
     }
+    real(json, "occlusion", l->occlusion);
     real(json, "n_dot_l", l->n_dot_l);
     real(json, "base", l->base);
     real(json, "power", l->power);
@@ -133,6 +134,7 @@ static void write_point(struct json *json, const lam_explained_point *p)
         vector(json, "t", p->t);
     color(json, "color", p->color);
     color(json, "ambient_light", p->ambient_light);
+    real(json, "unoccluded", p->unoccluded);
     color(json, "ambient_term", p->ambient_term);
     json_open(json, "lights", '[');
     for (int i = 0; i < p->light_count; i++)

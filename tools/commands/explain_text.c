@@ -131,9 +131,12 @@ static void print_shadow(const lam_explained_light *l)
 
 static void product(char text[200], const lam_explained_light *l, const char *what, lam_rgb c, float answer)
 {
-    int used = snprintf(text, 200, "spot · attenuation · %s%s = %.7g · %.7g · (%.7g %.7g %.7g) · %.7g", what,
-                        l->casts_shadows ? " · passed" : "", (double)l->spot, (double)l->attenuation, (double)c.r,
-                        (double)c.g, (double)c.b, (double)answer);
+    char occlusion[24] = "";
+    if (l->occlusion < 1)
+        snprintf(occlusion, sizeof occlusion, "%.7g · ", (double)l->occlusion);
+    int used = snprintf(text, 200, "%sspot · attenuation · %s%s = %s%.7g · %.7g · (%.7g %.7g %.7g) · %.7g",
+                        l->occlusion < 1 ? "occlusion · " : "", what, l->casts_shadows ? " · passed" : "", occlusion,
+                        (double)l->spot, (double)l->attenuation, (double)c.r, (double)c.g, (double)c.b, (double)answer);
     if (l->casts_shadows && used < 200)
         snprintf(text + used, 200 - (size_t)used, " · (%.7g %.7g %.7g)", (double)l->passed.r, (double)l->passed.g,
                  (double)l->passed.b);
@@ -168,6 +171,8 @@ static void print_light(const lam_explanation *e, const lam_explained_fragment *
         number(4, "spot", (double)l->spot, "the cone's factor");
     }
     print_shadow(l);
+    if (l->occlusion < 1)
+        number(4, "occlusion", (double)l->occlusion, "1 − occluded (1 − unoccluded)");
     number(4, "n·l", (double)l->n_dot_l, "");
     print_highlight(f, p, l);
     char text[200];
@@ -268,6 +273,9 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
         snprintf(text, sizeof text, "kd: unlit%s", tint);
         color(4, "diffuse", p->diffuse, text);
     } else {
+        if (p->unoccluded < 1)
+            number(4, "unoccluded", (double)p->unoccluded,
+                   "ambient occlusion: the share of light from all around; a factor of ambient and environment light");
         color(4, "emission", p->emission, "");
         snprintf(text, sizeof text, "ka ⊙ (La_global + Σ La)%s%s = ka ⊙ (%.7g %.7g %.7g)%s",
                  p->hemisphere_count ? " + Σ hemispheres" : "", tint, (double)p->ambient_light.r,

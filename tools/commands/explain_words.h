@@ -14,7 +14,8 @@ static inline const char *light_frame_word(lam_light_frame frame)
     static const char *const words[] = {[LAM_FRAME_WORLD] = "world",
                                         [LAM_FRAME_CAMERA] = "camera",
                                         [LAM_FRAME_OBJECT] = "object",
-                                        [LAM_FRAME_MODEL] = "model"};
+                                        [LAM_FRAME_MODEL] = "model",
+                                        [LAM_FRAME_VIEW] = "view"};
     return words[frame];
 }
 

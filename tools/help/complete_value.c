@@ -112,6 +112,7 @@ static void complete_light_key(lam_light_type type, const struct typed_word *typ
     if (strcmp(key, "frame") == 0) {
         complete_offer(&value, "world", "", "the scene's");
         complete_offer(&value, "camera", "", "the eye's");
+        complete_offer(&value, "view", "", "the camera's axes, from the middle of the scene");
         complete_offer(&value, "object", "", "the model's");
     }
     complete_field(field_of(lam_light_field, pair.piece, equals), key, &value);

@@ -11,7 +11,7 @@
 
 static const char every_light[] = "        \"name\": {\"type\": \"string\", \"minLength\": 1},\n"
                                   "        \"frame\": {\n"
-                                  "          \"enum\": [\"world\", \"camera\", \"object\"],\n"
+                                  "          \"enum\": [\"world\", \"camera\", \"view\", \"object\"],\n"
                                   "          \"default\": \"world\",\n"
                                   "          \"description\": \"The space of position, direction and up.\"\n"
                                   "        },\n"

@@ -268,6 +268,8 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
         .reference = o->reference,
         .line_width = (float)o->line_width,
         .point_size = (float)o->point_size,
+        .occlusion = (lam_occlusion)o->occlusion,
+        .occlusion_radius = (float)o->ao_radius,
         .light_cutoff = !o->has_light_cutoff  ? 0
                         : o->light_cutoff > 0 ? (float)o->light_cutoff
                                               : -1,

@@ -19,14 +19,18 @@ static lam_vec3 apply(const lam_mat4 *m, lam_vec3 v, double w)
 static lam_mat4 to_world(const struct job *job, const lam_light *light)
 {
     lam_mat4 m = lam_mat4_identity();
-    if (light->frame == LAM_FRAME_CAMERA) { // a rigid view: its inverse is the transposed rotation about the eye
+    if (light->frame == LAM_FRAME_CAMERA ||
+        light->frame == LAM_FRAME_VIEW) { // a rigid view: its inverse is the transposed rotation about the eye
         lam_mat4 view = lam_camera_view_matrix(&job->camera);
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
                 m.m[i][j] = view.m[j][i];
-        m.m[0][3] = job->camera.eye.x;
-        m.m[1][3] = job->camera.eye.y;
-        m.m[2][3] = job->camera.eye.z;
+        lam_vec3 low, high, origin = job->camera.eye;
+        if (light->frame == LAM_FRAME_VIEW && lam_scene_bounds(job->scene, &low, &high))
+            origin = (lam_vec3){0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)};
+        m.m[0][3] = origin.x;
+        m.m[1][3] = origin.y;
+        m.m[2][3] = origin.z;
     } else if (light->frame != LAM_FRAME_WORLD) {
         // --rotate turned the whole model like its first object.
         for (int i = 0; i < lam_scene_object_count(job->scene); i++) {

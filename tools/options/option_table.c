@@ -76,7 +76,14 @@ static const struct word show_words[] = {
     {"metallic", LAM_OUTPUT_METALLIC, "of physical materials"},
     {"occlusion", LAM_OUTPUT_OCCLUSION, "of an occlusion map"},
     {"lod", LAM_OUTPUT_LOD, "level of detail of the base colour's map: level / 10"},
+    {"ao", LAM_OUTPUT_AMBIENT_OCCLUSION, "ambient occlusion: white where all light from around arrives"},
     {"all", LAM_OUTPUT_PICTURE, "the picture, every term and every light, as layers of a .exr"},
+    {NULL, 0, NULL}};
+
+static const struct word occlusion_words[] = {
+    {"auto", LAM_OCCLUSION_AUTO, "screen with the studio's lights and with environment light, else off"},
+    {"off", LAM_OCCLUSION_OFF, "all light from around arrives everywhere"},
+    {"screen", LAM_OCCLUSION_SCREEN, "from the distances of what the picture shows around each pixel"},
     {NULL, 0, NULL}};
 
 static const struct word glsl_words[] = {{"330", LAM_GLSL_330, "OpenGL 3.3"},
@@ -364,7 +371,7 @@ const struct option option_table[] = {
      "bounding sphere, from its centre (default: `1r/2r/3r`). `position=x/y/z/0` is a directional light from "
      "there. `direction=x/y/z` is the direction in which the light travels, and `target=x/y/z` the point at "
      "which it aims (by default a directional light travels along 0/0/-1, and a spot aims at the model's "
-     "centre). `frame=world|camera|object|object:NAME` selects the coordinate frame: the scene's, the eye's (x "
+     "centre). `frame=world|camera|view|object|object:NAME` selects the coordinate frame: the scene's, the eye's (x "
      "right, y up, looking along -z; a light without a position is at the eye), the model's before `--rotate`, "
      "or a named object's.\n"
      "Emission: `color` times `intensity` (1) is the diffuse and specular light; `ambient` (0), `diffuse` and "
@@ -399,6 +406,17 @@ const struct option option_table[] = {
      "(behind the surface, beyond their range, outside their cone) are always skipped.",
      .store = store_number, FIELD(light_cutoff), .has_field = offsetof(struct options, has_light_cutoff), .min = 0,
      .max = 1},
+    {"ao", 0, GROUP_LIGHTS, "HOW", "auto", "Ambient occlusion: auto, off or screen.",
+     "Light from all around reaches a recess less than an open face. Occlusion dims ambient, hemisphere and "
+     "environment "
+     "light and the share `occluded` of other lights, of which the studio's lights have one and lights by hand none. "
+     "It "
+     "needs Phong shading. `docs/lighting/occlusion.md` has the formulas.",
+     occlusion_words, .store = store_word, .others = "ambient-occlusion occlusion ssao gtao hbao no-ao",
+     FIELD(occlusion)},
+    {"ao-radius", 0, GROUP_LIGHTS, "SHARE", "0.1",
+     "How far away surfaces occlude, as a share of half the diagonal of the scene's box.", "", NULL,
+     .store = store_number, .others = "occlusion-radius ssao-radius", FIELD(ao_radius), .min = 0.001, .max = 10},
     {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1", "Multiply the brightness of all lights except `--ambient`.", NULL,
      .store = store_number, .others = "intensity light-intensity light-power", FIELD(light_scale),
      .has_field = offsetof(struct options, has_light_scale), .min = 0, .max = 1e6},

@@ -24,6 +24,8 @@ struct options {
     int reference;          // directions; 0: the split sum
     double line_width;      // pixels; 0: the library's default
     double point_size;      // the same
+    int occlusion;          // lam_occlusion
+    double ao_radius;       // 0: the library's default
     const char *background; // as written; NULL: clear
     int color_mode;         // lam_color_mode
     int compress;           // lam_compress

@@ -60,6 +60,10 @@ void scene_settings_apply(struct job *job)
         own->anisotropy = s->draw.anisotropy;
     if (takes_setting(job, LAM_SETTING_REFERENCE, "reference"))
         own->reference = s->draw.reference;
+    if (takes_setting(job, LAM_SETTING_OCCLUSION, "ao"))
+        own->occlusion = (int)s->draw.occlusion;
+    if (takes_setting(job, LAM_SETTING_OCCLUSION_RADIUS, "ao-radius"))
+        own->ao_radius = (double)s->draw.occlusion_radius;
     if (takes_setting(job, LAM_SETTING_LIGHT_CUTOFF, "light-cutoff")) {
         own->light_cutoff = (double)s->draw.light_cutoff;
         own->has_light_cutoff = true;
@@ -141,6 +145,8 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     s.present |= draw->anisotropy > 1 ? LAM_SETTING_ANISOTROPY : 0;
     s.present |= draw->reference ? LAM_SETTING_REFERENCE : 0;
     s.present |= draw->shadows ? LAM_SETTING_SHADOWS : 0;
+    s.present |= draw->occlusion != LAM_OCCLUSION_AUTO ? LAM_SETTING_OCCLUSION : 0;
+    s.present |= draw->occlusion_radius > 0 ? LAM_SETTING_OCCLUSION_RADIUS : 0;
     s.present |= draw->light_cutoff != 0 ? LAM_SETTING_LIGHT_CUTOFF : 0;
     s.present |= draw->stage != LAM_STAGE_AUTO ? LAM_SETTING_STAGE : 0;
     s.present |= draw->viewer != LAM_VIEWER_LOCAL ? LAM_SETTING_VIEWER : 0;

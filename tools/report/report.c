@@ -91,6 +91,8 @@ void report_table(const struct job *job)
         time_row("  triangles", frame->triangles_ms);
         if (frame->normals_ms > 0)
             time_row("  normals", frame->normals_ms);
+        if (frame->occlusion_ms > 0)
+            time_row("  occlusion", frame->occlusion_ms);
         time_row("  tiles", frame->tiles_ms);
         time_row("    coverage", frame->coverage_ms);
         time_row("    lighting", frame->lighting_ms);
@@ -209,6 +211,7 @@ static void json_times(struct json *json, const struct job_times *times)
     json_ms(json, "vertices", frame->vertices_ms);
     json_ms(json, "triangles", frame->triangles_ms);
     json_ms(json, "normals", frame->normals_ms);
+    json_ms(json, "occlusion", frame->occlusion_ms);
     json_ms(json, "tiles", frame->tiles_ms);
     json_ms(json, "coverage", frame->coverage_ms);
     json_ms(json, "lighting", frame->lighting_ms);

@@ -1,4 +1,5 @@
-// visible_triangles.c: for meshes without normals: which triangles the frame shows, and the normals of those.
+// visible_triangles.c: what must be known of the whole picture before any of it is lit: which triangles it shows, and the
+// normals of those, for meshes without normals; and the distances of its surfaces, for ambient occlusion.
 #include "visible_triangles.h"
 
 #include "cpu_frame.h"
@@ -38,8 +39,8 @@ struct tile_search {
 // Tiles: half a million fragments, and some megabytes, where all is covered.
 enum { LARGE_PICTURE = 128 };
 
-// Adds the triangles of the fragments, and returns the lowest and the highest of them. Whether a fragment's triangle
-// differs from the one before cannot be predicted, so that it is tested without a branch.
+// Adds the triangles of the fragments (`set` NULL: to nothing), and returns the lowest and the highest of them. Whether a
+// fragment's triangle differs from the one before cannot be predicted, so that it is tested without a branch.
 static void add_triangles(struct rank_bitset *set, const struct fragments *fragments, uint32_t *lowest,
                           uint32_t *highest)
 {
@@ -55,7 +56,8 @@ static void add_triangles(struct rank_bitset *set, const struct fragments *fragm
     *lowest = UINT32_MAX;
     *highest = 0;
     for (int i = 0; i < count; i++) {
-        rank_bitset_add(set, ids[i]);
+        if (set)
+            rank_bitset_add(set, ids[i]);
         *lowest = ids[i] < *lowest ? ids[i] : *lowest;
         *highest = ids[i] > *highest ? ids[i] : *highest;
     }
@@ -73,11 +75,14 @@ static void search_tile(void *user, size_t index, int number)
     uint64_t start = now_ns();
     struct tile tile = tile_number(cpu, index);
     cpu->kernels->cover_tile(&cpu->raster, &thread->samples, &tile);
+    if (cpu->shade.occlusion)
+        cpu->kernels->depth_of_tile(&cpu->raster, &thread->samples, &tile, &cpu->occlusion);
     thread->pixels_covered +=
         cpu->kernels->visibility_resolve(cpu->raster.pattern, &thread->samples, &thread->fragments, &tile);
     struct fragment_store *fragment_store = &cpu->fragment_stores[index];
     uint32_t highest;
-    add_triangles(&cpu->shade.visible.triangles, &thread->fragments, &fragment_store->lowest, &highest);
+    add_triangles(cpu->raster.frame->makes_normals ? &cpu->shade.visible.triangles : NULL, &thread->fragments,
+                  &fragment_store->lowest, &highest);
     if (!cpu->kernels->save_fragments(fragment_store, &thread->fragments, cpu->raster.frame->samples, highest,
                                       &search->arenas[number]))
         raster_fail(&cpu->raster, FAILED_MEMORY);
@@ -144,28 +149,28 @@ static bool place_normals(struct visible_buffers *buffers, struct visible_normal
     return true;
 }
 
-bool make_normals_of_visible(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error)
+// --- the distances alone
+
+static void measure_tile(void *user, size_t index, int number)
+{
+    struct cpu_frame *cpu = user;
+    struct thread_state *thread = &cpu->threads[number];
+    if (!raster_should_continue(&cpu->raster) || !tile_has_triangles(&cpu->raster, index))
+        return;
+    uint64_t start = now_ns();
+    struct tile tile = tile_number(cpu, index);
+    cpu->kernels->cover_tile(&cpu->raster, &thread->samples, &tile);
+    cpu->kernels->depth_of_tile(&cpu->raster, &thread->samples, &tile, &cpu->occlusion);
+    thread->coverage_ns += now_ns() - start;
+}
+
+// --- all of it
+
+static bool make_normals(struct cpu_frame *cpu, struct visible_buffers *buffers, struct scratch_memory scratch,
+                         lam_error *error)
 {
     const struct frame *frame = cpu->raster.frame;
     struct visible_normals *visible = &cpu->shade.visible;
-    buffers->search_ms = 0;
-    if (!make_set(cpu, buffers, error))
-        return false;
-    if (!frame->translucent && !cpu->shade.recorder && lam_output_is_light(frame->output)) {
-        if (!search_tiles(cpu, buffers, error))
-            return false;
-    } else {
-        pool_run(cpu->pool, tile_count(cpu), mark_bins, cpu);
-    }
-    if (!raster_should_continue(&cpu->raster))
-        return true; // the caller reports why
-    // The transformed vertices are no longer needed either: their memory serves again. (Meshes without indices have none.)
-    struct scratch_memory scratch = {0};
-    if (cpu->fragment_stores) {
-        release_bins(cpu);
-        scratch = (struct scratch_memory){.memory = buffers->vertices->data, .capacity = buffers->vertices->capacity};
-        cpu->raster.vertices = NULL;
-    }
     rank_bitset_finish(&visible->triangles);
     size_t corners = 3 * (size_t)visible->triangles.count;
     if (corners == 0)
@@ -178,6 +183,33 @@ bool make_normals_of_visible(struct cpu_frame *cpu, struct visible_buffers *buff
                                   scratch, cpu->kernels->lanes, cpu->pool, cpu->call, error))
             return false;
     return true;
+}
+
+bool cover_in_advance(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error)
+{
+    const struct frame *frame = cpu->raster.frame;
+    buffers->search_ms = 0;
+    if (frame->makes_normals && !make_set(cpu, buffers, error))
+        return false;
+    if (!frame->translucent && !cpu->shade.recorder && lam_output_is_light(frame->output)) {
+        if (!search_tiles(cpu, buffers, error))
+            return false;
+    } else {
+        if (frame->makes_normals)
+            pool_run(cpu->pool, tile_count(cpu), mark_bins, cpu);
+        if (cpu->shade.occlusion)
+            pool_run(cpu->pool, tile_count(cpu), measure_tile, cpu);
+    }
+    if (!raster_should_continue(&cpu->raster))
+        return true; // the caller reports why
+    // The transformed vertices are no longer needed either: their memory serves again. (Meshes without indices have none.)
+    struct scratch_memory scratch = {0};
+    if (cpu->fragment_stores) {
+        release_bins(cpu);
+        scratch = (struct scratch_memory){.memory = buffers->vertices->data, .capacity = buffers->vertices->capacity};
+        cpu->raster.vertices = NULL;
+    }
+    return !frame->makes_normals || make_normals(cpu, buffers, scratch, error);
 }
 
 void visible_buffers_empty(struct visible_buffers *buffers, int threads)

@@ -1,4 +1,5 @@
-// visible_triangles.h: frames that make normals (frame.h): finds the visible triangles, and makes their normals.
+// visible_triangles.h: frames that make normals (frame.h) or have ambient occlusion: covers the whole picture before any of
+// it is lit.
 #ifndef VISIBLE_TRIANGLES_H
 #define VISIBLE_TRIANGLES_H
 
@@ -15,9 +16,10 @@ struct visible_buffers {
     double search_ms;        // of the last frame: finding the visible triangles of each tile
 };
 
-// If all surfaces are opaque, each tile's fragments are found on the way and kept; otherwise every binned triangle
-// counts as visible.
-bool make_normals_of_visible(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error);
+// Finds the distances of the surfaces (cpu->occlusion), and the visible triangles and their normals, as far as the frame
+// needs them. If all surfaces are opaque, each tile's fragments are found on the way and kept; otherwise every binned
+// triangle counts as visible.
+bool cover_in_advance(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error);
 void visible_buffers_empty(struct visible_buffers *buffers, int threads); // frees the fragment stores
 
 #endif

@@ -40,6 +40,7 @@ struct shade_frame {
     const struct light_bounds *light_bounds;           // NULL: every light is evaluated everywhere
     const struct hierarchy *hierarchy;                 // NULL: no shadows
     const struct light_pattern *light_pattern;         // of lights with a size
+    const struct screen_occlusion *occlusion;          // ambient occlusion of each pixel; NULL: none
     const float *decode_srgb, *decode_linear;          // 256 entries each: the value of a colour byte
     struct visible_normals
         visible;               // of draws whose meshes have no normals; its set holds triangle numbers of the frame

@@ -29,6 +29,7 @@ struct shading_batch {
     float x[BATCH_ROW], y[BATCH_ROW];               // the pixel's centre, in pixels of the window
     float sample_x[BATCH_ROW], sample_y[BATCH_ROW]; // the sample nearest to it, where a pixel has several
     float b1[BATCH_ROW], b2[BATCH_ROW];             // barycentric weights of corners 1 and 2
+    float unoccluded[BATCH_ROW];                    // with ambient occlusion only: the share of light from around
     // Of materials with maps only (textures.inc).
     struct {
         float s[BATCH_ROW], t[BATCH_ROW], ds_dx[BATCH_ROW], dt_dx[BATCH_ROW], ds_dy[BATCH_ROW], dt_dy[BATCH_ROW];

@@ -1,0 +1,48 @@
+// gl_occlusion.c: ambient occlusion. The distances of the surfaces are drawn and read back; the processor finds the
+// occlusion, by the same text and so with the same bits as the CPU device; and the shaders read it as a texture.
+#include "gl_device.h"
+
+#include "fail.h"
+
+#define LANES 4
+#include "lighting.h"
+
+#include "screen_occlusion.inc"
+
+#include <string.h>
+
+bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct screen_occlusion *occlusion,
+                    lam_error *error)
+{
+    if (!screen_occlusion_start(occlusion, f->frame, &f->device->occlusion, f->call, error))
+        return false;
+    for (int y = 0; y < occlusion->height; y++) {
+        const float *row = (const float *)((const char *)distances->pixels + (size_t)y * distances->stride);
+        for (int x = 0; x < occlusion->width; x++)
+            if (row[4 * x + 3] > 0)
+                occlusion->depth[(size_t)y * (size_t)occlusion->stride + (size_t)x] = row[4 * x];
+    }
+    screen_occlusion_find(occlusion, &occlusion_kernels, NULL, f->call);
+    return call_should_continue(f->call) || call_error(f->call, error);
+}
+
+void occlusion_send(struct gl_frame *f)
+{
+    struct gl_device *device = f->device;
+    const struct gl *gl = f->gl;
+    const struct screen_occlusion *o = f->occlusion;
+    bool fresh = !device->occlusion_texture;
+    if (fresh)
+        gl->GenTextures(1, &device->occlusion_texture);
+    device->current.textures[UNIT_OCCLUSION] = UINT32_MAX; // so that its unit becomes the active one, bound or not
+    gl_use_texture(device, UNIT_OCCLUSION, GL_TEXTURE_2D, device->occlusion_texture);
+    if (fresh) {
+        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    }
+    gl->PixelStorei(GL_UNPACK_ROW_LENGTH, o->stride);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, f->width, f->height, 0, GL_RED, GL_FLOAT,
+                   o->unoccluded + (size_t)f->top * (size_t)o->stride + (size_t)f->left);
+    gl->PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    device->base.report.bytes_uploaded += (uint64_t)f->width * (uint64_t)f->height * sizeof(float);
+}

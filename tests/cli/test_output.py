@@ -211,7 +211,7 @@ class Report(Case):
     def test_cube(self):
         report = self.report("cube.obj", "-s", "64x32", "--samples", 8, "-j", 2)
         model = report["model"]
-        self.assertEqual(model, {"path": "cube.obj", "format": "obj", "triangles": 12, "vertices": 8, "meshes":
+        self.assertEqual(model, {"path": "cube.obj", "format": "obj", "triangles": 12, "lines": 0, "points": 0, "vertices": 8, "meshes":
                                  model["meshes"], "objects": model["objects"], "materials": model["materials"],
                                  "lights": 0, "up": "y", "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}})
         self.assertGreaterEqual(model["materials"], 2)

@@ -178,9 +178,10 @@ static void blend_pixel(const struct fragments *fragments, const struct layer_ro
 // The same where layers let each channel through by a share of its own: a fragment of opacity a and colour C that lets T
 // through makes of the light L behind it C a + L (1 - a (1 - T)). A picture has one alpha, the mean of the channels'; where
 // the background is seen, it is coloured by what the one alpha leaves out.
-static void blend_tinted_pixel(const struct fragments *fragments, const struct layer_rows *rows,
-                               struct blend_scratch *scratch, const uint32_t *ids, int samples, int pixel,
-                               struct pixel_sums *sums, struct recorder *recorder)
+static __attribute__((noinline)) void blend_tinted_pixel(const struct fragments *fragments,
+                                                         const struct layer_rows *rows, struct blend_scratch *scratch,
+                                                         const uint32_t *ids, int samples, int pixel,
+                                                         struct pixel_sums *sums, struct recorder *recorder)
 {
     uint32_t first = scratch->start[pixel], count = scratch->start[pixel + 1] - first;
     struct layer *layers = scratch->layers;

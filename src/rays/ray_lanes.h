@@ -70,21 +70,27 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
     unsigned hit = 0;
     for (int part = 0; part < DPARTS; part++) {
         int at = part * DLANES;
-        dnum p[3][3], x[3], y[3], w[3], zero = dnum_of(0);
-        for (int k = 0; k < 3; k++)
-            for (int i = 0; i < 3; i++)
-                p[k][i] = triangle->p[k][i] - dnum_load(ray->origin[i] + at);
+        dnum x[3], y[3], z[3], w[3], zero = dnum_of(0);
         if (view->k < 0) {
-            for (int k = 0; k < 3; k++) {
-                x[k] = along(view->x, at, p[k]);
-                y[k] = along(view->y, at, p[k]);
+            for (int c = 0; c < 3; c++) {
+                dnum p[3];
+                for (int i = 0; i < 3; i++)
+                    p[i] = triangle->p[c][i] - dnum_load(ray->origin[i] + at);
+                x[c] = along(view->x, at, p);
+                y[c] = along(view->y, at, p);
+                z[c] = along(view->z, at, p);
             }
         } else {
-            int i = view->k == 2 ? 0 : view->k + 1, j = view->k == 0 ? 2 : view->k - 1;
-            dnum to_x = dnum_load(view->x[view->k] + at), to_y = dnum_load(view->y[view->k] + at);
-            for (int k = 0; k < 3; k++) {
-                x[k] = p[k][i] + to_x * p[k][view->k];
-                y[k] = p[k][j] + to_y * p[k][view->k];
+            int k = view->k, i = k == 2 ? 0 : k + 1, j = k == 0 ? 2 : k - 1;
+            dnum of_i = dnum_load(ray->origin[i] + at), of_j = dnum_load(ray->origin[j] + at),
+                 of_k = dnum_load(ray->origin[k] + at);
+            dnum to_x = dnum_load(view->x[k] + at), to_y = dnum_load(view->y[k] + at),
+                 to_z = dnum_load(view->z[k] + at);
+            for (int c = 0; c < 3; c++) {
+                dnum depth = triangle->p[c][k] - of_k;
+                x[c] = (triangle->p[c][i] - of_i) + to_x * depth;
+                y[c] = (triangle->p[c][j] - of_j) + to_y * depth;
+                z[c] = to_z * depth;
             }
         }
         w[0] = x[1] * y[2] - y[1] * x[2];
@@ -94,9 +100,7 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
         dmask negative = (w[0] <= zero) & (w[1] <= zero) & (w[2] <= zero);
         if (!(dmask_bits(positive | negative) << at & active))
             continue;
-        dnum z[3], det = (w[0] + w[1]) + w[2];
-        for (int k = 0; k < 3; k++)
-            z[k] = view->k < 0 ? along(view->z, at, p[k]) : dnum_load(view->z[view->k] + at) * p[k][view->k];
+        dnum det = (w[0] + w[1]) + w[2];
         dnum depth = (w[0] * z[0] + w[1] * z[1]) + w[2] * z[2];
         depth = dpick(positive, depth, -depth);
         dnum size = dpick(positive, det, -det);
@@ -225,6 +229,9 @@ LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray,
             num t[2];
             unsigned sides[2];
             const float *planes = node->low[0];
+            for (int i = 0; i < 2; i++) // while the boxes are tested
+                __builtin_prefetch(node->count[i] ? (const void *)&h->triangles[node->child[i]]
+                                                  : (const void *)&h->nodes[node->child[i]]);
             if (boxes.apart) {
                 sides[0] = lanes & mask_bits(meets_box(&boxes, node, 0, &t[0]));
                 sides[1] = lanes & mask_bits(meets_box(&boxes, node, 1, &t[1]));

@@ -19,8 +19,11 @@
 
 enum {
     BINS = 16,
+    FEW_BINS = 8, // of ranges of up to FEW triangles
+    FEW = 64,
     SMALL = 8192,    // triangles of a range that one thread divides
     LEAF_MAX = 8,    // triangles
+    LEAF_MIN = 3,    // triangles that are not divided any more
     BALANCED_AT = 48 // nodes above one that is divided in the middle
 };
 
@@ -154,13 +157,14 @@ static void make_ordered_node(struct builder *b, const struct range *r, uint32_t
 // --- bins
 
 struct bins {
+    int count;
     struct box boxes[BINS], middles[BINS];
     uint32_t counts[BINS];
 };
 
 // How a range is divided: bin numbers below `bin` go to the left.
 struct split {
-    int axis, bin;
+    int axis, bin, bins;
     float start, factor;
 };
 
@@ -168,12 +172,13 @@ static int bin_of(const struct split *s, const struct primitive *p)
 {
     float middle = p->low[s->axis] + p->high[s->axis];
     int bin = (int)((middle - s->start) * s->factor);
-    return bin < 0 ? 0 : bin < BINS ? bin : BINS - 1;
+    return bin < 0 ? 0 : bin < s->bins ? bin : s->bins - 1;
 }
 
-static void clear_bins(struct bins *bins)
+static void clear_bins(struct bins *bins, int count)
 {
-    for (int i = 0; i < BINS; i++) {
+    bins->count = count;
+    for (int i = 0; i < count; i++) {
         bins->boxes[i] = bins->middles[i] = empty_box();
         bins->counts[i] = 0;
     }
@@ -192,7 +197,7 @@ static void fill_bins(struct bins *bins, const struct split *s, const struct pri
 
 static void add_bins(struct bins *to, const struct bins *from)
 {
-    for (int i = 0; i < BINS; i++) {
+    for (int i = 0; i < to->count; i++) {
         to->boxes[i] = around(to->boxes[i], from->boxes[i]);
         to->middles[i] = around(to->middles[i], from->middles[i]);
         to->counts[i] += from->counts[i];
@@ -207,7 +212,8 @@ static bool choose_axis(const struct range *r, struct split *s)
     s->axis = lane(size, s->axis) >= lane(size, 2) ? s->axis : 2;
     float length = lane(size, s->axis);
     s->start = lane(r->middles.low, s->axis);
-    s->factor = length > 1e-30f ? (float)BINS * 0.99999f / length : 0;
+    s->bins = r->count > FEW ? BINS : FEW_BINS;
+    s->factor = length > 1e-30f ? (float)s->bins * 0.99999f / length : 0;
     return length > 1e-30f;
 }
 
@@ -217,7 +223,7 @@ static float choose_bin(const struct bins *bins, struct split *s)
     float right_cost[BINS];
     struct box box = empty_box();
     uint32_t count = 0;
-    for (int i = BINS - 1; i > 0; i--) {
+    for (int i = bins->count - 1; i > 0; i--) {
         box = around(box, bins->boxes[i]);
         count += bins->counts[i];
         right_cost[i] = count ? half_area(box) * (float)count : 0;
@@ -227,7 +233,7 @@ static float choose_bin(const struct bins *bins, struct split *s)
     box = empty_box();
     count = 0;
     s->bin = 0;
-    for (int i = 1; i < BINS; i++) {
+    for (int i = 1; i < bins->count; i++) {
         box = around(box, bins->boxes[i - 1]);
         count += bins->counts[i - 1];
         if (!count || count == all)
@@ -245,7 +251,7 @@ static uint32_t sides_of(const struct bins *bins, int bin, struct box boxes[2], 
 {
     uint32_t left = 0;
     boxes[0] = boxes[1] = middles[0] = middles[1] = empty_box();
-    for (int i = 0; i < BINS; i++) {
+    for (int i = 0; i < bins->count; i++) {
         boxes[i >= bin] = around(boxes[i >= bin], bins->boxes[i]);
         middles[i >= bin] = around(middles[i >= bin], bins->middles[i]);
         left += i < bin ? bins->counts[i] : 0;
@@ -385,7 +391,7 @@ static void divide(struct builder *b, const struct range *r)
     struct primitive *p = b->primitives[r->buffer] + r->first;
     struct split split;
     struct range sides[2];
-    if (r->count == 1) {
+    if (r->count <= LEAF_MIN) {
         make_leaf(b, r, false);
         return;
     }
@@ -405,7 +411,7 @@ static void divide(struct builder *b, const struct range *r)
     } else {
         struct bins bins;
         struct box boxes[2], middles[2];
-        clear_bins(&bins);
+        clear_bins(&bins, split.bins);
         fill_bins(&bins, &split, p, r->count);
         float cost = choose_bin(&bins, &split), area = half_area(r->box);
         if (r->count <= LEAF_MAX && TRIANGLE_WORK * area * (float)r->count <= area + TRIANGLE_WORK * cost) {
@@ -440,7 +446,7 @@ static void bins_task(void *user, size_t index, int thread)
     struct large *l = user;
     const struct range *r = l->range;
     uint32_t first = (uint32_t)index * RAY_PIECE, count = r->count - first < RAY_PIECE ? r->count - first : RAY_PIECE;
-    clear_bins(&l->bins[index]);
+    clear_bins(&l->bins[index], l->split.bins);
     fill_bins(&l->bins[index], &l->split, l->builder->primitives[r->buffer] + r->first + first, count);
 }
 
@@ -469,7 +475,7 @@ static void divide_large(struct large *l, const struct range *r)
     }
     pool_run(b->pool, pieces, bins_task, l);
     struct bins all;
-    clear_bins(&all);
+    clear_bins(&all, l->split.bins);
     for (size_t i = 0; i < pieces; i++)
         add_bins(&all, &l->bins[i]);
     choose_bin(&all, &l->split);
@@ -478,7 +484,7 @@ static void divide_large(struct large *l, const struct range *r)
     for (size_t i = 0; i < pieces; i++) {
         l->to[2 * i] = at[0];
         l->to[2 * i + 1] = at[1];
-        for (int n = 0; n < BINS; n++)
+        for (int n = 0; n < all.count; n++)
             at[n >= l->split.bin] += l->bins[i].counts[n];
     }
     pool_run(b->pool, pieces, move_task, l);

@@ -304,7 +304,7 @@ static void test_convex(void **unused)
             o.mesh = lam_scene_add_shape(scene, "sphere", &shape, &error);
             for (int i = 0; i < 3; i++)
                 o.transform.m[i][i] = pow(2, size);
-            o.transform.m[0][3] = pow(2, size) * 3e5; // far from zero
+            o.transform.m[0][3] = pow(2, size) * 1e3; // away from zero
             lam_scene_add_object(scene, &o, &error);
             lam_light l = *sun();
             l.direction = (lam_vec3){-1, -0.3, -0.2};
@@ -322,6 +322,14 @@ static void test_convex(void **unused)
             lam_image_free(&a);
             lam_image_free(&b);
             lam_image_free(&c);
+            // Samples at edges, where the light falls steeply: no neighbour is in the way.
+            lam_draw_params edges = bare, edges_literal = literal;
+            edges.samples = edges_literal.samples = 8;
+            a = draw(scene, edges);
+            b = draw(scene, edges_literal);
+            assert_int_equal(count_dark(&b, &a, 0.5f), 0);
+            lam_image_free(&a);
+            lam_image_free(&b);
             bare.shading = LAM_SHADING_FLAT;
             a = draw(scene, bare);
             b = draw(scene, flat);

@@ -90,11 +90,9 @@ static void make_rays(const struct hierarchy *h, const double light[3])
                 }
             }
         }
-        double to[3], length = 0;
-        for (int k = 0; k < 3; k++) {
+        double to[3];
+        for (int k = 0; k < 3; k++)
             to[k] = uniform(&seed) * 2 - 1;
-            length += to[k] * to[k];
-        }
         to[1] = fabs(to[1]);
         for (int k = 0; k < 3; k++) {
             double p = origin[k] + (nearest < 1e8 ? nearest : 0) * d[k];

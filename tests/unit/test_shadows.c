@@ -195,7 +195,7 @@ static void test_lights(void **unused)
     lam_image light = draw(scene, one);
     for (int i = 0; i < SIZE * SIZE; i++) {
         const float *s = (const float *)sum.pixels + 4 * i, *p = (const float *)light.pixels + 4 * i;
-        assert_true(fabs((double)s[0] - 2 * (double)p[0] - 0.3 * 0.72) < 1e-5);
+        assert_true(fabs((double)s[0] - 2 * (double)p[0] - 0.3 * (double)lam_material_default().ambient.r) < 1e-5);
     }
     lam_image_free(&light);
     lam_image_free(&sum);

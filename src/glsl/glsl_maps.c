@@ -162,7 +162,8 @@ static bool material_reads(const struct glsl_facts *f, int side, lam_map map)
 static bool reads(const struct glsl_facts *f, int side, lam_map map)
 {
     if (f->output_material)
-        return material_reads(f, side, map) || (f->value_masks && (map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY));
+        return (!f->late && material_reads(f, side, map)) ||
+               (f->value_masks && (map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY));
     bool sums = f->adds_lights, surface = f->lit && !f->unlit;
     switch (map) {
     case LAM_MAP_DIFFUSE:
@@ -197,7 +198,7 @@ void glsl_find_maps(struct glsl_facts *f)
     f->apart &= f->late && !values;
     f->back_material |= two && (f->value_masks || (f->application && !values));
     for (int side = 0; side <= f->back_material; side++)
-        f->converts |= c->converted[side] && f->adds_lights && f->lights;
+        f->converts |= c->converted[side] && f->adds_lights && f->lights && !f->late;
     for (int side = 0; side <= f->back_material; side++)
         for (int i = 0; i < LAM_MAP_COUNT; i++) {
             if (!c->maps[side][i].used || (f->late && !is_late(i)) || !reads(f, side, (lam_map)i))
@@ -290,7 +291,7 @@ static bool has_member(const struct glsl_facts *f, int member)
     bool level = f->output_material && f->choices->output == LAM_OUTPUT_LOD;
     bool masks = member == OPACITY && f->value_masks;
     if ((level && !masks) || member == LEVEL)
-        return level && member == LEVEL && f->mapped;
+        return level && member == LEVEL && f->mapped && !f->late;
     static const lam_map maps[MEMBERS] = {[COLOR] = LAM_MAP_DIFFUSE,
                                           [AMBIENT] = LAM_MAP_AMBIENT,
                                           [SPECULAR] = LAM_MAP_SPECULAR,

@@ -476,6 +476,10 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, const lam
         wanted |= lam_scene_light(scene, i)->occluded > 0;
     for (int i = 0; i < frame->rig_count; i++)
         wanted |= frame->rig[i].occluded > 0;
+    bool lit = false; // what has none all the same
+    for (int i = 0; i < frame->range_count; i++)
+        lit |= frame->ranges[i].reflection != LAM_REFLECTION_NONE && !frame->ranges[i].translucent;
+    wanted &= lit;
     bool shown = lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_CLIPPED;
     frame->occlusion = params->occlusion                               ? params->occlusion
                        : wanted && frame->shading == LAM_SHADING_PHONG ? LAM_OCCLUSION_SCREEN

@@ -25,91 +25,6 @@ int lam_default_samples(int width, int height)
     return (int64_t)width * height <= SMALL_SIDE * SMALL_SIDE ? SMALL_SAMPLES : LARGE_SAMPLES;
 }
 
-static bool check_camera(const lam_camera *camera, lam_error *error)
-{
-    if (!check_reserved("camera", camera, error))
-        return false;
-    if (!v3_finite(camera->eye) || !v3_finite(camera->target) || !v3_finite(camera->up))
-        return fail(error, LAM_BAD_ARGUMENT, "camera: eye, target or up is not finite");
-    if (v3_length(v3_sub(camera->eye, camera->target)) == 0)
-        return fail(error, LAM_BAD_ARGUMENT, "camera: eye and target are the same point");
-    double half = camera->ortho_half_height;
-    if (!(half >= 0) || !math_finite(half))
-        return fail(error, LAM_BAD_ARGUMENT, "camera: ortho_half_height is %g, expected a positive number or 0", half);
-    if (half == 0 && !(camera->fovy_rad > 0 && camera->fovy_rad < PI))
-        return fail(error, LAM_BAD_ARGUMENT, "camera: fovy is %g°, expected more than 0° and less than 180°",
-                    math_degrees(camera->fovy_rad));
-    double n = camera->near_plane, f = camera->far_plane;
-    bool automatic = n == 0 && f == 0;
-    if (!automatic && !(n < f && math_finite(n) && math_finite(f) && (half > 0 || n > 0)))
-        return fail(error, LAM_BAD_ARGUMENT, "camera: near is %g and far is %g, expected %snear < far", n, f,
-                    half > 0 ? "" : "0 < ");
-    return true;
-}
-
-static bool check_params(const lam_draw_params *params, lam_error *error)
-{
-    if (!check_reserved("lam_draw_params", params, error))
-        return false;
-    int s = params->samples;
-    if (s != 0 && s != 1 && s != 2 && s != 4 && s != 8 && s != 16)
-        return fail(error, LAM_BAD_ARGUMENT, "samples is %d, expected 1, 2, 4, 8 or 16", s);
-    const float *b = &params->background.r;
-    for (int i = 0; i < 4; i++)
-        if (!(b[i] >= 0 && b[i] <= 3e38f))
-            return fail(error, LAM_BAD_ARGUMENT, "background: a channel is %g, expected a number of at least 0",
-                        (double)b[i]);
-    if (b[3] > 1)
-        return fail(error, LAM_BAD_ARGUMENT, "background: alpha is %g, expected 0 to 1", (double)b[3]);
-    if (!(params->exposure >= -100 && params->exposure <= 100))
-        return fail(error, LAM_BAD_ARGUMENT, "exposure is %g, expected stops from -100 to 100", params->exposure);
-    if ((unsigned)params->color > LAM_COLOR_RAW || (unsigned)params->rig > LAM_RIG_LECTURE ||
-        (unsigned)params->shading > LAM_SHADING_FLAT || (unsigned)params->reflection >= LAM_REFLECTION_COUNT)
-        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: color, rig, shading or reflection is out of its range");
-    if ((unsigned)params->stage > LAM_STAGE_FRAGMENT || (unsigned)params->viewer > LAM_VIEWER_INFINITE ||
-        (unsigned)params->flat_normal > LAM_FLAT_NORMAL_VERTEX)
-        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: stage, viewer or flat_normal is out of its range");
-    const double sizes[2] = {(double)params->line_width, (double)params->point_size};
-    for (int i = 0; i < 2; i++)
-        if (!(sizes[i] >= 0 && sizes[i] <= 1000))
-            return fail(error, LAM_BAD_ARGUMENT, "%s is %g, expected pixels from 0 to 1000",
-                        i ? "point_size" : "line_width", sizes[i]);
-    if ((unsigned)params->occlusion >= LAM_OCCLUSION_COUNT)
-        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: occlusion %d is not one of lam_occlusion",
-                    (int)params->occlusion);
-    if (!(params->occlusion_radius >= 0 && params->occlusion_radius <= 10))
-        return fail(error, LAM_BAD_ARGUMENT, "occlusion_radius is %g, expected more than 0, up to 10",
-                    (double)params->occlusion_radius);
-    if (params->occlusion > LAM_OCCLUSION_OFF && params->shading != LAM_SHADING_PHONG)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "ambient occlusion is found for pixels: it goes with Phong shading, not with %s",
-                    params->shading == LAM_SHADING_FLAT ? "flat" : "Gouraud");
-    if (params->anisotropy < 0 || params->anisotropy > 16)
-        return fail(error, LAM_BAD_ARGUMENT, "anisotropy is %d, expected 0 to 16", params->anisotropy);
-    int n = params->reference;
-    if (n != 0 && (n < ENVIRONMENT_SAMPLES_MIN || n > ENVIRONMENT_SAMPLES_MAX))
-        return fail(error, LAM_BAD_ARGUMENT, "reference is %d, expected 0 or %d to %d directions", n,
-                    ENVIRONMENT_SAMPLES_MIN, ENVIRONMENT_SAMPLES_MAX);
-    if ((unsigned)params->tone >= LAM_TONE_COUNT)
-        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: tone %d is not one of lam_tone", (int)params->tone);
-    if (!(params->light_cutoff >= -3e38f && params->light_cutoff <= 1))
-        return fail(error, LAM_BAD_ARGUMENT, "light_cutoff is %g, expected at most 1", (double)params->light_cutoff);
-    if (params->shadow_samples < 0 || params->shadow_samples > 256)
-        return fail(error, LAM_BAD_ARGUMENT, "shadow_samples is %d, expected 0 to 256", params->shadow_samples);
-    if ((unsigned)params->output >= LAM_OUTPUT_COUNT || params->output_light < 0)
-        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: output or output_light is out of its range");
-    if (params->shading == LAM_SHADING_PHONG &&
-        (params->stage == LAM_STAGE_APPLICATION || params->stage == LAM_STAGE_VERTEX))
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "Phong shading lights every fragment: its stage is fragment; "
-                    "application and vertex go with flat and Gouraud shading");
-    if (params->shading == LAM_SHADING_GOURAUD && params->stage == LAM_STAGE_FRAGMENT)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "Gouraud shading lights every vertex: its stage is application or vertex; "
-                    "fragment goes with flat and Phong shading");
-    return true;
-}
-
 // Sets the planes to enclose all objects, with a margin. With perspective the near distance is at least 1/10000 of the
 // far one.
 static void fit_planes(const lam_scene *scene, const lam_mat4 *view, bool orthographic, double *near_plane,
@@ -499,7 +414,7 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, const lam
 bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
                  int width, int height, struct call_control *call, lam_error *error)
 {
-    if (!check_camera(camera, error) || !check_params(params, error))
+    if (!frame_camera_check(camera, error) || !frame_params_check(params, error))
         return false;
     bool of_material = output_is_material(params->output);
     frame->reflection =

@@ -141,6 +141,10 @@ struct frame {
     size_t strokes_used;   // bytes
 };
 
+// False: LAM_BAD_ARGUMENT, a number is out of its range (frame_check.c).
+bool frame_camera_check(const lam_camera *camera, lam_error *error);
+bool frame_params_check(const lam_draw_params *params, lam_error *error);
+
 // The reflection model that lights a material; never AUTO.
 lam_reflection frame_reflection(const struct frame *frame, const lam_material *material);
 

@@ -1,5 +1,7 @@
 // glsl_maps.c: what a material's maps change from point to point, as GLSL: a struct with a member for each number, and for
 // each side a function that reads the texels and fills it. The same rules as in src/cpu/shade/textures.inc.
+//
+// Longer than 600 lines: one text that reads maps, built from the rows of its table.
 #include "glsl_rows.h"
 
 #include "texture_map.h"

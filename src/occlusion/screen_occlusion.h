@@ -1,7 +1,7 @@
 // screen_occlusion.h: ambient occlusion of every pixel from the distances of the surfaces around it.
 //
-// The picture's surfaces are taken as a landscape of heights, as the eye sees it. Around a pixel SLICES planes through the
-// view vector cut that landscape; in each of them the horizon to either side bounds the part of the hemisphere that light
+// The picture's surfaces are taken as a landscape of heights, as the eye sees it. Around a pixel a plane through the
+// view vector cuts that landscape; in it the horizon to either side bounds the part of the hemisphere that light
 // from all around comes from (Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016).
 // Sixteen neighbours turn their slices by different angles, and a filter of that size that stops at edges averages them.
 // docs/lighting/occlusion.md has the formulas.

@@ -1,5 +1,7 @@
 // scene_write.c: a scene and its settings as a scene file, from which the same picture comes again. Numbers are written
 // so that they read back as the same bits.
+//
+// Longer than 600 lines: one function for each part of a file, in the order of the file.
 #include "scene_write.h"
 
 #include "fail.h"

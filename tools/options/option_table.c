@@ -1,5 +1,7 @@
 // option_table.c: every option, once. The help, the man page, the completions and docs/command-line.md are generated
 // from these rows (tools/help).
+//
+// Longer than 600 lines: one row for each option, in the order of the help.
 #include "options.h"
 
 #include <lambent/check.h>

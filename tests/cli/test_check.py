@@ -121,7 +121,7 @@ class Right(CheckTest):
                     continue
                 report = self.report_of("p.frag", "--vertex", "p.vert")
                 self.assertEqual((report["verdict"], report["contract"], report["notes"]), ("passes", "lambent", []))
-                self.assertIn("spot" if lights == "spot" else "directional" if lights in ("", "sun", "sun " * 90) else "near",
+                self.assertIn("spot" if lights == "spot" else "directional" if lights in ("sun", "sun " * 90) else "near",
                               [scene["name"] for scene in report["scenes"]])
 
     def test_printed_shaders_with_a_mistake(self):

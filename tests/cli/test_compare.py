@@ -186,6 +186,7 @@ class Compare(Case):
     def test_pages_show_their_subject(self):
         """The sheets of the pages: every picture differs from the one before it, but those that are equal by nature."""
         equal = {"sphere.png": {0}, "frames.png": {2}, "normals.png": {6, 7}, "sides.png": {0}}
+        faint = {"shadows-soft.png": 1, "shadows-terminator.png": 0.7}  # edges of shadows: few pixels
         commands = [line for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
                     for line in re.findall(r"(?m)^\s+lambent (compare .*-o docs/pictures/\S+)", page.read_text())]
         self.assertGreater(len(commands), 20)
@@ -201,7 +202,7 @@ class Compare(Case):
                 shares = self.shares(*words, inset="stages" in words)
                 for i, share in enumerate(shares):
                     if i not in equal.get(picture, ()):
-                        self.assertGreaterEqual(share, 1.5, [round(s, 2) for s in shares])
+                        self.assertGreaterEqual(share, faint.get(picture, 1.5), [round(s, 2) for s in shares])
 
     def test_grid(self):
         """Two rows crossed: the first makes the rows, the second the columns."""

@@ -20,7 +20,10 @@ static inline void load_model(const uint8_t *data, size_t size, const char *name
     lam_control control = {.memory_limit_bytes = 256 << 20, .time_limit_s = 20};
     lam_error error = {0};
     lam_scene *scene = lam_scene_load_memory(data, size, name, &params, &control, &error);
-    if (scene ? lam_scene_triangle_count(scene) == 0 : error.code == LAM_OK || !error.text[0])
+    uint64_t shown = scene ? lam_scene_triangle_count(scene) : 0;
+    for (int i = 0; scene && i < lam_scene_mesh_count(scene); i++)
+        shown += lam_scene_mesh(scene, i)->line_count + (uint64_t)lam_scene_mesh(scene, i)->point_count;
+    if (scene ? shown == 0 : error.code == LAM_OK || !error.text[0])
         abort();
     for (int i = 0; scene && i < lam_scene_mesh_count(scene); i++) {
         const lam_mesh *mesh = lam_scene_mesh(scene, i);

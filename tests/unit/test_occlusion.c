@@ -64,17 +64,17 @@ static void test_planes(void **state)
                 camera.ortho_half_height = 1.2;
             float *a = shares(scene, &camera, (lam_draw_params){.samples = turn % 2 ? 8 : 1});
             int seen = 0;
-            for (int i = SIZE + 1; i < SIZE * (SIZE - 1) - 1; i++) {
-                // At its rim a pixel's samples do not lie around its centre.
+            for (int i = 3 * SIZE + 3; i < SIZE * (SIZE - 3) - 3; i++) {
+                // At the plane's rim samples do not lie around the pixels' centres, and the filter spreads that.
                 bool inside = true;
-                for (int y = -1; y <= 1; y++)
-                    for (int x = -1; x <= 1; x++)
+                for (int y = -3; y <= 3; y++)
+                    for (int x = -3; x <= 3; x++)
                         inside &= a[i + y * SIZE + x] >= 0;
                 seen += inside;
-                if (inside && a[i] < 0.99f)
+                if (inside && a[i] < 0.997f)
                     fail_msg("turn %d: pixel %d,%d has %g", turn, i % SIZE, i / SIZE, (double)a[i]);
             }
-            assert_true(seen > SIZE * SIZE / 8);
+            assert_true(seen > SIZE * SIZE / 20);
             free(a);
             lam_scene_free(scene);
         }

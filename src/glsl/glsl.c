@@ -316,6 +316,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"has_cone", f->cones},
         {"has_environment", f->environment},
         {"cube_map", c->environment == GLSL_CUBE},
+        {"cube_points", c->environment == GLSL_FACES || f->environment_light},
         {"environment_light", f->environment_light},
         {"occluded", f->occlusion},
         {"highlights", f->highlights},

@@ -1,6 +1,22 @@
 //@if has_environment
 
 // --- the environment
+//@if cube_points
+
+// The point where a direction meets a cube, -1...1 on its face, and the number of the face (OpenGL 4.6, 8.13).
+vec3 cube_point(vec3 e)
+{
+    vec3 size = abs(e);
+    bool on_x = size.x >= size.y && size.x >= size.z;
+    bool on_y = !on_x && size.y >= size.z;
+    float major = on_x ? size.x : (on_y ? size.y : size.z);
+    bool minus = (on_x ? e.x : (on_y ? e.y : e.z)) < 0.0;
+    float across = on_x ? (minus ? e.z : -e.z) : (on_y ? e.x : (minus ? -e.x : e.x));
+    float down = on_y ? (minus ? -e.z : e.z) : -e.y;
+    float face = (on_x ? 0.0 : (on_y ? 2.0 : 4.0)) + (minus ? 1.0 : 0.0);
+    return major > 0.0 ? vec3(vec2(across, down) / major, face) : vec3(0.0, 0.0, face);
+}
+//@end
 
 //@if cube_map
 // Light from the environment along the direction d in eye space.
@@ -10,19 +26,11 @@ vec3 environment_color(vec3 d) { return @texture_cube@(environment, environment_
 // border of one texel from its neighbours, so that the bilinear filter has no special case at the edges.
 vec3 environment_color(vec3 d)
 {
-    vec3 e = environment_matrix * d;
-    vec3 size = abs(e);
-    bool on_x = size.x >= size.y && size.x >= size.z;
-    bool on_y = !on_x && size.y >= size.z;
-    // OpenGL 4.6, 8.13: the largest component selects the face.
-    float major = on_x ? size.x : (on_y ? size.y : size.z);
-    bool minus = (on_x ? e.x : (on_y ? e.y : e.z)) < 0.0;
-    float across = on_x ? (minus ? e.z : -e.z) : (on_y ? e.x : (minus ? -e.x : e.x));
-    float down = on_y ? (minus ? -e.z : e.z) : -e.y;
-    int face = (on_x ? 0 : (on_y ? 2 : 4)) + (minus ? 1 : 0);
+    vec3 point = cube_point(environment_matrix * d);
+    int face = int(point.z);
     float side = float(textureSize(environment_faces, 0).x - 2);
     float middle = 0.5 * side + 0.5;
-    vec2 texel = major > 0.0 ? vec2(across, down) / major * (0.5 * side) + middle : vec2(middle);
+    vec2 texel = point.xy * (0.5 * side) + middle;
     texel = clamp(texel, vec2(0.5), vec2(side + 0.5));
     ivec2 corner = ivec2(texel);
     vec2 part = texel - vec2(corner);
@@ -45,20 +53,6 @@ vec3 environment_light_texel(float i)
 //@else
     return texelFetch(environment_light, ivec2(int(i - 1024.0 * row), int(row)), 0).rgb;
 //@end
-}
-
-// The point where a direction meets a cube, -1...1 on its face, and the number of the face (OpenGL 4.6, 8.13).
-vec3 cube_point(vec3 e)
-{
-    vec3 size = abs(e);
-    bool on_x = size.x >= size.y && size.x >= size.z;
-    bool on_y = !on_x && size.y >= size.z;
-    float major = on_x ? size.x : (on_y ? size.y : size.z);
-    bool minus = (on_x ? e.x : (on_y ? e.y : e.z)) < 0.0;
-    float across = on_x ? (minus ? e.z : -e.z) : (on_y ? e.x : (minus ? -e.x : e.x));
-    float down = on_y ? (minus ? -e.z : e.z) : -e.y;
-    float face = (on_x ? 0.0 : (on_y ? 2.0 : 4.0)) + (minus ? 1.0 : 0.0);
-    return major > 0.0 ? vec3(vec2(across, down) / major, face) : vec3(0.0, 0.0, face);
 }
 
 // The light of a level at a point of a cube. Each level is six faces with a border of one texel, one after the other.

@@ -77,13 +77,13 @@ static void pack_triangle(float *out, const struct frame *frame, const struct ra
 
 static bool check(const struct frame *frame, lam_error *error)
 {
-    const char *what = frame->shading != LAM_SHADING_PHONG ? "flat and Gouraud shading" : NULL;
+    const char *what = frame->shading != LAM_SHADING_PHONG ? "colours lit at vertices (flat or Gouraud shading)" : NULL;
     for (int i = 0; i < frame->light_count; i++)
         what = frame->lights[i].casts_shadows && frame->lights[i].radius > 0 ? "lights with a radius" : what;
     for (int i = 0; i < frame->range_count; i++)
         what = frame->ranges[i].translucent ? "masked and translucent surfaces" : what;
-    return !what ||
-           fail(error, LAM_UNSUPPORTED, "OpenGL: this device draws no shadows with %s, the CPU device does", what);
+    return !what || fail(error, LAM_UNSUPPORTED,
+                         "OpenGL: this device draws no shadows where there are %s; the CPU device does", what);
 }
 
 bool shadows_send(struct gl_frame *f, lam_error *error)

@@ -5,6 +5,7 @@ command is a line of a code block that begins with `lambent ` and names its pict
 between `<!-- NAME: made by scripts/docs.py -->` and `<!-- end of NAME -->`."""
 import glob
 import json
+import math
 import os
 import re
 import shlex
@@ -39,13 +40,17 @@ def light_row(rig, light):
     if light["type"] == "directional":
         place = ", ".join("%g" % (0.0 - x) for x in light["direction"]).replace("-", "−")
     if "position" in light:
-        place = ", ".join("%gr" % round(x, 6) for x in light["position"])
+        # of a ball, half the diagonal of whose box is the root of 3
+        unit, size = ("d", math.sqrt(3)) if light.get("frame") == "view" else ("r", 1)
+        place = ", ".join("%g%s" % (round(x / size, 4), unit) for x in light["position"]).replace("-", "−")
     if light["type"] in ("ambient", "hemisphere"):
         more = ["%s %s" % (key, grey(light[key])) for key in ("ambient", "sky", "ground") if key in light]
     elif any(light["ambient"]):
         more = ["ambient " + grey(light["ambient"])]
     if "attenuation" in light:
-        more.append("attenuation %g/%g/%g" % tuple(light["attenuation"]))
+        a, b, c = light["attenuation"]
+        more.append("attenuation %g/%g/%g" % (a, b, c) if "position" not in light or light.get("frame") != "view" else
+                    "attenuation %g/%g/%.3gd" % (a, b * math.sqrt(3), c * 3))
     name = light["name"] + ("" if light["name"] == light["type"] else ", " + light["type"])
     return "| %s | %s | %s | %s | %s | %s |" % (rig, name, place, grey(light["diffuse"]) if "diffuse" in light else "",
                                                 grey(light["specular"]) if "specular" in light else "", "; ".join(more))

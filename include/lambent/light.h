@@ -125,7 +125,8 @@ typedef enum lam_rig {
 enum { LAM_RIG_LIGHTS_MAX = 8 };
 
 // Writes the lights of a rig and returns their number, 0 for AUTO and NONE. Positions and attenuation are for a scene whose
-// sphere has its centre at the origin and radius 1; lam_scene_rig_lights places them in a scene.
+// sphere (LAM_FRAME_VIEW: whose box, by half of its diagonal) has its centre at the origin and radius 1;
+// lam_scene_rig_lights places them in a scene.
 LAM_API int lam_rig_lights(lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX]);
 
 #ifdef __cplusplus

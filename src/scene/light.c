@@ -82,7 +82,7 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
     return light;
 }
 
-// The default rig. The key stands near, 3.2 radii from the centre, so that the light changes across a flat face: from 1.5
+// The default rig. The key stands near, 3.2 halves of the box's diagonal from the centre, so that the light changes across a flat face: from 1.5
 // times its strength on the side of the model that faces it to 0.7 on the other. A point reflects ka or kd times at most
 //
 //   0.52·1.5 (key) + 0.22·cos 79° (fill, at the key's maximum) + 0.17 (sky, there) = 0.99

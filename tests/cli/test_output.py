@@ -116,6 +116,54 @@ class Names(Case):
         self.assertIn("missing.obj", text)
 
 
+class Patterns(Case):
+    """Names of pictures with words in braces."""
+
+    def names(self):
+        return {os.path.relpath(os.path.join(path, name), self.folder)
+                for path, _, names in os.walk(self.folder) for name in names if name.endswith((".png", ".ppm"))}
+
+    def setUp(self):
+        super().setUp()
+        for folder in ("a", "b/deep"):
+            (self.folder / folder).mkdir(parents=True)
+            shutil.copy(self.folder / "cube.stl", self.folder / folder)
+
+    def test_words(self):
+        self.good("a/cube.stl", "b/deep/cube.stl", "-s", "24x16", "--view", "left", "-o", "out/{dir}/{stem}-{view}-{size}.png")
+        self.assertEqual(self.names(), {"out/a/cube-left-24x16.png", "out/b/deep/cube-left-24x16.png"})
+        self.assertEqual(read_png((self.folder / "out/a/cube-left-24x16.png").read_bytes())[:2], (24, 16))
+        self.good("a/cube.stl", "-s", 16, "-o", "{stem}.{size}.{view}.ppm")
+        self.assertIn("cube.16.three-quarter.ppm", self.names())
+        self.good("a/cube.stl", "-s", 16, "-o", "{{{stem}}}.png")
+        self.assertIn("{cube}.png", self.names())
+        self.good("-", "-s", 16, "-o", "{dir}/in-{stem}.png", stdin=(self.folder / "cube.stl").read_bytes())
+        self.assertIn("in-model.png", self.names())  # not /in-model.png: the folder is empty
+
+    def test_the_folder_stays_below(self):
+        for model in ("./a/../a/./cube.stl", self.folder / "a" / "cube.stl", "../" + self.folder.name + "/a/cube.stl"):
+            self.good(model, "-s", 16, "-o", "out/{dir}/{stem}.png")
+        below = str(self.folder).strip("/")
+        self.assertEqual(self.names(), {"out/a/a/cube.png", "out/" + below + "/a/cube.png",
+                                        "out/" + self.folder.name + "/a/cube.png"})
+
+    def test_pictures_are_replaced(self):
+        (self.folder / "cube.png").write_bytes(b"not ours")
+        self.good("cube.obj", "-s", 16, "-o", "{stem}.png")
+        read_png((self.folder / "cube.png").read_bytes())
+
+    def test_mistakes(self):
+        self.given |= {"a", "b"}
+        for pattern, says in (("{name}.png", "found '{name}' in the name, expected one of {stem}, {dir}, {view}, {size};"),
+                              ("{frame}.png", "found '{frame}'"), ("{stem.png", "'{stem.png' in the name, a brace without"),
+                              ("stem}.png", "'}.png' in the name, a brace"), ("{}.png", "found '{}'"),
+                              ("{a{b}}.png", "a brace without")):
+            self.bad(1, "cube.obj", "-o", pattern, says=[says, "option '--output'"])
+        self.bad(1, "a/cube.stl", "b/deep/cube.stl", "-o", "{stem}.png",
+                 says=["'a/cube.stl' and 'b/deep/cube.stl' would both be written to 'cube.png'", "{dir}"])
+        self.bad(3, "cube.obj", "-o", "{stem}.gif", says="gif")
+
+
 class Streams(Case):
     def test_quiet_and_plain(self):
         done = self.good("cube.obj", "-s", 16)

@@ -132,7 +132,7 @@ static bool prepare_page(struct check_command *c, lam_error *error)
     lam_error reason = {0};
     if (!page)
         return false;
-    if (output_make_folder(page, &reason) && output_check(page, "", true, &reason)) {
+    if (output_make_folder(page, &reason) && output_check(page, "", OUTPUT_NAMED, &reason)) {
         c->batch.page = check_page_make(error);
     } else {
         say_error(reason.text);

@@ -51,10 +51,13 @@ static bool check_together(int count, char **models, const struct options *o, la
         return false;
     if (o->quiet && o->verbose)
         return complain(error, LAM_BAD_ARGUMENT, "options '--quiet' and '--verbose' cannot be used together");
-    if (output_is_named(o->output) && count > 1)
+    if (output_name_is_pattern(o->output)) {
+        if (!output_name_check(o->output, NAME_VIEW | NAME_SIZE, error))
+            return false;
+    } else if (output_is_named(o->output) && count > 1)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--output' names one picture, but there are %d models; "
-                        "name a folder: -o pictures/",
+                        "name a folder, -o pictures/, or a pattern, -o '{stem}-{view}.png'",
                         count);
     if (o->save_scene && count > 1)
         return complain(error, LAM_BAD_ARGUMENT,
@@ -80,6 +83,14 @@ static bool check_together(int count, char **models, const struct options *o, la
     return true;
 }
 
+// The path of the picture, from malloc. NULL: out of memory.
+static char *path_of(const struct options *o, const char *model)
+{
+    struct output_words words = {
+        .model = model, .view = lam_side_name((lam_side)o->view), .width = o->width, .height = o->height};
+    return output_path_of(o->output, &words);
+}
+
 // Sorts models by their output, to find two with the same name.
 struct named_output {
     const char *model;
@@ -92,12 +103,12 @@ static int by_output(const void *a, const void *b)
     return strcmp(x->output, y->output);
 }
 
-static bool check_names(int count, char **models, const char *output, lam_error *error)
+static bool check_names(int count, char **models, const struct options *o, lam_error *error)
 {
     struct named_output *named = count > 0 ? calloc((size_t)count, sizeof *named) : NULL;
     bool ok = named != NULL;
     for (int i = 0; ok && i < count; i++) {
-        named[i] = (struct named_output){models[i], output_path(output, models[i], ".png")};
+        named[i] = (struct named_output){models[i], path_of(o, models[i])};
         ok = named[i].output != NULL;
     }
     if (!ok)
@@ -107,8 +118,8 @@ static bool check_names(int count, char **models, const char *output, lam_error 
     for (int i = 1; ok && i < count; i++)
         if (strcmp(named[i].output, named[i - 1].output) == 0)
             ok = complain(error, LAM_BAD_ARGUMENT,
-                          "'%s' and '%s' would both be written to '%s'; run them one by one, "
-                          "with -o",
+                          "'%s' and '%s' would both be written to '%s'; run them one by one with -o, "
+                          "or name a pattern: -o '{dir}-{stem}.png'",
                           named[i - 1].model, named[i].model, named[i].output);
     for (int i = 0; named && i < count; i++)
         free(named[i].output);
@@ -170,7 +181,7 @@ static int render_one(const char *model, lam_device *device, const struct option
     bool may_talk = stream != stderr;
     struct progress progress;
     progress_start(&progress, model, console_is_terminal() && !o->quiet && may_talk);
-    char *path = output_path(o->output, model, ".png");
+    char *path = path_of(o, model);
     job.output = path;
     lam_error error = {0};
     bool ok = job.output ? job_run(&job, &progress, &error) : complain(&error, LAM_LIMIT, "out of memory");
@@ -202,7 +213,7 @@ int run_render(int operand_count, char **operands, const struct options *options
 {
     lam_error error = {0};
     if (!check_together(operand_count, operands, options, &error) ||
-        !check_names(operand_count, operands, options->output, &error))
+        !check_names(operand_count, operands, options, &error))
         return report_failure(&error, options);
     interrupt_start();
     lam_device *device = device_option_make(options, &error);

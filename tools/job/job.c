@@ -382,7 +382,7 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error)
         return false;
     job->format = stream ? "png" : strrchr(job->output, '.') + 1;
     if (strcmp(job->output, "-") != 0 &&
-        !output_check(job->output, job->model, output_is_named(job->options->output), error))
+        !output_check(job->output, job->model, output_given(job->options->output), error))
         return false;
     if (show_is_all(job->options) && !show_all_check(job, error))
         return false;

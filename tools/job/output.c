@@ -18,24 +18,22 @@ static bool is_folder(const char *path)
 
 bool output_is_named(const char *output) { return output && output[strlen(output) - 1] != '/' && !is_folder(output); }
 
+char *output_path_of(const char *output, const struct output_words *words)
+{
+    return output_name_is_pattern(output) ? output_name_expand(output, words)
+                                          : output_path(output, words->model, ".png");
+}
+
 char *output_path(const char *output, const char *model, const char *ending)
 {
     if (output_is_named(output))
         return strdup(output);
-    const char *folder = output ? output : "", *name = strcmp(model, "-") == 0 ? "model" : model;
-    const char *end = name + strlen(name);
-    while (end > name && end[-1] == '/') // the model is a folder: loading it reports that
-        end--;
-    const char *start = end;
-    while (start > name && start[-1] != '/')
-        start--;
-    const char *dot = end;
-    while (dot > start && *dot != '.')
-        dot--;
-    int stem = (int)((dot > start ? dot : end) - start);
+    const char *folder = output ? output : "";
+    int length;
+    const char *stem = output_stem(model, &length);
     bool slash = *folder && folder[strlen(folder) - 1] != '/';
     char *path = NULL;
-    if (asprintf(&path, "%s%s%.*s%s%s", folder, slash ? "/" : "", stem, start, stem ? "" : "model", ending) < 0)
+    if (asprintf(&path, "%s%s%.*s%s", folder, slash ? "/" : "", length, stem, ending) < 0)
         return NULL;
     return path;
 }
@@ -93,13 +91,20 @@ bool output_make_folder(const char *path, lam_error *error)
     return ok;
 }
 
-bool output_check(const char *path, const char *model, bool named, lam_error *error)
+enum output_given output_given(const char *output)
+{
+    return output_name_is_pattern(output) ? OUTPUT_PATTERN : output_is_named(output) ? OUTPUT_NAMED : OUTPUT_BY_MODEL;
+}
+
+bool output_check(const char *path, const char *model, enum output_given given, lam_error *error)
 {
     struct stat there, of_model;
+    bool named = given != OUTPUT_BY_MODEL;
     if (stat(path, &there) != 0)
-        return check_folder(path, !named, error);
+        return check_folder(path, given != OUTPUT_NAMED, error);
     // The model is itself a picture: loading it reports the real mistake.
-    if (!named && stat(model, &of_model) == 0 && there.st_dev == of_model.st_dev && there.st_ino == of_model.st_ino)
+    if (given != OUTPUT_NAMED && stat(model, &of_model) == 0 && there.st_dev == of_model.st_dev &&
+        there.st_ino == of_model.st_ino)
         return true;
     if (S_ISDIR(there.st_mode))
         return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the path is a folder%s", path,

@@ -4,6 +4,8 @@
 
 #include <lambent/lambent.h>
 
+#include "output_name.h"
+
 // True if --output names the picture itself: it is neither NULL (not given) nor a folder ("thumbs/").
 bool output_is_named(const char *output);
 
@@ -12,10 +14,18 @@ bool output_is_named(const char *output);
 // "model.png". NULL: out of memory.
 char *output_path(const char *output, const char *model, const char *ending);
 
+// The path of a model's picture, from malloc: the name that a pattern gives, else as output_path. NULL: out of memory.
+char *output_path_of(const char *output, const struct output_words *words);
+
+// Where the name of a picture comes from: the model's name, alone or in a folder of the user's; a name that the user
+// gave; a pattern that the user gave. The first two are false and true of output_is_named.
+enum output_given { OUTPUT_BY_MODEL, OUTPUT_NAMED, OUTPUT_PATTERN };
+enum output_given output_given(const char *output);
+
 // Checks before the work whether `path` can be written: its folder exists and is writable, the path is not a folder,
-// and, unless the user named it (`named`), it is not a file that lambent did not write. Unless the user named the file,
-// the folder may be missing (-o pictures/), if it can be made.
-bool output_check(const char *path, const char *model, bool named, lam_error *error);
+// and, if the model gave the name, it is not a file that lambent did not write. Unless the user named the file, the
+// folder may be missing (-o pictures/), if it can be made.
+bool output_check(const char *path, const char *model, enum output_given given, lam_error *error);
 
 // Makes the missing folder of a path that output_check has accepted, with those above it. Error: LAM_CANNOT_WRITE.
 bool output_make_folder(const char *path, lam_error *error);

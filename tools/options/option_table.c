@@ -222,7 +222,12 @@ const struct option option_table[] = {
      "option the picture is written to the current folder under the model's name with the extension `.png` "
      "(`model.png` if the model comes from standard input); a file of that name that lambent did not write is "
      "never overwritten. `-o pictures/`, with a trailing slash, does the same in that folder, and makes it if it "
-     "is missing; every command that writes files takes it.",
+     "is missing; every command that writes files takes it.\n"
+     "A name with words in braces is a pattern, which each model fills in: `-o 'thumbs/{dir}/{stem}-{view}.png'`. "
+     "`{stem}` is the model's file name without its ending, `{dir}` its folder (without `..` and a leading slash), "
+     "`{view}` the word of `--view`, `{size}` the size in pixels, `256` or `256x128`. Missing folders are made, and "
+     "existing files replaced. Two models whose pictures would have one name are an error before the start. `{{` "
+     "and `}}` are braces.",
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .store = store_text,
      .others = "out outfile file format export save write", FIELD(output), .single = TAKES_OUTPUT},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.", NULL,

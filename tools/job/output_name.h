@@ -1,0 +1,35 @@
+// output_name.h: names of pictures made from a pattern: 'thumbs/{dir}/{stem}-{size}.png'.
+#ifndef OUTPUT_NAME_H
+#define OUTPUT_NAME_H
+
+#include <lambent/base.h>
+
+// What the words of a pattern stand for, for one picture.
+struct output_words {
+    const char *model; // {stem}: its file name without the ending; "-": model
+    const char *root;  // {dir} is the model's folder below this one; NULL or "": the folder as it is given
+    const char *view;  // {view}; NULL: the pattern has none
+    int width, height; // {size}: "256" of a square, else "256x128"
+    int frame, digits; // {frame}: a number with leading zeros, at least so many digits
+};
+
+// The words that a command knows besides {stem} and {dir}, as bits.
+enum { NAME_VIEW = 1, NAME_SIZE = 2, NAME_FRAME = 4 };
+
+// True if a name has a pattern's brace. "{{" and "}}" stand for braces.
+bool output_name_is_pattern(const char *name);
+
+// True if the pattern has the word, given without braces.
+bool output_name_has(const char *pattern, const char *word);
+
+// Checks a pattern: words in braces that are known, no brace left open. `known`: NAME_… bits. Error: LAM_BAD_ARGUMENT.
+bool output_name_check(const char *pattern, unsigned known, lam_error *error);
+
+// The name that a checked pattern gives, from malloc. {dir} never leads out of the folder before it: "." and ".." are
+// left out of it, and so is a leading '/'. Where it is empty, the '/' after it goes too. NULL: out of memory.
+char *output_name_expand(const char *pattern, const struct output_words *words);
+
+// The file name of a model without its ending: `*length` bytes from the result on; "model" where there is none.
+const char *output_stem(const char *model, int *length);
+
+#endif

@@ -76,8 +76,17 @@ typedef struct lam_cancel {
 LAM_API void lam_cancel_raise(lam_cancel *cancel);
 LAM_API void lam_cancel_clear(lam_cancel *cancel);
 
-// Control over one long call, such as loading or drawing. All zero: no limits, no progress. Every long loop checks it,
-// so that a call ends within milliseconds of the flag or the deadline; then it has failed as a whole.
+// The limits of a call whose lam_control does not name others. What is over one fails with LAM_LIMIT; the sentence has
+// both numbers.
+#define LAM_TRIANGLE_LIMIT   200000000u   // triangles
+#define LAM_PIXEL_LIMIT      400000000u   // pixels
+#define LAM_FILE_LIMIT_BYTES 32000000000u // bytes
+#define LAM_JSON_DEPTH_LIMIT 256u         // objects and lists within one another
+#define LAM_JSON_DEPTH_MAX   2000u        // what json_depth_limit may be raised to: the parser calls itself
+
+// Control over one long call, such as loading or drawing. All zero: no limits of time and memory, the four limits above,
+// no progress. Every long loop checks it, so that a call ends within milliseconds of the flag or the deadline; then it
+// has failed as a whole.
 typedef struct lam_control {
     // The flag that stops the call with LAM_CANCELLED. NULL: the call cannot be cancelled.
     const lam_cancel *cancel;
@@ -89,8 +98,23 @@ typedef struct lam_control {
     // "normals", "frame"). It must not call into the same device or scene. NULL: none.
     void (*progress)(void *user, double share, const char *step);
     void *user; // passed to `progress`
-    LAM_RESERVED(8);
+    // Triangles that a model may have, and that a picture may draw (each object counts its mesh's; lines count as one in
+    // a model and points too, and as two where they are drawn). 0: LAM_TRIANGLE_LIMIT.
+    uint64_t triangle_limit;
+    // Pixels of each picture that is read: textures, environments, pictures by themselves. A side has at most 65535 in
+    // any case. 0: LAM_PIXEL_LIMIT.
+    uint64_t pixel_limit;
+    // Bytes of each file that is read. 0: LAM_FILE_LIMIT_BYTES.
+    uint64_t file_limit_bytes;
+    // How deep JSON (glTF, scene files) may nest, at most LAM_JSON_DEPTH_MAX. 0: LAM_JSON_DEPTH_LIMIT.
+    uint64_t json_depth_limit;
+    LAM_RESERVED(4);
 } lam_control;
+
+// The memory that this process may use, bytes: the smallest of the machine's, its control group's (cgroup v2 and v1,
+// with the groups above it) and those of RLIMIT_AS and RLIMIT_DATA. UINT64_MAX: unknown. Reads a few files of the
+// system each time.
+LAM_API uint64_t lam_memory_available(void);
 
 // A position, direction or angle triple.
 typedef struct lam_vec3 {

@@ -77,10 +77,49 @@ void call_refund(struct call_control *call, size_t bytes)
 bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error)
 {
     if (call && __atomic_load_n(&call->over_memory, __ATOMIC_RELAXED))
-        return fail(error, LAM_LIMIT, "the memory limit of %.1f MB is reached: %.1f MB in use, %.1f MB more needed",
+        return fail(error, LAM_LIMIT,
+                    "the memory limit of %.1f MB is reached: %.1f MB in use, %.1f MB more needed (--memory-limit)",
                     (double)call->control.memory_limit_bytes / 1e6, (double)call->memory_used / 1e6,
                     (double)bytes / 1e6);
     return fail_memory(error, bytes);
+}
+
+static uint64_t or_default(uint64_t limit, uint64_t standard) { return limit ? limit : standard; }
+
+uint64_t call_triangle_limit(const struct call_control *call)
+{
+    return or_default(call ? call->control.triangle_limit : 0, LAM_TRIANGLE_LIMIT);
+}
+
+uint64_t call_pixel_limit(const struct call_control *call)
+{
+    return or_default(call ? call->control.pixel_limit : 0, LAM_PIXEL_LIMIT);
+}
+
+uint64_t call_file_limit(const struct call_control *call)
+{
+    return or_default(call ? call->control.file_limit_bytes : 0, LAM_FILE_LIMIT_BYTES);
+}
+
+unsigned call_json_depth_limit(const struct call_control *call)
+{
+    uint64_t limit = or_default(call ? call->control.json_depth_limit : 0, LAM_JSON_DEPTH_LIMIT);
+    return limit < LAM_JSON_DEPTH_MAX ? (unsigned)limit : LAM_JSON_DEPTH_MAX;
+}
+
+bool call_check_triangles(const struct call_control *call, const char *name, uint64_t count, const char *items,
+                          lam_error *error)
+{
+    uint64_t limit = call_triangle_limit(call);
+    return count <= limit || fail(error, LAM_LIMIT, "%s: %llu %s, expected at most %llu (--triangle-limit)", name,
+                                  (unsigned long long)count, items, (unsigned long long)limit);
+}
+
+bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error)
+{
+    uint64_t limit = call_file_limit(call);
+    return bytes <= limit || fail(error, LAM_LIMIT, "%s: %llu bytes, expected at most %llu (--file-limit)", name,
+                                  (unsigned long long)bytes, (unsigned long long)limit);
 }
 
 void call_progress(struct call_control *call, double share, const char *step)

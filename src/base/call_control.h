@@ -30,6 +30,20 @@ void call_refund(struct call_control *call, size_t bytes);
 // Reports an allocation that failed: over the budget, or out of memory. Returns false.
 bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error);
 
+// The limits of lam_control, or their defaults. `call` may be NULL.
+uint64_t call_triangle_limit(const struct call_control *call);
+uint64_t call_pixel_limit(const struct call_control *call);
+uint64_t call_file_limit(const struct call_control *call);
+unsigned call_json_depth_limit(const struct call_control *call);
+
+// Whether a model, or a scene that is drawn, may have so many triangles; false: LAM_LIMIT. `items` is what they are:
+// "triangles", "lines".
+bool call_check_triangles(const struct call_control *call, const char *name, uint64_t count, const char *items,
+                          lam_error *error);
+
+// Whether a file of this size may be read; false: LAM_LIMIT.
+bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
+
 // Calls the progress callback; from the calling thread only. Reported shares never decrease.
 void call_progress(struct call_control *call, double share, const char *step);
 

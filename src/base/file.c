@@ -105,7 +105,7 @@ static void read_piece(void *user, size_t index, int thread)
 static bool read_sized(int file, const char *path, size_t size, struct pool *pool, struct call_control *call,
                        struct file_bytes *out, lam_error *error)
 {
-    if (!file_hold(size, call, out, error))
+    if (!call_check_file(call, path, size, error) || !file_hold(size, call, out, error))
         return false;
     struct reading reading = {.file = file, .to = (uint8_t *)(uintptr_t)out->data, .size = size, .call = call};
     pool_run(pool, (size + PIECE - 1) / PIECE, read_piece, &reading);
@@ -169,6 +169,7 @@ static bool read_stream(int file, const char *path, struct call_control *call, s
             used += (size_t)got;
         else if (got < 0 && errno != EINTR && errno != EAGAIN)
             ok = fail_system(error, LAM_CANNOT_READ, path, "read");
+        ok = ok && call_check_file(call, path, used, error);
     }
     if (!ok) {
         file_release(out);

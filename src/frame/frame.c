@@ -490,6 +490,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
             continue;
         if (next + triangles > TRIANGLES_MAX)
             return fail(error, LAM_LIMIT, "the scene has more than %u triangles", TRIANGLES_MAX);
+        if (!call_check_triangles(call, "the scene", next + triangles, "triangles", error))
+            return false;
         struct frame_draw *draw = &frame->draws[frame->draw_count];
         build_draw(draw, scene, i, (uint32_t)next, &view, &pixel);
         if (mesh_is_strokes(mesh))

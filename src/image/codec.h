@@ -53,8 +53,7 @@ extern const struct codec codec_png, codec_ppm, codec_pfm, codec_exr, codec_jpeg
 // of this file name does.
 const struct codec *codec_of(const uint8_t *bytes, size_t size, const char *name);
 
-// Whether a header's size can be read; no memory is taken for others. LAM_LIMIT.
-enum { PICTURE_PIXELS_MAX = 400000000 };
+// Whether a header's size can be read; no memory is taken for others. LAM_LIMIT (lam_control.pixel_limit).
 bool picture_size_check(const struct picture_file *file, uint32_t width, uint32_t height, lam_error *error);
 
 // Makes the picture that a codec fills, of a size that was checked. Its bytes are charged to the file's call. LAM_LIMIT.

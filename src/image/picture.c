@@ -10,10 +10,14 @@ static size_t bytes_of(const lam_image *image)
 
 bool picture_size_check(const struct picture_file *file, uint32_t width, uint32_t height, lam_error *error)
 {
-    if (width > 0 && height > 0 && width <= 65535 && height <= 65535 && (uint64_t)width * height <= PICTURE_PIXELS_MAX)
-        return true;
-    return fail(error, LAM_LIMIT, "%s: a picture of %u×%u pixels, expected 1 to 65535 on a side and at most %d million",
-                file->name, width, height, PICTURE_PIXELS_MAX / 1000000);
+    uint64_t limit = call_pixel_limit(file->call), pixels = (uint64_t)width * height;
+    if (width < 1 || height < 1 || width > 65535 || height > 65535)
+        return fail(error, LAM_LIMIT, "%s: a picture of %u×%u pixels, expected 1 to 65535 on a side", file->name, width,
+                    height);
+    return pixels <= limit || fail(error, LAM_LIMIT,
+                                   "%s: a picture of %u×%u pixels, which are %llu, expected at most %llu "
+                                   "(--pixel-limit)",
+                                   file->name, width, height, (unsigned long long)pixels, (unsigned long long)limit);
 }
 
 bool picture_make(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,

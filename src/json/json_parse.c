@@ -14,12 +14,13 @@ struct parser {
     const char *file;
     struct call_control *call;
     lam_error *error;
-    size_t values; // read so far
+    size_t values;   // read so far
+    int depth_limit; // of the call
 };
 
 // --- errors
 
-static bool fail_at(const struct parser *p, const char *at, const char *sentence)
+static bool fail_as(const struct parser *p, lam_code code, const char *at, const char *sentence)
 {
     size_t line = 1, column = 1;
     for (const char *c = p->begin; c < at; c++) {
@@ -29,7 +30,21 @@ static bool fail_at(const struct parser *p, const char *at, const char *sentence
         }
         column += (*c & 0xc0) != 0x80; // characters, not bytes
     }
-    return fail(p->error, LAM_CANNOT_READ, "%s:%zu: column %zu: %s", p->file, line, column, sentence);
+    return fail(p->error, code, "%s:%zu: column %zu: %s", p->file, line, column, sentence);
+}
+
+static bool fail_at(const struct parser *p, const char *at, const char *sentence)
+{
+    return fail_as(p, LAM_CANNOT_READ, at, sentence);
+}
+
+// At an opening bracket.
+static bool fail_depth(const struct parser *p)
+{
+    char sentence[120];
+    snprintf(sentence, sizeof sentence, "values are nested %d deep, expected at most %d (--json-depth-limit)",
+             p->depth_limit + 1, p->depth_limit);
+    return fail_as(p, LAM_LIMIT, p->at, sentence);
 }
 
 // A run of characters that are no punctuation, or one character, is named as found.
@@ -323,8 +338,8 @@ static json_t *read_value(struct parser *p, int depth)
     }
     skip_space(p);
     char first = p->at < p->end ? *p->at : 0;
-    if (depth == JSON_DEPTH_MAX && (first == '{' || first == '[')) {
-        fail_at(p, p->at, "values are nested too deeply");
+    if (depth == p->depth_limit && (first == '{' || first == '[')) {
+        fail_depth(p);
         return NULL;
     }
     if (first == '{' || first == '[') {
@@ -338,7 +353,13 @@ static json_t *read_value(struct parser *p, int depth)
 
 json_t *json_parse(const char *text, size_t size, const char *file, struct call_control *call, lam_error *error)
 {
-    struct parser p = {.begin = text, .at = text, .end = text + size, .file = file, .call = call, .error = error};
+    struct parser p = {.begin = text,
+                       .at = text,
+                       .end = text + size,
+                       .file = file,
+                       .call = call,
+                       .error = error,
+                       .depth_limit = (int)call_json_depth_limit(call)};
     if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
         p.begin = p.at = text + 3;
     skip_space(&p);

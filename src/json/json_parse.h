@@ -8,12 +8,12 @@
 
 // Parses JSON (RFC 8259) with an object or a list at the top; a byte order mark may stand before it. Whole numbers are
 // integers where 64 bits hold them, all others the nearest double. Refused besides: keys given twice, zero characters in
-// texts, numbers that no double can hold, nesting of more than JSON_DEPTH_MAX. `file` stands for the file in messages;
-// `call` may be NULL. NULL: LAM_CANNOT_READ with "FILE:LINE: column C: sentence", LAM_LIMIT, LAM_CANCELLED.
+// texts, numbers that no double can hold. `file` stands for the file in messages;
+// `call` may be NULL. NULL: LAM_CANNOT_READ with "FILE:LINE: column C: sentence", LAM_LIMIT (nested deeper
+// than lam_control.json_depth_limit), LAM_CANCELLED.
 //
 // Jansson's own parser is not used: without memory it calls an assertion, which ends the process, or reports an invalid
 // token of the file.
-enum { JSON_DEPTH_MAX = 256 };
 json_t *json_parse(const char *text, size_t size, const char *file, struct call_control *call, lam_error *error);
 
 #endif

@@ -96,9 +96,11 @@ static struct lam_scene *load_stream(struct import_source *source, const struct 
     struct file_parts file;
     struct lam_scene *scene = NULL;
     if (head && source->path && file_open_parts(source->path, head, &file)) {
+        bool allowed =
+            call_check_file(source->call, source->name, file.size, NULL); // else the whole file's reader says so
         source->bytes = head;
         source->size = FILE_HEAD;
-        *importer = importer_for_stream(source->name, head, file.size, source->params->format);
+        *importer = allowed ? importer_for_stream(source->name, head, file.size, source->params->format) : NULL;
         if (*importer)
             scene = start_scene(source, *importer, NULL);
         if (scene && !(*importer)->load_stream(source, &file, scene)) {

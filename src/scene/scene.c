@@ -86,8 +86,17 @@ int scene_append(struct lam_scene *scene, struct scene_list *list, const void *i
     return list->count++;
 }
 
+// A scene made by hand has no limit of its own: drawing has one.
+static bool check_items(const struct lam_scene *scene, const char *what, uint64_t items, lam_error *error)
+{
+    return !scene->arena.call ||
+           call_check_triangles(scene->arena.call, what, items, "triangles, lines and points", error);
+}
+
 int scene_adopt_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_error *error)
 {
+    if (!check_items(scene, "a mesh", mesh_items(mesh), error))
+        return -1;
     return scene_append(scene, &scene->meshes, mesh, sizeof *mesh, error);
 }
 
@@ -115,6 +124,9 @@ bool scene_share_texture(struct lam_scene *scene, const lam_texture *texture, la
 
 int scene_adopt_object(struct lam_scene *scene, const lam_object *object, lam_error *error)
 {
+    scene->object_items += mesh_items(scene_mesh(scene, object->mesh));
+    if (!check_items(scene, "the objects so far", scene->object_items, error))
+        return -1;
     return scene_append(scene, &scene->objects, object, sizeof *object, error);
 }
 

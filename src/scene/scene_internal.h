@@ -88,6 +88,7 @@ struct lam_scene {
     const char *format;
     lam_file_info file; // of a glTF file
     double read_ms, prepare_ms;
+    uint64_t object_items; // triangles, lines and points of all objects that were added
     // The crease angle of meshes whose normals are left to the device; 0: all meshes have normals.
     double deferred_crease_rad;
     bool shared_arrays; // meshes may have arrays in common: none is changed in place
@@ -105,7 +106,7 @@ struct scene_token *scene_token_hold(struct scene_token *token);
 void scene_token_release(struct scene_token *token); // `token` may be NULL
 
 // Add an item whose arrays and strings are in the scene's arena, without copying them and without computing normals.
-// Return its index; −1: out of memory.
+// Return its index; −1: LAM_LIMIT: out of memory, or while loading more triangles than the call may have.
 int scene_adopt_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_error *error);
 int scene_adopt_material(struct lam_scene *scene, const lam_material *material, lam_error *error);
 int scene_adopt_object(struct lam_scene *scene, const lam_object *object, lam_error *error);

@@ -78,7 +78,7 @@ class Models(Case):
         self.write("huge.png", b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 40000, 20000, 1, 0, 0, 0, 0)) +
                    chunk(b"IDAT", packed) + chunk(b"IEND", b""))
         for words in (["sphere", "--environment", "huge.png"], ["diff", "huge.png", "huge.png"]):
-            self.one_sentence(self.bad(4, *words, says=["huge.png", "40000×20000", "at most 400 million"]))
+            self.one_sentence(self.bad(4, *words, says=["huge.png", "40000×20000", "at most 400000000 (--pixel-limit)"]))
 
     def test_half_right_texts(self):
         """What a cut or edited text model lacks is said with its line: a warning where all is there that is drawn."""

@@ -1,5 +1,7 @@
 // test_base.c: small parts of the base: growing text, UTF-8, edit distance, libraries opened when used.
+#include "call_control.h"
 #include "dynamic_library.h"
+#include "memory.h"
 #include "shown_name.h"
 #include "spelling.h"
 #include "text_builder.h"
@@ -7,8 +9,12 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -161,11 +167,114 @@ static void test_libraries(void **state)
     library_close(library);
 }
 
+// --- the memory that may be used
+
+static char root[] = "/tmp/lambent-memory-XXXXXX";
+
+static void put(const char *path, const char *text)
+{
+    char name[300];
+    snprintf(name, sizeof name, "%s%s", root, path);
+    for (char *at = strchr(name + 1, '/'); at; at = strchr(at + 1, '/')) {
+        *at = 0;
+        mkdir(name, 0777);
+        *at = '/';
+    }
+    FILE *file = fopen(name, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+static void remove_root(void)
+{
+    char command[100];
+    snprintf(command, sizeof command, "rm -rf %s", root);
+    assert_int_equal(system(command), 0);
+}
+
+static void test_memory_of_groups(void **state)
+{
+    (void)state;
+    assert_non_null(mkdtemp(root));
+    assert_true(memory_of_groups(root) == UINT64_MAX);
+    // cgroup v2: the smallest of the group and those above it.
+    put("/proc/self/cgroup", "0::/shop/night/job\n");
+    put("/sys/fs/cgroup/shop/night/job/memory.max", "max\n");
+    assert_true(memory_of_groups(root) == UINT64_MAX);
+    put("/sys/fs/cgroup/shop/night/memory.max", "3000000000\n");
+    assert_true(memory_of_groups(root) == 3000000000);
+    put("/sys/fs/cgroup/shop/memory.max", "2000000000\n");
+    assert_true(memory_of_groups(root) == 2000000000);
+    put("/sys/fs/cgroup/shop/night/job/memory.max", "536870912\n");
+    assert_true(memory_of_groups(root) == 536870912);
+    // Within a container the group's path is the host's, and the mount's root is the group.
+    put("/proc/self/cgroup", "0::/docker/0123\n");
+    assert_true(memory_of_groups(root) == UINT64_MAX);
+    put("/sys/fs/cgroup/memory.max", "700000000\n");
+    assert_true(memory_of_groups(root) == 700000000);
+    remove_root();
+    // v1, beside a v2 without memory; "cpu,memory" is a list, and "memory2" another word.
+    put("/proc/self/cgroup", "9:name=systemd:/\n5:memory2:/x\n4:cpu,memory:/a/b\n3:cpuset:/\n0::/\n");
+    put("/sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
+    put("/sys/fs/cgroup/memory/x/memory.limit_in_bytes", "1\n");
+    assert_true(memory_of_groups(root) == 9223372036854771712u);
+    put("/sys/fs/cgroup/memory/a/b/memory.limit_in_bytes", "400000000\n");
+    assert_true(memory_of_groups(root) == 400000000);
+    put("/sys/fs/cgroup/memory/a/memory.limit_in_bytes", "300000000\n");
+    assert_true(memory_of_groups(root) == 300000000);
+    put("/proc/self/cgroup", "4:memory\n\n:\n::\n");
+    assert_true(memory_of_groups(root) == UINT64_MAX);
+    remove_root();
+}
+
+static void test_memory_of_process(void **state)
+{
+    (void)state;
+    struct rlimit before;
+    uint64_t machine = lam_memory_available();
+    assert_true(machine > 1 << 20);
+    assert_int_equal(getrlimit(RLIMIT_DATA, &before), 0);
+    if (machine <= (uint64_t)1 << 31)
+        skip();
+    assert_int_equal(setrlimit(RLIMIT_DATA, &(struct rlimit){(rlim_t)1 << 31, before.rlim_max}), 0);
+    assert_true(lam_memory_available() == (uint64_t)1 << 31);
+    assert_int_equal(setrlimit(RLIMIT_DATA, &before), 0);
+    assert_true(lam_memory_available() == machine);
+}
+
+static void test_limits(void **state)
+{
+    (void)state;
+    struct call_control call;
+    lam_error error = {0};
+    assert_true(call_triangle_limit(NULL) == LAM_TRIANGLE_LIMIT && call_pixel_limit(NULL) == LAM_PIXEL_LIMIT);
+    assert_true(call_file_limit(NULL) == LAM_FILE_LIMIT_BYTES && call_json_depth_limit(NULL) == LAM_JSON_DEPTH_LIMIT);
+    call_start(&call, NULL);
+    assert_true(call_triangle_limit(&call) == LAM_TRIANGLE_LIMIT);
+    assert_true(call_check_triangles(&call, "a", LAM_TRIANGLE_LIMIT, "triangles", &error));
+    assert_false(call_check_triangles(&call, "a", LAM_TRIANGLE_LIMIT + 1, "triangles", &error));
+    assert_int_equal(error.code, LAM_LIMIT);
+    assert_string_equal(error.text, "a: 200000001 triangles, expected at most 200000000 (--triangle-limit)");
+    call_start(&call, &(lam_control){.file_limit_bytes = 10, .json_depth_limit = 1000000, .pixel_limit = 7});
+    assert_true(call_pixel_limit(&call) == 7 && call_json_depth_limit(&call) == LAM_JSON_DEPTH_MAX);
+    assert_true(call_check_file(&call, "f", 10, &error));
+    assert_false(call_check_file(&call, "f", 11, &error));
+    assert_string_equal(error.text, "f: 11 bytes, expected at most 10 (--file-limit)");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_text),          cmocka_unit_test(test_utf8),       cmocka_unit_test(test_edit_distance),
-        cmocka_unit_test(test_word_distance), cmocka_unit_test(test_shown_name), cmocka_unit_test(test_libraries),
+        cmocka_unit_test(test_text),
+        cmocka_unit_test(test_utf8),
+        cmocka_unit_test(test_edit_distance),
+        cmocka_unit_test(test_word_distance),
+        cmocka_unit_test(test_shown_name),
+        cmocka_unit_test(test_libraries),
+        cmocka_unit_test(test_memory_of_groups),
+        cmocka_unit_test(test_memory_of_process),
+        cmocka_unit_test(test_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

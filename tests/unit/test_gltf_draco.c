@@ -2,6 +2,8 @@
 // ends with one sentence. Built without the decoder, files are refused or their plain bytes are read.
 #include "loading.h"
 
+#include "draco_header.h"
+
 // A square of four vertices: attribute 7 positions, attribute 3 texture coordinates as unsigned bytes; by Draco's own encoder.
 static const char compressed[] =
     "RFJBQ08CAgEBAAAABAIBAgAAAR//ARH/AREC/wAAAAAAAQAJAwAHAgEDAgIAAwEBAQEADwMBMC8BEAMAKIKYAAAA/P8AAAAAAP8/"
@@ -186,12 +188,51 @@ static void missing(void **state)
 
 #endif
 
+#define CLAIM(...) draco_header_read((const uint8_t[]){__VA_ARGS__}, sizeof((uint8_t[]){__VA_ARGS__}), &claim)
+
+static void claims(void **state)
+{
+    (void)state;
+    struct draco_claim claim;
+    // Sequential: faces, points; seven bits a byte.
+    assert_true(CLAIM('D', 'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0, 0x80, 0x01, 0xff, 0xff, 0xff, 0xff, 0x0f));
+    assert_true(claim.faces == 128 && claim.points == UINT32_MAX);
+    // Older: 32 bits.
+    assert_true(CLAIM('D', 'R', 'A', 'C', 'O', 2, 1, 1, 0, 0, 0, 1, 2, 0, 0, 3, 0, 0, 1));
+    assert_true(claim.faces == 513 && claim.points == 16777219);
+    // Edgebreaker: how it is coded, points, faces; older ones have the vertices of splits before.
+    assert_true(CLAIM('D', 'R', 'A', 'C', 'O', 2, 2, 1, 1, 0, 0, 2, 7, 9));
+    assert_true(claim.faces == 9 && claim.points == 7);
+    assert_true(CLAIM('D', 'R', 'A', 'C', 'O', 2, 1, 1, 1, 0, 0, 0, 5, 7, 9));
+    assert_true(claim.faces == 9 && claim.points == 7);
+    assert_true(CLAIM('D', 'R', 'A', 'C', 'O', 1, 2, 1, 1, 0, 0, 0, 5, 0, 0, 0, 7, 0, 0, 0, 9, 0, 0, 0));
+    assert_true(claim.faces == 9 && claim.points == 7);
+    // Metadata: one attribute's with one entry, and the mesh's with one inside of it.
+    assert_true(CLAIM('D', 'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0x80, 1, 4, 1, 2, 'a', 'b', 3, 1, 2, 3, 0, 0, 1, 1, 'x',
+                      0, 0, 6, 8));
+    assert_true(claim.faces == 6 && claim.points == 8);
+    assert_true(draco_claim_bytes(&claim) >= 6 * 36 + 8 * 24);
+    // What no decoder reads: a cloud of points, a cut, a number of more than 32 bits, metadata within itself.
+    assert_false(CLAIM('D', 'R', 'A', 'C', 'O', 2, 2, 0, 0, 0, 0, 1, 1));
+    assert_false(CLAIM('D', 'R', 'A', 'C', 'O', 2, 2, 1, 2, 0, 0, 1, 1));
+    assert_false(CLAIM('D', 'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0, 0x80));
+    assert_false(CLAIM('D', 'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0, 0xff, 0xff, 0xff, 0xff, 0x1f, 1));
+    assert_false(CLAIM('D', 'R', 'A', 'C', 'X', 2, 2, 1, 0, 0, 0, 1, 1));
+    uint8_t nested[200] = {'D', 'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0x80, 0};
+    for (int i = 12; i < 200; i += 3)
+        nested[i + 1] = 1; // no entries, one inside with a name of 0 bytes
+    assert_false(draco_header_read(nested, sizeof nested, &claim));
+    for (size_t size = 0; size < 12; size++)
+        assert_false(draco_header_read(nested, size, &claim));
+}
+
 int main(void)
 {
 #if HAS_DRACO
-    const struct CMUnitTest tests[] = {cmocka_unit_test(decoded), cmocka_unit_test(wrong), cmocka_unit_test(damaged)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(claims), cmocka_unit_test(decoded), cmocka_unit_test(wrong),
+                                       cmocka_unit_test(damaged)};
 #else
-    const struct CMUnitTest tests[] = {cmocka_unit_test(missing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(claims), cmocka_unit_test(missing)};
 #endif
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

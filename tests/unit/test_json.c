@@ -239,16 +239,17 @@ static void test_sentences(void **state)
 static void test_depth_and_limits(void **state)
 {
     (void)state;
-    char deep[2 * JSON_DEPTH_MAX + 2];
+    char deep[2 * LAM_JSON_DEPTH_LIMIT + 2];
     for (int extra = 0; extra < 2; extra++) {
-        size_t depth = JSON_DEPTH_MAX + (size_t)extra;
+        size_t depth = LAM_JSON_DEPTH_LIMIT + (size_t)extra;
         memset(deep, '[', depth);
         memset(deep + depth, ']', depth);
         lam_error error;
         json_t *tree = json_parse(deep, 2 * depth, "t.json", NULL, &error);
         assert_int_equal(tree == NULL, extra);
         if (!tree)
-            assert_string_equal(error.text, "t.json:1: column 257: values are nested too deeply");
+            assert_string_equal(error.text, "t.json:1: column 257: values are nested 257 deep, expected at most 256 "
+                                            "(--json-depth-limit)");
         json_decref(tree);
     }
     enum { NUMBERS = 10000 };

@@ -180,6 +180,11 @@ int run_check(int operand_count, char **operands, const struct options *o)
     lam_error error = {0};
     if (o->list)
         return check_print_lists(stdout, &error) ? 0 : report_failure(&error, o);
+    if (o->memory_limit_bytes == UINT64_MAX) {
+        complain(&error, LAM_BAD_ARGUMENT,
+                 "option '--memory-limit': found 'none', but a shader needs a limit, in bytes");
+        return report_failure(&error, o);
+    }
     interrupt_start();
     struct check_command c = {.options = o, .batch = {.options = o}};
     c.batch.tolerance = option_given(o, "tolerance") ? o->tolerance : 2;

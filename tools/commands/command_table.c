@@ -36,8 +36,8 @@ const struct command command_table[] = {
     [COMMAND_info] = {"info", "MODEL...",
                       "Print what is in models: size, triangles, materials, pictures, lights, cameras, animations, "
                       "extensions.",
-                      ABOUT | 1u << GROUP_MODEL | 1u << GROUP_WORK | TAKES_JSON | TAKES_QUIET, .min_operands = 1,
-                      .max_operands = -1},
+                      ABOUT | 1u << GROUP_MODEL | 1u << GROUP_WORK | 1u << GROUP_LIMITS | TAKES_JSON | TAKES_QUIET,
+                      .min_operands = 1, .max_operands = -1},
     [COMMAND_check] =
         {"check", "SHADER.frag...",
          "Compare GLSL shaders with reference scenes, and name the known mistakes that explain the differences.",
@@ -48,8 +48,9 @@ const struct command command_table[] = {
                         "Print the shaders that light a model, for use in another program, and their inputs.",
                         ALL | 1u << GROUP_SHADER, .min_operands = 0, .max_operands = 1, .defaults = shader_defaults},
     [COMMAND_diff] = {"diff", "A B", "Measure the difference of two pictures, and draw it.",
-                      ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET, .min_operands = 2,
-                      .max_operands = 2, .defaults = diff_defaults},
+                      ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET | TAKES_MEMORY |
+                          TAKES_PICTURE_LIMITS,
+                      .min_operands = 2, .max_operands = 2, .defaults = diff_defaults},
     [COMMAND_plot] = {"plot", "attenuation|spot|highlight [CURVE...]",
                       "Plot a law of light as curves (PNG or SVG), and print its numbers.",
                       ABOUT | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
@@ -58,7 +59,7 @@ const struct command command_table[] = {
     [COMMAND_lights] = {"lights", "MODEL",
                         "Print the lights of a model, or of the rig if it has none, in scene file form.",
                         ABOUT | 1u << GROUP_MODEL | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING |
-                            1u << GROUP_WORK,
+                            1u << GROUP_WORK | 1u << GROUP_LIMITS,
                         .min_operands = 1, .max_operands = 1},
     [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, .min_operands = 0, .max_operands = 0},
     [COMMAND_formats] = {"formats", NULL, "List the formats of models and pictures.", ABOUT, .min_operands = 0,

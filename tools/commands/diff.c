@@ -9,6 +9,7 @@
 #include "console.h"
 #include "exit_codes.h"
 #include "json.h"
+#include "limits.h"
 #include "output.h"
 #include "report.h"
 
@@ -20,10 +21,11 @@ struct pair {
     lam_image where; // the difference; made only for --output
 };
 
-static bool load_pair(struct pair *pair, lam_error *error)
+static bool load_pair(struct pair *pair, const struct options *o, lam_error *error)
 {
+    lam_control control = limits_control(o);
     for (int i = 0; i < 2; i++)
-        if (!lam_image_load(&pair->image[i], pair->name[i], NULL, error))
+        if (!lam_image_load(&pair->image[i], pair->name[i], &control, error))
             return false;
     const lam_image *a = &pair->image[0], *b = &pair->image[1];
     if (a->width != b->width || a->height != b->height)
@@ -124,7 +126,7 @@ int run_diff(int operand_count, char **operands, const struct options *options)
         ok = complain(&error, LAM_LIMIT, "out of memory");
     else if (options->output && !to_stdout)
         ok = output_check(pair.output, pair.name[0], output_is_named(options->output), &error);
-    ok = ok && load_pair(&pair, &error) && (!options->output || write_picture(&pair, options, &error));
+    ok = ok && load_pair(&pair, options, &error) && (!options->output || write_picture(&pair, options, &error));
     bool differ = ok && pair.difference.maximum > options->tolerance / 255.0;
     if (ok) {
         FILE *file = to_stdout ? stderr : stdout;

@@ -9,6 +9,7 @@
 #include "console.h"
 #include "exit_codes.h"
 #include "interrupt.h"
+#include "limits.h"
 #include "report.h"
 
 // A file that requires what this version does not know is read without it.
@@ -35,7 +36,7 @@ static void measure_drawing(struct info *info, const struct job *job)
     lam_image image = {0};
     lam_camera camera = lam_camera_fit(job->scene, INFO_SIDE, INFO_SIDE, NULL);
     lam_draw_params params = {.output = LAM_OUTPUT_DEPTH};
-    lam_control control = {.memory_limit_bytes = job->options->memory_limit_bytes};
+    lam_control control = limits_control(job->options);
     if (device && lam_image_make(&image, INFO_SIDE, INFO_SIDE, LAM_RGBA8, NULL) &&
         lam_draw(device, job->scene, &camera, &params, &image, &control, NULL)) {
         lam_frame_report report;

@@ -9,6 +9,7 @@
 #include "command.h"
 #include "console.h"
 #include "json.h"
+#include "limits.h"
 #include "output.h"
 #include "report.h"
 #include "suggest.h"
@@ -122,7 +123,8 @@ static bool add_fading(struct plot *plot, const lam_light *light, const char *wo
 // Adds the lights of a model or scene file.
 static bool add_lights_of(struct plot *plot, const char *path, lam_error *error)
 {
-    lam_scene *scene = lam_scene_load(path, &(lam_load_params){.models_anywhere = !plot->files_inside}, NULL, error);
+    lam_scene *scene =
+        lam_scene_load(path, &(lam_load_params){.models_anywhere = !plot->files_inside}, &plot->control, error);
     if (!scene)
         return false;
     bool ok = true;
@@ -308,7 +310,8 @@ static bool fill(struct plot *plot, const struct kind *kind, int count, char **w
                           .y_max = 1,
                           .level = kind->add == add_attenuation ? 1.0 / 255.0 : 0,
                           .level_label = "1/255",
-                          .files_inside = o->files_inside};
+                          .files_inside = o->files_inside,
+                          .control = limits_control(o)};
     for (int i = 0; i < count; i++)
         if (!kind->add(plot, words[i], error))
             return false;

@@ -24,7 +24,8 @@ struct plot {
     double x_max, y_max; // both axes begin at 0
     double level;        // a dashed line across; 0: none
     const char *level_label;
-    bool files_inside; // a scene file's
+    bool files_inside;
+    lam_control control; // of files that are read // a scene file's
     struct curve curves[CURVES_MAX];
     int count;
 };

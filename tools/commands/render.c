@@ -11,6 +11,7 @@
 #include "device_option.h"
 #include "interrupt.h"
 #include "job.h"
+#include "limits.h"
 #include "output.h"
 #include "plan.h"
 #include "progress.h"
@@ -161,8 +162,8 @@ static void name_model(const struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
     const char *name = strcmp(job->model, "-") == 0 ? "standard input" : job->model;
-    if (error->code == LAM_LIMIT && o->time_limit_s > 0 && clock_ms() - job->times.start >= o->time_limit_s * 1e3) {
-        complain(error, LAM_LIMIT, "%s: the time limit of %.10g s was reached", name, o->time_limit_s);
+    if (error->code == LAM_LIMIT && limits_time(o) > 0 && clock_ms() - job->times.start >= limits_time(o) * 1e3) {
+        complain(error, LAM_LIMIT, "%s: the time limit of %.10g s was reached (--time-limit)", name, limits_time(o));
     } else if (error->code == LAM_CANCELLED) {
         complain(error, LAM_CANCELLED, "%s: interrupted", name);
     } else if (error->code != LAM_CANNOT_WRITE && !names(error->text, name) &&

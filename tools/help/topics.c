@@ -105,7 +105,12 @@ const struct topic topics[] = {
      "pixels, unless `-o` and `-s` say otherwise; a name that ends in `.svg` makes an SVG. The table on standard "
      "output lists where each curve falls below 1/255; with `--json` it is one line: `plot`, `x`, `y`, `curves` "
      "(each with `label`, `below_1_255_from`, null for never, and `points`, 101 pairs) and `picture`."},
-    {"work", "Threads, devices and limits", BIT(WORK), TOPIC_NO_TABLE, NULL},
+    {"work", "Threads and devices", BIT(WORK), TOPIC_NO_TABLE, NULL},
+    {"limits", "Limits", BIT(LIMITS), TOPIC_NO_TABLE,
+     "Files from strangers may be made to crash, hang or fill a machine, so limits hold unless options change them. "
+     "What is over one is reported with the number that was found, the one that is allowed and the option that "
+     "raises it, and the exit code is 4. Decoders of pictures and of compressed meshes are held to the same limits. "
+     "`SECURITY.md` says what is promised, and how it is tested."},
     {"reports", "Reports", BIT(REPORT), TOPIC_NO_TABLE, NULL},
     {"bytes", "Same picture everywhere", 0, TOPIC_NO_TABLE,
      "The same model and options give the same bytes, whatever the instruction set, the number of threads, the "

@@ -13,6 +13,7 @@
 #include "interrupt.h"
 #include "job_scene.h"
 #include "light_markers.h"
+#include "limits.h"
 #include "output.h"
 #include "scene_settings.h"
 #include "show_all.h"
@@ -48,16 +49,18 @@ static lam_view view_of(const struct options *o)
 static bool control_of(const struct job *job, struct progress *progress, lam_control *control, lam_error *error)
 {
     const struct options *o = job->options;
-    *control = (lam_control){.cancel = interrupt_flag(),
-                             .memory_limit_bytes = o->memory_limit_bytes,
-                             .progress = progress ? progress_update : NULL,
-                             .user = progress};
+    *control = limits_control(o);
+    control->cancel = interrupt_flag();
+    control->progress = progress ? progress_update : NULL;
+    control->user = progress;
     if (interrupted())
         return complain(error, LAM_CANCELLED, "%s: interrupted", job->model);
-    if (o->time_limit_s > 0) {
-        control->time_limit_s = o->time_limit_s - (clock_ms() - job->times.start) / 1e3;
+    double whole = control->time_limit_s;
+    if (whole > 0) {
+        control->time_limit_s = whole - (clock_ms() - job->times.start) / 1e3;
         if (!(control->time_limit_s > 0))
-            return complain(error, LAM_LIMIT, "%s: the time limit of %.10g s was reached", job->model, o->time_limit_s);
+            return complain(error, LAM_LIMIT, "%s: the time limit of %.10g s was reached (--time-limit)", job->model,
+                            whole);
     }
     return true;
 }
@@ -367,9 +370,12 @@ bool job_draw(struct job *job, lam_pixel_format format, struct progress *progres
         return false;
     const struct options *o = job->options; // now includes the scene file's settings
     uint64_t bytes = (uint64_t)o->width * (uint64_t)o->height * (format == LAM_RGBA8 ? 4 : 16);
-    if (o->memory_limit_bytes && bytes > o->memory_limit_bytes)
-        return complain(error, LAM_LIMIT, "the picture of %dx%d pixels needs %.1f MB, more than the memory limit",
-                        o->width, o->height, (double)bytes / 1e6);
+    uint64_t limit = limits_memory(o);
+    if (limit && bytes > limit)
+        return complain(error, LAM_LIMIT,
+                        "the picture of %dx%d pixels needs %.1f MB, more than the memory limit of %.1f MB "
+                        "(--memory-limit)",
+                        o->width, o->height, (double)bytes / 1e6, (double)limit / 1e6);
     return lam_image_make(&job->image, o->width, o->height, format, error) && job_arrange(job, progress, error) &&
            draw(job, progress, error);
 }

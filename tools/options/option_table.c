@@ -14,6 +14,7 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_VIEW] = "View",
     [GROUP_SHADING] = "Shading",
     [GROUP_WORK] = "Work",
+    [GROUP_LIMITS] = "Limits",
     [GROUP_REPORT] = "Reports",
     [GROUP_DIFF] = "Comparing pictures (diff, check)",
     [GROUP_PLOT] = "Plots (plot)",
@@ -555,14 +556,34 @@ const struct option option_table[] = {
      "`lambent devices` lists the numbers, hardware before software.", .store = store_text, FIELD(gl_device)},
     {"repeat", 0, GROUP_WORK, "N", "1", "Draw N frames and report the median time.", NULL, .store = store_integer,
      .others = "frames iterations benchmark bench", FIELD(repeat), .min = 1, .max = 100000},
-    {"time-limit", 0, GROUP_WORK, "SECONDS", "none", "Give up on a model after this time (exit 4).", NULL,
-     .store = store_number, .others = "timeout", FIELD(time_limit_s), .min = 0.001, .max = 1e9},
-    {"memory-limit", 0, GROUP_WORK, "BYTES", "none",
+    {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter",
      "Give up on a model that needs more memory, such as 500M or 2Gi (exit 4).",
-     "Reading a model and drawing it may each use this much at once. k, M, G and T are powers of 1000; Ki, Mi, "
-     "Gi and Ti of 1024. For `check` it is what the process that draws a shader may use.",
+     "Reading a model and drawing it may each use this much at once, pictures and decoders included; it is counted "
+     "before it is taken. By default it is a quarter of what this process may use: the smallest of the machine's "
+     "memory, the limits of its control groups (cgroup v1 and v2) and its own (`ulimit -v`, `ulimit -d`), divided "
+     "among the models that are worked on at the same time. `none` takes the limit away. k, M, G and T are powers of "
+     "1000; Ki, Mi, Gi and Ti of 1024. For `check` it is what the process that draws a shader may use.",
      .store = store_bytes, .others = "max-memory memory ram", FIELD(memory_limit_bytes), .single = TAKES_MEMORY},
-    {"files-inside", 0, GROUP_WORK, NULL, NULL, "Let a scene file name only files of its own folder.",
+    {"time-limit", 0, GROUP_LIMITS, "SECONDS", "600", "Give up on a model after this time (exit 4); none: never.",
+     "The time is that of a clock on the wall, for each model: reading, drawing and writing together.",
+     .store = store_seconds, .others = "timeout", FIELD(time_limit_s), .min = 0.001, .max = 1e9,
+     .single = TAKES_PICTURE_LIMITS},
+    {"triangle-limit", 0, GROUP_LIMITS, "N", "200M", "Give up on a model of more triangles (exit 4).",
+     "Lines and points count too, and each object counts the triangles of its mesh. k, M and G are powers of 1000.",
+     .store = store_count, .others = "max-triangles polygon-limit vertex-limit", FIELD(triangle_limit),
+     .max = 2147483647},
+    {"pixel-limit", 0, GROUP_LIMITS, "N", "400M",
+     "Refuse to read a picture of more pixels: a texture, an environment (exit 4).",
+     "A file's header is looked at before memory is taken. A side has at most 65535 pixels in any case.",
+     .store = store_count, .others = "max-pixels texture-limit image-limit", FIELD(pixel_limit), .max = 4294836225,
+     .single = TAKES_PICTURE_LIMITS},
+    {"file-limit", 0, GROUP_LIMITS, "BYTES", "32G", "Refuse to read a larger file (exit 4).",
+     "Each file counts by itself: the model, and what it names.", .store = store_bytes,
+     .others = "max-file-size file-size-limit", FIELD(file_limit_bytes), .single = TAKES_PICTURE_LIMITS},
+    {"json-depth-limit", 0, GROUP_LIMITS, "N", "256",
+     "Refuse JSON whose lists and objects are nested deeper: glTF and scene files (exit 4).", NULL,
+     .store = store_integer, .others = "max-depth nesting", FIELD(json_depth_limit), .min = 1, .max = 2000},
+    {"files-inside", 0, GROUP_LIMITS, NULL, NULL, "Let a scene file name only files of its own folder.",
      "For scene files from strangers: the models and pictures that one names must lie in its own folder or below "
      "it, wherever links and `..` lead, so that it cannot show other files. The files that a model names (MTL) "
      "lie in the model's folder in any case, and files named on the command line may lie anywhere.",

@@ -1,6 +1,7 @@
 // option_values.c: parses the values of options.
 #include "options.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -188,8 +189,9 @@ bool store_segments(const struct option *option, const char *value, struct optio
     return true;
 }
 
-// "500M": k, M, G, T are powers of 1000; Ki, Mi, Gi, Ti of 1024.
-bool store_bytes(const struct option *option, const char *value, struct options *options, lam_error *error)
+// A number that k, M, G, T may multiply by powers of 1000, or Ki, Mi, Gi, Ti by powers of 1024. NULL: it is none; else
+// what follows it.
+static const char *read_multiple(const char *value, double *out)
 {
     double number;
     const char *rest = read_number(value, &number);
@@ -200,11 +202,47 @@ bool store_bytes(const struct option *option, const char *value, struct options 
             number *= binary ? 1024 : 1000;
         rest += binary ? 2 : 1;
     }
+    *out = rest ? number : 0;
+    return rest;
+}
+
+// "500M", or "none", which only the limits of time and memory have.
+bool store_bytes(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    double number;
+    uint64_t *out = field_of(options, option->field);
+    bool may_be_none = option->single == TAKES_MEMORY;
+    const char *rest = read_multiple(value, &number);
+    if (may_be_none && strcmp(value, "none") == 0) {
+        *out = UINT64_MAX;
+        return true;
+    }
     if (rest && *rest == 'B')
         rest++;
     if (!rest || *rest || !(number >= 1 && number <= 1e18))
-        return wrong(error, value, "bytes, such as 500M or 2Gi");
+        return wrong(error, value, may_be_none ? "bytes, such as 500M or 2Gi, or none" : "bytes, such as 500M or 2Gi");
+    *out = (uint64_t)number;
+    return true;
+}
+
+bool store_count(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    double number;
+    const char *rest = read_multiple(value, &number);
+    if (!rest || *rest || !(number >= 1 && number <= option->max)) {
+        char expected[80];
+        snprintf(expected, sizeof expected, "a number from 1 to %.0f, such as 5000 or 20M", option->max);
+        return wrong(error, value, expected);
+    }
     *(uint64_t *)field_of(options, option->field) = (uint64_t)number;
+    return true;
+}
+
+bool store_seconds(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    if (strcmp(value, "none") != 0)
+        return store_number(option, value, options, error);
+    *(double *)field_of(options, option->field) = (double)INFINITY;
     return true;
 }
 

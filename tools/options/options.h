@@ -96,9 +96,17 @@ struct options {
     int device;            // enum device_name
     const char *gl_device; // a number or a part of a name; NULL: the first
     int repeat;
-    double time_limit_s;         // 0: none
-    uint64_t memory_limit_bytes; // 0: none
-    bool files_inside;           // that a scene file names
+
+    // Limits (limits.h)
+    double time_limit_s;         // 0: the default; infinity: none
+    uint64_t memory_limit_bytes; // 0: the default; UINT64_MAX: none
+    uint64_t triangle_limit;     // 0: the library's default, as in the next ones
+    uint64_t pixel_limit;
+    uint64_t file_limit_bytes;
+    int json_depth_limit;
+    bool files_inside; // that a scene file names
+    // Models that are worked on at the same time, which share the default memory; set by the loop over them. 0: one.
+    int in_flight;
 
     // Comparison of pictures
     double tolerance, gain;
@@ -146,6 +154,7 @@ enum {
     TAKES_FILES = 1u << 28,
     TAKES_THREADS = 1u << 29,
     TAKES_MEMORY = 1u << 30,
+    TAKES_PICTURE_LIMITS = 1u << 23,
 };
 
 // The background of the sheets of `compare` and `materials`, unless the command line names another.
@@ -177,6 +186,7 @@ enum option_group {
     GROUP_MATERIALS,
     GROUP_SHADING,
     GROUP_WORK,
+    GROUP_LIMITS,
     GROUP_REPORT,
     GROUP_DIFF,
     GROUP_PLOT,
@@ -263,6 +273,8 @@ bool store_glsl(const struct option *, const char *, struct options *, lam_error
 bool store_up(const struct option *, const char *, struct options *, lam_error *);           // likewise
 bool store_integer(const struct option *, const char *, struct options *, lam_error *);      // int
 bool store_number(const struct option *, const char *, struct options *, lam_error *);       // double
+bool store_seconds(const struct option *, const char *, struct options *, lam_error *);      // double, or none
+bool store_count(const struct option *, const char *, struct options *, lam_error *);        // uint64_t
 bool store_exposure(const struct option *, const char *, struct options *, lam_error *);     // double, or auto
 bool store_size(const struct option *, const char *, struct options *, lam_error *);         // width, height
 bool store_segments(const struct option *, const char *, struct options *, lam_error *);     // slices, stacks

@@ -3,6 +3,7 @@
 #include "gltf_draco.h"
 
 #include "draco/draco_module.h"
+#include "draco_header.h"
 #include "gltf_accessors.h"
 #include "gltf_buffers.h"
 #include "gltf_json.h"
@@ -159,17 +160,43 @@ static bool has_plain_bytes(struct gltf *gltf, const json_t *primitive)
     return there && json_object_get(gltf_list_item(gltf, "accessors", (int)number), "bufferView");
 }
 
+// Accounts for what the decoder is going to take, which is Draco's own.
+static bool charge_claim(const struct decoding *d, const struct gltf_view *view, size_t *charged)
+{
+    struct gltf *gltf = d->gltf;
+    struct draco_claim claim;
+    if (!draco_header_read(view->data, view->size, &claim))
+        return json_fail(&gltf->json, d->place, "the compressed bytes are damaged: they have no header of a mesh");
+    if (!call_check_triangles(gltf->source->call, gltf->source->name, claim.faces, "triangles", gltf->json.error))
+        return false;
+    uint64_t points_max = 3 * call_triangle_limit(gltf->source->call);
+    if (claim.points > points_max)
+        return fail(gltf->json.error, LAM_LIMIT,
+                    "%s: %u vertices, expected at most %llu, three for each triangle (--triangle-limit)",
+                    gltf->source->name, claim.points, (unsigned long long)points_max);
+    uint64_t bytes = draco_claim_bytes(&claim);
+    if (bytes > SIZE_MAX || !call_charge(gltf->source->call, (size_t)bytes))
+        return gltf_no_memory(gltf, (size_t)bytes);
+    *charged = (size_t)bytes;
+    return true;
+}
+
 static bool decode(struct decoding *d, const struct place *place, const json_t *primitive, const json_t *ids,
                    bool strip)
 {
     char reason[DRACO_REASON_SIZE];
+    size_t charged = 0;
     const struct gltf_view *view = gltf_view_at(d->gltf, d->view);
-    if (!view ||
-        !succeeded(d, d->place,
-                   d->functions->decode(view->data, view->size, &d->mesh, &d->vertices, &d->triangles, reason), reason))
+    if (!view || !charge_claim(d, view, &charged))
         return false;
-    bool ok = decode_attributes(d, place, primitive, ids) && decode_indices(d, place, primitive, strip);
-    d->functions->free(d->mesh);
+    bool ok =
+        succeeded(d, d->place,
+                  d->functions->decode(view->data, view->size, &d->mesh, &d->vertices, &d->triangles, reason), reason);
+    if (ok) {
+        ok = decode_attributes(d, place, primitive, ids) && decode_indices(d, place, primitive, strip);
+        d->functions->free(d->mesh);
+    }
+    call_refund(d->gltf->source->call, charged);
     return ok;
 }
 

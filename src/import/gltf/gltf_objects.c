@@ -46,8 +46,29 @@ struct instances {
     size_t count;
 };
 
+// Whether all instances are within the call's limits, before the first one is made.
+static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, size_t count)
+{
+    struct call_control *call = gltf->source->call;
+    uint64_t items = 0;
+    size_t objects = 0;
+    for (int i = 0; i < mesh->count; i++)
+        if (mesh->primitives[i].mesh >= 0) {
+            items += mesh_items(scene_mesh(gltf->scene, mesh->primitives[i].mesh));
+            objects += count;
+        }
+    items = items && count > UINT64_MAX / items ? UINT64_MAX : items * count;
+    if (!call_check_triangles(call, gltf->source->name, items, "triangles, lines and points of instances",
+                              gltf->json.error))
+        return false;
+    if (!call_charge(call, objects * sizeof(lam_object)))
+        return gltf_no_memory(gltf, objects * sizeof(lam_object));
+    call_refund(call, objects * sizeof(lam_object)); // each object is charged when it is made
+    return true;
+}
+
 static bool take_instances(struct gltf *gltf, const struct place *place, const json_t *attributes, const char *key,
-                           int width, const float **out, size_t *count)
+                           const struct gltf_mesh *mesh, int width, const float **out, size_t *count)
 {
     char words[64];
     const struct place *here = KEY_OF(place, key);
@@ -61,6 +82,8 @@ static bool take_instances(struct gltf *gltf, const struct place *place, const j
                          width == 4 ? ", or of normalized BYTE or SHORT" : "");
     if (*count && a->count != *count)
         return json_fail(&gltf->json, here, "found %zu elements, but another attribute has %zu", a->count, *count);
+    if (!*count && !check_instances(gltf, mesh, a->count))
+        return false;
     *count = a->count;
     *out = gltf_floats(gltf, here, a, GLTF_REQUIRED);
     return *out;
@@ -89,9 +112,10 @@ static bool add_instances(struct gltf *gltf, const struct place *place, const js
     bool ok = true;
     const json_t *attributes = gltf_take_object(gltf, place, extension, "attributes", &ok);
     const struct place *here = KEY_OF(place, "attributes");
-    if (!ok || !take_instances(gltf, here, attributes, "TRANSLATION", 3, &instances.translation, &instances.count) ||
-        !take_instances(gltf, here, attributes, "ROTATION", 4, &instances.rotation, &instances.count) ||
-        !take_instances(gltf, here, attributes, "SCALE", 3, &instances.scale, &instances.count))
+    if (!ok ||
+        !take_instances(gltf, here, attributes, "TRANSLATION", mesh, 3, &instances.translation, &instances.count) ||
+        !take_instances(gltf, here, attributes, "ROTATION", mesh, 4, &instances.rotation, &instances.count) ||
+        !take_instances(gltf, here, attributes, "SCALE", mesh, 3, &instances.scale, &instances.count))
         return false;
     if (!instances.count)
         return add_mesh(gltf, mesh, name, world);

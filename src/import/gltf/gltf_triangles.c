@@ -84,6 +84,8 @@ bool gltf_triangles(struct gltf *gltf, const struct place *place, const json_t *
     if (triangles > UINT32_MAX / 3)
         return fail(gltf->json.error, LAM_LIMIT, "%s: a primitive of %zu triangles, expected at most %u",
                     gltf->source->name, triangles, UINT32_MAX / 3);
+    if (!call_check_triangles(gltf->source->call, gltf->source->name, triangles, "triangles", gltf->json.error))
+        return false;
     if (mode != GLTF_TRIANGLES)
         return unroll(gltf, mode, indices, count, mesh);
     mesh->indices = indices;

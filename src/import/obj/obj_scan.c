@@ -226,5 +226,5 @@ bool obj_scan(struct obj *obj, lam_error *error)
     if (sum.triangles > UINT32_MAX / 3)
         return fail(error, LAM_LIMIT, "%s: %llu triangles, expected at most %u", name,
                     (unsigned long long)sum.triangles, UINT32_MAX / 3);
-    return true;
+    return call_check_triangles(obj->source->call, name, sum.triangles, "triangles", error);
 }

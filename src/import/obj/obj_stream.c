@@ -331,7 +331,8 @@ static bool indices_valid(const struct stream *stream)
                 return false;
         }
     }
-    return total->triangles > 0 && total->positions < COUNT_MAX && total->triangles <= UINT32_MAX / 3;
+    return total->triangles > 0 && total->positions < COUNT_MAX && total->triangles <= UINT32_MAX / 3 &&
+           total->triangles <= call_triangle_limit(stream->obj->source->call);
 }
 
 // Trims the array to its elements and passes its ownership to the arena. NULL: out of memory.

@@ -8,10 +8,12 @@
 
 enum { TRIANGLES_MAX = 1431655765 }; // (2³² − 1) ÷ 3: corners have 32-bit indices
 
-static bool fail_too_many(const struct import_source *source, uint64_t triangles, lam_error *error)
+static bool check_count(const struct import_source *source, uint64_t triangles, lam_error *error)
 {
-    return fail(error, LAM_LIMIT, "%s: %llu triangles, expected at most %d", source->name,
-                (unsigned long long)triangles, TRIANGLES_MAX);
+    if (triangles > TRIANGLES_MAX)
+        return fail(error, LAM_LIMIT, "%s: %llu triangles, expected at most %d", source->name,
+                    (unsigned long long)triangles, TRIANGLES_MAX);
+    return call_check_triangles(source->call, source->name, triangles, "triangles", error);
 }
 
 struct polygons {
@@ -78,8 +80,8 @@ static bool triangulate_polygons(struct polygons *polygons, bool want_faces, str
         degenerate += count < 3;
         triangles += count < 3 ? 0 : count - 2;
     }
-    if (triangles > TRIANGLES_MAX)
-        return fail_too_many(source, triangles, error);
+    if (!check_count(source, triangles, error))
+        return false;
     if (degenerate > 0)
         scene_warn(scene, "%s: %zu of %zu faces have fewer than three corners and are ignored", source->name,
                    degenerate, faces->count);
@@ -157,8 +159,8 @@ static bool load_faces(const struct import_source *source, const struct ply_tabl
         if (!triangulate_polygons(&polygons, own_normals || own_colors, scene, scratch, mesh, error))
             return false;
     } else {
-        if (faces->count > TRIANGLES_MAX)
-            return fail_too_many(source, faces->count, error);
+        if (!check_count(source, faces->count, error))
+            return false;
         mesh->indices = faces->items;
         mesh->triangle_count = (uint32_t)faces->count;
     }
@@ -206,8 +208,8 @@ bool ply_strips(const struct import_source *source, const struct ply_table *stri
     uint64_t triangles = 0;
     for (size_t row = 0; row < strips->count; row++)
         triangles += strip_triangles(strips->items + strips->starts[row], corners_of(strips, row), NULL);
-    if (triangles > TRIANGLES_MAX)
-        return fail_too_many(source, triangles, error);
+    if (!check_count(source, triangles, error))
+        return false;
     uint32_t *indices = arena_array(&scene->arena, triangles, 3 * sizeof *indices), *out = indices;
     if (!indices)
         return call_memory_error(source->call, triangles * 3 * sizeof *indices, error);

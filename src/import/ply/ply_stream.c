@@ -79,7 +79,7 @@ static void read_faces(void *user, size_t index, int thread)
 }
 
 // Whether the header declares the usual layout and the file has its bytes.
-static bool has_usual_layout(const struct ply_header *header, size_t size)
+static bool has_usual_layout(const struct ply_header *header, size_t size, const struct call_control *call)
 {
     if (header->format != PLY_LITTLE || header->element_count != 2)
         return false;
@@ -93,7 +93,7 @@ static bool has_usual_layout(const struct ply_header *header, size_t size)
         return false;
     size_t body = size - header->body;
     return vertices->count > 0 && faces->count > 0 && vertices->count < UINT32_MAX && faces->count <= TRIANGLES_MAX &&
-           vertices->count <= body / vertices->scalar_bytes &&
+           faces->count <= call_triangle_limit(call) && vertices->count <= body / vertices->scalar_bytes &&
            faces->count <= (body - vertices->count * vertices->scalar_bytes) / FACE;
 }
 
@@ -142,7 +142,8 @@ static bool load(struct stream *stream, struct lam_scene *scene, struct arena *s
     const struct import_source *source = stream->source;
     struct ply_header header;
     lam_mesh mesh = {0};
-    if (!ply_read_header(source, scratch, &header, NULL) || !has_usual_layout(&header, stream->file->size))
+    if (!ply_read_header(source, scratch, &header, NULL) ||
+        !has_usual_layout(&header, stream->file->size, source->call))
         return false;
     ply_warn_header(source, scene, &header);
     const struct ply_element *vertices = &header.elements[0], *faces = &header.elements[1];

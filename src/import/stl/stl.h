@@ -24,11 +24,13 @@ bool stl_load_stream(const struct import_source *source, const struct file_parts
 
 enum { STL_FACETS_MAX = 1431655765 }; // (2³² − 1) ÷ 3: corners have 32-bit indices
 
-// The error for more than STL_FACETS_MAX facets: LAM_LIMIT. Returns false.
-static inline bool stl_fail_too_many(const struct import_source *source, uint64_t facets, lam_error *error)
+// Whether a file may have so many facets; false: LAM_LIMIT.
+static inline bool stl_check_count(const struct import_source *source, uint64_t facets, lam_error *error)
 {
-    return fail(error, LAM_LIMIT, "%s: %llu facets, expected at most %d", source->name, (unsigned long long)facets,
-                STL_FACETS_MAX);
+    if (facets > STL_FACETS_MAX)
+        return fail(error, LAM_LIMIT, "%s: %llu facets, expected at most %d", source->name, (unsigned long long)facets,
+                    STL_FACETS_MAX);
+    return call_check_triangles(source->call, source->name, facets, "facets", error);
 }
 
 #endif

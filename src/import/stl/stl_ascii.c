@@ -263,8 +263,8 @@ bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene,
     size_t corners = text_count_word(reader.start, reader.end, "vertex");
     size_t parts =
         1 + text_count_word(reader.start, reader.end, "solid") + text_count_word(reader.start, reader.end, "endsolid");
-    if (corners / 3 > STL_FACETS_MAX)
-        return stl_fail_too_many(source, corners / 3, error);
+    if (!stl_check_count(source, corners / 3, error))
+        return false;
     reader.positions = arena_array(&scene->arena, corners, 3 * sizeof(float));
     reader.parts = arena_array(&scene->arena, parts, sizeof(lam_part));
     if (!reader.positions || !reader.parts)

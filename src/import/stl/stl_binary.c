@@ -177,8 +177,8 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
                     "%s: the file is truncated: its header declares %u facets (%llu bytes), found %zu (%zu bytes)",
                     source->name, declared, (unsigned long long)STL_FACETS + (unsigned long long)STL_FACET * declared,
                     present, source->size);
-    if (declared > STL_FACETS_MAX)
-        return stl_fail_too_many(source, declared, error);
+    if (!stl_check_count(source, declared, error))
+        return false;
     if (declared == 0)
         return true;
 

@@ -58,7 +58,8 @@ bool stl_load_stream(const struct import_source *source, const struct file_parts
 {
     uint32_t count;
     memcpy(&count, source->bytes + STL_HEADER, sizeof count);
-    if (file->size != STL_FACETS + (uint64_t)STL_FACET * count || count > STL_FACETS_MAX || has_color(source->bytes))
+    if (file->size != STL_FACETS + (uint64_t)STL_FACET * count || !stl_check_count(source, count, NULL) ||
+        has_color(source->bytes))
         return false;
     struct arena scratch;
     arena_start(&scratch, source->call);

@@ -1,0 +1,126 @@
+// memory.c: the memory that this process may use: the smallest of what the machine has and what its limits are.
+//
+// Control groups limit memory in a container or under a batch system: cgroup v2 in memory.max, v1 in
+// memory.limit_in_bytes, each for a group and all below it. Within a container the path in /proc/self/cgroup may be the
+// host's, so that it leads nowhere: the groups above it, up to the mount's root, are read all the same.
+// https://docs.kernel.org/admin-guide/cgroup-v2.html, .../cgroup-v1/memory.html
+#include "memory.h"
+
+#include "pages.h"
+
+#include <lambent/base.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#if defined(__wasm__)
+
+uint64_t memory_of_groups(const char *root)
+{
+    (void)root;
+    return UINT64_MAX;
+}
+
+uint64_t lam_memory_available(void) { return UINT64_MAX; }
+
+#else
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+enum { PATH_BYTES = 4096 };
+
+// The first bytes of a file as text; false: it cannot be read.
+static bool read_head(const char *path, char *text, size_t size)
+{
+    int file = open(path, O_RDONLY | O_CLOEXEC);
+    size_t used = 0;
+    if (file < 0)
+        return false;
+    for (ssize_t got = 1; got > 0 && used < size - 1; used += got > 0 ? (size_t)got : 0)
+        got = read(file, text + used, size - 1 - used);
+    close(file);
+    text[used] = 0;
+    return used > 0;
+}
+
+static uint64_t smaller(uint64_t a, uint64_t b) { return a < b ? a : b; }
+
+// The smallest limit of a group and those above it: `path` is the group's, below `mount`. "max" is no number.
+static uint64_t limit_of_group(const char *root, const char *mount, const char *path, const char *file)
+{
+    char name[PATH_BYTES + 200], text[64];
+    uint64_t limit = UINT64_MAX;
+    size_t length = strlen(path);
+    for (;;) {
+        while (length > 0 && path[length - 1] == '/')
+            length--;
+        snprintf(name, sizeof name, "%s%s%.*s/%s", root, mount, (int)length, path, file);
+        if (read_head(name, text, sizeof text) && *text >= '0' && *text <= '9')
+            limit = smaller(limit, strtoull(text, NULL, 10));
+        if (length == 0)
+            return limit;
+        while (length > 0 && path[length - 1] != '/')
+            length--;
+    }
+}
+
+// Whether a comma-separated list of controllers names memory's.
+static bool names_memory(const char *list, size_t length)
+{
+    static const char word[] = "memory";
+    for (const char *at = list; (size_t)(at - list) + sizeof word - 1 <= length; at++)
+        if (memcmp(at, word, sizeof word - 1) == 0 && (at == list || at[-1] == ',') &&
+            ((size_t)(at - list) + sizeof word - 1 == length || at[sizeof word - 1] == ','))
+            return true;
+    return false;
+}
+
+// A line of /proc/self/cgroup, "number:controllers:path": v2's has the number 0 and no controllers.
+static uint64_t limit_of_line(const char *root, char *line)
+{
+    char *list = strchr(line, ':'), *path = list ? strchr(list + 1, ':') : NULL;
+    if (!path)
+        return UINT64_MAX;
+    list++;
+    if (path == list)
+        return smaller(limit_of_group(root, "/sys/fs/cgroup", path + 1, "memory.max"),
+                       limit_of_group(root, "/sys/fs/cgroup/unified", path + 1, "memory.max"));
+    return names_memory(list, (size_t)(path - list))
+               ? limit_of_group(root, "/sys/fs/cgroup/memory", path + 1, "memory.limit_in_bytes")
+               : UINT64_MAX;
+}
+
+uint64_t memory_of_groups(const char *root)
+{
+    char name[PATH_BYTES], text[PATH_BYTES];
+    uint64_t limit = UINT64_MAX;
+    snprintf(name, sizeof name, "%s/proc/self/cgroup", root);
+    if (!read_head(name, text, sizeof text))
+        return UINT64_MAX;
+    for (char *line = text, *next; line && *line; line = next) {
+        next = strchr(line, '\n');
+        if (next)
+            *next++ = 0;
+        limit = smaller(limit, limit_of_line(root, line));
+    }
+    return limit;
+}
+
+static uint64_t limit_of_process(int resource)
+{
+    struct rlimit limit;
+    return getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? limit.rlim_cur : UINT64_MAX;
+}
+
+uint64_t lam_memory_available(void)
+{
+    size_t machine = pages_of_machine();
+    uint64_t bytes = machine == SIZE_MAX ? UINT64_MAX : machine;
+    bytes = smaller(bytes, memory_of_groups(""));
+    return smaller(bytes, smaller(limit_of_process(RLIMIT_AS), limit_of_process(RLIMIT_DATA)));
+}
+
+#endif

@@ -1,0 +1,265 @@
+# test_limits.py: limits on files from strangers: small files that claim to be huge, and each limit with its option.
+import base64
+import json
+import os
+import pathlib
+import resource
+import struct
+import subprocess
+import sys
+import zlib
+
+from harness import Case, PROGRAM, ROOT
+
+BILLIONS = 4294967295
+SANITIZED = b"libasan" in pathlib.Path(PROGRAM).read_bytes() or b"__asan_init" in pathlib.Path(PROGRAM).read_bytes()
+
+
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def png(width, height, bits=8, color=2, data=b"\0" * 4):
+    header = struct.pack(">IIBBBBB", width, height, bits, color, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b"")
+
+
+def jpeg(width, height, progressive=False):
+    return (b"\xff\xd8\xff\xdb\0\x43\0" + b"\1" * 64 + (b"\xff\xc2" if progressive else b"\xff\xc0") +
+            struct.pack(">HBHHB", 17, 8, height, width, 3) + b"\1\x11\0\2\x11\0\3\x11\0" +
+            b"\xff\xda\0\x0c\3\1\0\2\0\3\0\0\x3f\0" + b"\0" * 20 + b"\xff\xd9")
+
+
+def exr(width, height):
+    def attribute(name, kind, data):
+        return name + b"\0" + kind + b"\0" + struct.pack("<I", len(data)) + data
+    box = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    channels = b"".join(name + b"\0" + struct.pack("<IBBBBII", 2, 0, 0, 0, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    return (struct.pack("<II", 20000630, 2) + attribute(b"channels", b"chlist", channels) + attribute(b"compression", b"compression", b"\3") +
+            attribute(b"dataWindow", b"box2i", box) + attribute(b"displayWindow", b"box2i", box) + attribute(b"lineOrder", b"lineOrder", b"\0") +
+            attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1)) + attribute(b"screenWindowCenter", b"v2f", struct.pack("<2f", 0, 0)) +
+            attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1)) + b"\0" + b"\0" * 64)
+
+
+def webp(width, height):
+    bits = (width - 1) | (height - 1) << 14
+    body = b"WEBPVP8L" + struct.pack("<I", 12) + b"\x2f" + struct.pack("<I", bits) + b"\0" * 7
+    return b"RIFF" + struct.pack("<I", len(body)) + body
+
+
+PICTURES = {
+    "a.png": png(65535, 65535), "wide.png": png(2147483647, 2147483647), "deep.png": png(20000, 20000, 16, 6), "text.png": png(4, 4),
+    "a.jpg": jpeg(65500, 65500), "progressive.jpg": jpeg(65500, 65500, True), "small.jpg": jpeg(19000, 19000, True),
+    "a.webp": webp(16384, 16384),
+    "a.tga": struct.pack("<3B5x4HBB", 0, 0, 2, 0, 0, 65535, 65535, 24, 0) + b"\0" * 50,
+    "packed.tga": struct.pack("<3B5x4HBB", 0, 0, 10, 0, 0, 65535, 65535, 24, 0) + b"\xff\0\0\0" * 20,
+    "a.bmp": b"BM" + struct.pack("<IHHIIiiHHIIiiII", 200, 0, 0, 54, 40, 65535, 65535, 1, 24, 0, 0, 0, 0, 0, 0) + b"\0" * 40,
+    "packed.bmp": b"BM" + struct.pack("<IHHIIiiHHIIiiII", 200, 0, 0, 54, 40, 65535, 65535, 1, 8, 1, 0, 0, 0, 0, 0) + b"\0" * 40,
+    "a.hdr": b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 65535 +X 65535\n" + b"\2\2\x7f\xff\xff\1" * 10,
+    "a.exr": exr(65535, 65535), "wide.exr": exr(2147483647, 2147483647), "a.ppm": b"P6 65535 65535 255\n" + b"\0" * 50,
+    "a.pfm": b"PF\n65535 65535\n-1\n" + b"\0" * 50,
+}
+
+
+def gltf(**more):
+    """One triangle whose positions are accessor 0; `more` replaces or adds to the top."""
+    data = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+    tree = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}], "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}]}
+    tree.update(more)
+    return json.dumps(tree).encode()
+
+
+def accessor(**more):
+    return {"componentType": 5126, "count": BILLIONS, "type": "VEC3", **more}
+
+
+def instances(count, **more):
+    return gltf(accessors=[accessor(bufferView=0, count=3), accessor(count=count)], extensionsUsed=["EXT_mesh_gpu_instancing"],
+                nodes=[{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 1}}}}], **more)
+
+
+def meshopt(count, mode, stride, **more):
+    compressed = {"buffer": 0, "byteLength": 36, "byteStride": stride, "count": count, "mode": mode, **more}
+    return gltf(extensionsUsed=["EXT_meshopt_compression"], extensionsRequired=["EXT_meshopt_compression"],
+                buffers=[{"byteLength": 36, "uri": "data:application/octet-stream;base64," + base64.b64encode(b"\xa0" + b"\0" * 35).decode()}],
+                bufferViews=[{"buffer": 0, "byteLength": count * stride, "byteStride": stride, "extensions": {"EXT_meshopt_compression": compressed}}],
+                accessors=[accessor(bufferView=0, count=count)])
+
+
+def varint(number):
+    out = bytearray()
+    while number >= 128:
+        out.append(number & 127 | 128)
+        number >>= 7
+    return bytes(out) + bytes([number])
+
+
+def draco(body, count=3):
+    return gltf(extensionsUsed=["KHR_draco_mesh_compression"], extensionsRequired=["KHR_draco_mesh_compression"],
+                meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1,
+                                         "extensions": {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}}]}],
+                buffers=[{"byteLength": len(body), "uri": "data:application/octet-stream;base64," + base64.b64encode(body).decode()}],
+                bufferViews=[{"buffer": 0, "byteLength": len(body)}],
+                accessors=[{"componentType": 5126, "count": count, "type": "VEC3"}, {"componentType": 5125, "count": count, "type": "SCALAR"}])
+
+
+def draco_mesh(method, rest):
+    return b"DRACO\2\2\1" + bytes([method]) + b"\0\0" + rest + b"\0" * 100
+
+
+HUGE = (1 << 32) - 1
+MODELS = {
+    "index.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4294967295\n", "relative.obj": b"v 0 0 0\nf -4294967295 1 1\n",
+    "number.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999\n",
+    "ascii.ply": b"ply\nformat ascii 1.0\nelement vertex 4294967295\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
+    "binary.ply": b"ply\nformat binary_little_endian 1.0\nelement vertex 4294967295\nproperty float x\nproperty float y\nproperty float z\nend_header\n" + b"\0" * 60,
+    "faces.ply": b"ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 4294967295\n"
+                 b"property list uchar int vertex_indices\nend_header\n" + b"\0" * 60,
+    "list.ply": b"ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+                b"property list uint int vertex_indices\nend_header\n" + b"\0" * 12 + b"\xff" * 30,
+    "empty.ply": b"ply\nformat ascii 1.0\nelement nothing 18446744073709551615\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n",
+    "a.stl": b"\0" * 80 + struct.pack("<I", BILLIONS) + b"\0" * 50,
+    "zeros.gltf": gltf(accessors=[accessor()]), "view.gltf": gltf(accessors=[accessor(bufferView=0)]),
+    "sparse.gltf": gltf(accessors=[accessor(sparse={"count": 1, "indices": {"bufferView": 0, "componentType": 5125}, "values": {"bufferView": 0}})]),
+    "sparse-count.gltf": gltf(accessors=[accessor(sparse={"count": BILLIONS, "indices": {"bufferView": 0, "componentType": 5125}, "values": {"bufferView": 0}})]),
+    "instances.gltf": instances(BILLIONS), "many-instances.gltf": instances(250000000),
+    "buffer.gltf": gltf(buffers=[{"byteLength": 9000000000, "uri": "data:application/octet-stream;base64,AAAA"}]),
+    "indices.gltf": gltf(accessors=[accessor(bufferView=0, count=3), {"componentType": 5125, "count": BILLIONS, "type": "SCALAR"}],
+                         meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}]),
+    "meshopt.gltf": meshopt(BILLIONS, "ATTRIBUTES", 12), "meshopt-indices.gltf": meshopt(BILLIONS // 3 * 3, "TRIANGLES", 4),
+    "meshopt-oct.gltf": meshopt(300000000, "ATTRIBUTES", 8, filter="OCTAHEDRAL"),
+    "draco-sequential.gltf": draco(draco_mesh(0, varint(HUGE // 3) + varint(HUGE) + b"\1")),
+    "draco-edgebreaker.gltf": draco(draco_mesh(1, b"\0" + varint(HUGE // 2) + varint(HUGE // 3) + b"\1" + varint(HUGE // 3) + b"\0\0")),
+    "draco-valence.gltf": draco(draco_mesh(1, b"\2" + varint(HUGE // 2) + varint(HUGE // 3) + b"\1" + varint(HUGE // 3) + b"\0\0")),
+    "draco-accessor.gltf": draco(draco_mesh(0, varint(1) + varint(3) + b"\1\0\1\2\1"), BILLIONS),
+    "a.glb": b"glTF" + struct.pack("<III", 2, BILLIONS, BILLIONS) + b"JSON{}",
+    "shape.json": json.dumps({"lambent": 1, "objects": [{"shape": "sphere", "slices": 16384, "stacks": 16384}]}).encode(),
+    "image.json": json.dumps({"lambent": 1, "image": {"width": 65535, "height": 65535}, "objects": [{"shape": "cube"}]}).encode(),
+}
+
+
+class Limits(Case):
+    # The system's largest resident memory counts from before exec(), so a small process starts the program and measures it.
+    MEASURE = ("import resource, subprocess, sys; code = subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL).returncode; "
+               "u = resource.getrusage(resource.RUSAGE_CHILDREN); print(code, u.ru_utime + u.ru_stime, u.ru_maxrss / 1000)")
+
+    def measured(self, *words, limit=None):
+        """Exit code, message, seconds of the processor, and largest resident memory in MB of a run."""
+        done = subprocess.run([sys.executable, "-S", "-c", self.MEASURE, PROGRAM, *words], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              preexec_fn=limit)
+        code, cpu, memory = done.stdout.split()
+        return int(code), done.stderr.decode(errors="replace"), float(cpu), float(memory)
+
+    def claims(self, name, *words):
+        code, text, cpu, memory = self.measured(*words)
+        with self.subTest(name):
+            self.assertIn(code, (2, 3, 4), f"{name}: {code} {text}")
+            self.assertRegex(text, r"^lambent: (error: )?\S")
+            if not SANITIZED:
+                self.assertLess(cpu, 0.5, name)  # of which the program's start has some milliseconds
+                self.assertLess(memory, 150, name)
+
+    def test_models_that_claim_too_much(self):
+        for name, data in MODELS.items():
+            (self.folder / name).write_bytes(data)
+            self.claims(name, name, "-s", "16", "-o", "out.png")
+            self.assertFalse((self.folder / "out.png").exists(), name)
+
+    def test_pictures_that_claim_too_much(self):
+        (self.folder / "one.png").write_bytes(png(1, 1))
+        for name, data in PICTURES.items():
+            (self.folder / name).write_bytes(data)
+            self.claims(name, "diff", name, name)
+            self.claims(name, "cube.obj", "-s", "16", "--environment", name, "-o", "out.png")
+
+    def test_triangles(self):
+        triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 5
+        (self.folder / "five.obj").write_text(triangle)
+        self.good("five.obj", "-s", 8, "--triangle-limit", "5")
+        os.remove(self.folder / "five.png")
+        self.bad(4, "five.obj", "-s", 8, "--triangle-limit", "4", says=["five.obj", "5 triangles", "at most 4", "--triangle-limit"], leaves={"five.obj"})
+        os.remove(self.folder / "five.obj")
+        for ending, count in (("obj", 12), ("stl", 12), ("ply", 12)):
+            if (self.folder / f"cube.{ending}").exists():
+                self.bad(4, f"cube.{ending}", "-s", 8, "--triangle-limit", count - 1, says=["expected at most 11", "--triangle-limit"])
+        (self.folder / "five.gltf").write_bytes(instances(5))
+        self.good("five.gltf", "-s", 8, "--triangle-limit", "5", "-o", "a.png")
+        os.remove(self.folder / "a.png")
+        self.bad(4, "five.gltf", "-s", 8, "--triangle-limit", "4", says=["five.gltf", "5 triangles", "at most 4"], leaves={"five.gltf"})
+        self.bad(4, "sphere", "--triangle-limit", "100", "-s", 8, says=["sphere", "at most 100"], leaves={"five.gltf"})
+
+    def test_pixels_file_and_depth(self):
+        (self.folder / "map.png").write_bytes(png(8, 4, data=b"\0" * 25 * 4))
+        self.good("diff", "map.png", "map.png", "--pixel-limit", "32")
+        self.bad(4, "diff", "map.png", "map.png", "--pixel-limit", "31", says=["map.png", "8×4", "are 32", "at most 31", "--pixel-limit"], leaves={"map.png"})
+        self.bad(4, "cube.obj", "--environment", "map.png", "--pixel-limit", "31", says=["map.png", "--pixel-limit"], leaves={"map.png"})
+        size = (self.folder / "cube.obj").stat().st_size
+        self.bad(4, "cube.obj", "--file-limit", size - 1, says=["cube.obj", str(size), f"at most {size - 1}", "--file-limit"], leaves={"map.png"})
+        self.bad(4, "-", "-o", "x.png", "--file-limit", 10, says=["standard input", "at most 10", "--file-limit"], leaves={"map.png"}, stdin=b"v 0 0 0\n" * 10)
+        self.good("cube.obj", "--file-limit", size, "-s", 8)
+        deep = gltf(extras=json.loads("[" * 20 + "]" * 20))
+        (self.folder / "deep.gltf").write_bytes(deep)
+        self.good("deep.gltf", "-s", 8, "--json-depth-limit", "21")
+        os.remove(self.folder / "deep.png")
+        os.remove(self.folder / "cube.png")
+        self.bad(4, "deep.gltf", "-s", 8, "--json-depth-limit", "20", says=["deep.gltf", "21 deep", "at most 20", "--json-depth-limit"], leaves={"map.png", "deep.gltf"})
+        # At the deepest limit there is, the parser's own stack holds.
+        (self.folder / "deep.gltf").write_bytes(gltf(extras=json.loads("[" * 900 + "]" * 900)).replace(b"[" * 800, b"[" * 1899).replace(b"]" * 800, b"]" * 1899))
+        self.good("deep.gltf", "-s", 8, "--json-depth-limit", "2000")
+
+    def test_values(self):
+        for words in (("--triangle-limit", "0"), ("--pixel-limit", "none"), ("--file-limit", "none"), ("--json-depth-limit", "2001"), ("--time-limit", "no"),
+                      ("--memory-limit", "no"), ("--triangle-limit", "5G")):
+            self.bad(1, "cube.obj", *words, says=words[0])
+        self.good("cube.obj", "-s", 8, "--memory-limit", "none", "--time-limit", "none", "--triangle-limit", "1M")
+        self.bad(1, "check", "none.frag", "--memory-limit", "none", says="--memory-limit", leaves={"cube.png"})
+
+    def test_memory_of_address_space(self):
+        """The default is a quarter of RLIMIT_AS: what does not fit is refused, and nothing crashes."""
+        if SANITIZED:
+            self.skipTest("sanitizers take more address space than any limit")
+        limit = 2 << 30
+        code, text, _, memory = self.measured("cube.obj", "-s", "12000", "-o", "a.ppm", limit=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+        self.assertEqual(code, 4, text)
+        self.assertIn("536.9 MB (--memory-limit)", text)
+        self.assertEqual(self.new_files(), set())
+        code, text, *_ = self.measured("cube.obj", "-s", "64", "-o", "a.ppm", limit=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+        self.assertEqual(code, 0, text)
+
+    def test_memory_of_a_control_group(self):
+        """In a group of 512 MB the default is 128 MB: models that do not fit are refused, and the kernel has nothing to kill."""
+        group = self.control_group(512 << 20)
+        if SANITIZED:
+            self.skipTest("sanitizers take more memory")
+        enter = lambda: (group / "cgroup.procs").write_text(str(os.getpid()))
+        code, text, *_ = self.measured("cube.obj", "-s", "7000", "-o", "a.ppm", limit=enter)
+        self.assertEqual(code, 4, text)
+        self.assertIn("134.2 MB", text)
+        # 24 million numbers: the file alone fits, what is made of it does not.
+        (self.folder / "big.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 4000000 + "v 1 2 3\n" * 4000000)
+        code, text, _, memory = self.measured("big.obj", "-s", "64", "-o", "a.ppm", limit=enter)
+        self.assertEqual(code, 4, text)
+        self.assertIn("--memory-limit", text)
+        self.assertLess(memory, 512)
+        code, text, *_ = self.measured("cube.obj", "-s", "1024", "-o", "a.ppm", limit=enter)
+        self.assertEqual(code, 0, text)
+
+    def control_group(self, limit):
+        for base, name in ((pathlib.Path("/sys/fs/cgroup/memory"), "memory.limit_in_bytes"), (pathlib.Path("/sys/fs/cgroup"), "memory.max")):
+            group = base / f"lambent-test-{os.getpid()}"
+            try:
+                if base.name == "memory" and not base.is_dir():
+                    continue
+                group.mkdir()
+            except OSError:
+                continue
+            self.addCleanup(lambda: group.rmdir())
+            try:
+                (group / name).write_text(str(limit))
+                return group
+            except OSError:
+                continue
+        self.skipTest("this machine lets nobody make a control group")

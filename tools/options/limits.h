@@ -1,0 +1,17 @@
+// limits.h: the limits of the options, as the library takes them.
+#ifndef LIMITS_H
+#define LIMITS_H
+
+#include "options.h"
+
+// Bytes that reading a model, and drawing it, may each use: --memory-limit, else a quarter of what this process may use,
+// divided among the options' `in_flight` models. 0: no limit. Any thread.
+uint64_t limits_memory(const struct options *options);
+
+// Seconds for a model. 0: no limit.
+double limits_time(const struct options *options);
+
+// A control with all limits, and a whole model's time.
+lam_control limits_control(const struct options *options);
+
+#endif

@@ -603,6 +603,18 @@ static bool shadows_soft(struct demo *d, lam_error *error)
     d->params.shadow_samples = 24;
     return shadowed(d, 0.3f, error);
 }
+
+// Under light from all around, of which the surfaces near one another keep some.
+static bool occlusion_rays(struct demo *d, lam_error *error)
+{
+    d->params.occlusion = LAM_OCCLUSION_RAYS;
+    d->params.occlusion_radius = 0.3f;
+    d->params.occlusion_samples = 37;
+    if (!shadowed(d, 0, error))
+        return false;
+    lam_scene_set_ambient(d->scene, (lam_rgb){0.7f, 0.7f, 0.7f});
+    return true;
+}
 static bool shadows_gouraud(struct demo *d, lam_error *error)
 {
     d->params.shading = LAM_SHADING_GOURAUD;
@@ -660,6 +672,7 @@ const struct demo_row demos[] = {
     {"shadows-soft", "the same lights with a size", shadows_soft},
     {"shadows-leaves", "the leaves again: light falls through holes, and in part through glass", textured_shadows},
     {"shadows-gouraud", "the same, lit at the vertices", shadows_gouraud},
+    {"occlusion-rays", "the things of the shadows under light from all around, occluded by rays", occlusion_rays},
     {"layers", "index 2.4, blue f0, coat, sheen; brushed metal, films on metal and plastic, all layers at once",
      layers_uniform},
     {"layers-environment", "the same in a studio", layers_environment},

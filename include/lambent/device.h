@@ -188,6 +188,9 @@ typedef enum lam_occlusion {
     // From the distances of the visible surfaces around each pixel (Jimenez et al., "Practical Real-Time Strategies for
     // Accurate Indirect Occlusion", 2016). Surfaces that the picture does not show occlude nothing.
     LAM_OCCLUSION_SCREEN,
+    // By occlusion_samples rays from each lit point: the integral that SCREEN estimates, over all surfaces of the scene. The
+    // CPU device alone; others refuse it (LAM_UNSUPPORTED).
+    LAM_OCCLUSION_RAYS,
     LAM_OCCLUSION_COUNT
 } lam_occlusion;
 
@@ -242,9 +245,10 @@ typedef struct lam_draw_params {
     bool flat_terminator;
     // Points of a light with a radius that are tested for each lit point, 1..256; 0: 16.
     int shadow_samples;
-    lam_occlusion occlusion; // LAM_BAD_ARGUMENT: SCREEN without Phong shading
+    lam_occlusion occlusion; // LAM_BAD_ARGUMENT: SCREEN or RAYS without Phong shading
     // How far away surfaces occlude, as a share of half the diagonal of the scene's box, above 0 … 10. 0: 0.1.
     float occlusion_radius;
+    int occlusion_samples; // with LAM_OCCLUSION_RAYS: rays from each lit point, 1..1024; 0: 64
     LAM_RESERVED(24);
 } lam_draw_params;
 
@@ -255,7 +259,7 @@ typedef struct lam_frame_report {
     double triangles_ms; // rejecting, clipping, binning
     // Making the normals that meshes lack (lam_load_params.normals_when_drawn).
     double normals_ms;
-    double occlusion_ms; // ambient occlusion, after the distances were found
+    double occlusion_ms; // LAM_OCCLUSION_SCREEN, after the distances were found (rays are part of lighting_ms)
     double tiles_ms;     // coverage, lighting and resolve of all tiles
     double total_ms;     // the whole call
     // tiles_ms divided by work, in proportion to the times summed over the threads.
@@ -276,7 +280,7 @@ typedef struct lam_frame_report {
     double depth_near, depth_far;
     // Building the bounding volume hierarchy, in milliseconds; 0: it was not needed, or the last frame's still held.
     double hierarchy_ms;
-    uint64_t rays; // from lit points to lights
+    uint64_t rays; // from lit points: to lights, and of ambient occlusion
     LAM_RESERVED(11);
 } lam_frame_report;
 

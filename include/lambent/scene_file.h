@@ -33,6 +33,7 @@ enum {
     LAM_SETTING_SHADOWS = 1 << 20,           // draw.shadows, draw.flat_terminator, draw.shadow_samples
     LAM_SETTING_OCCLUSION = 1 << 21,         // draw.occlusion
     LAM_SETTING_OCCLUSION_RADIUS = 1 << 22,  // draw.occlusion_radius
+    LAM_SETTING_OCCLUSION_SAMPLES = 1 << 23, // draw.occlusion_samples
 };
 
 // The picture that a scene file describes: its size, camera and way of drawing. lam_scene has the rest. Settings that

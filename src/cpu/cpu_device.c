@@ -181,7 +181,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
         return false;
     uint64_t clock = now_ns();
     bool built = false;
-    if (frame->shadows &&
+    if (frame_has_rays(frame) &&
         !(cpu.shade.hierarchy = hierarchy_of_frame(&device->hierarchy, frame, device->pool, call, &built, error)))
         return false;
     if (frame->shadows && device->light_pattern.count != frame->shadow_samples)

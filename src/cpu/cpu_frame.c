@@ -34,7 +34,7 @@ static void lay_out_shading(struct suballocator *from, struct shading *shading, 
     ARRAY(shading->vertices.rest, vertices);
     ARRAY(shading->batch, 1);
     shading->shadows = NULL;
-    if (frame->shadows)
+    if (frame_has_rays(frame))
         ARRAY(shading->shadows, 1);
     if (!light_culling_wanted(frame))
         return;
@@ -206,7 +206,12 @@ static bool set_up_shading(struct cpu_frame *cpu, struct frame_memory *memory, l
 bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
 {
     const struct frame *frame = cpu->raster.frame;
-    if (frame->occlusion != LAM_OCCLUSION_OFF) {
+    if (frame->occlusion == LAM_OCCLUSION_RAYS) {
+        if (!buffer_reserve(&memory->occlusion, sizeof(struct occlusion_pattern), cpu->call, error))
+            return false;
+        occlusion_pattern_fill(memory->occlusion.data, frame->occlusion_samples);
+        cpu->shade.occlusion_pattern = memory->occlusion.data;
+    } else if (frame->occlusion == LAM_OCCLUSION_SCREEN) {
         if (!screen_occlusion_start(&cpu->occlusion, frame, &memory->occlusion, cpu->call, error))
             return false;
         cpu->shade.occlusion = &cpu->occlusion;

@@ -304,10 +304,12 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
                            (!draw->one_sided && sees_through(frame->materials[back], varies));
         bool masks = frame->materials[front]->alpha_mode == LAM_ALPHA_MASK ||
                      (!draw->one_sided && frame->materials[back]->alpha_mode == LAM_ALPHA_MASK);
+        bool passes_rays = translucent;
         if (output_is_value(frame->output)) // overdraw counts triangles
             translucent = translucent && masks && frame->output != LAM_OUTPUT_OVERDRAW;
         frame->transmits |= passes && !output_is_value(frame->output);
         frame->translucent |= translucent;
+        frame->passes_rays |= passes_rays;
         frame->masked |= translucent && masks;
         frame->ranges[frame->range_count++] = (struct frame_draw_range){draw->first_id + part->first_triangle,
                                                                         part->triangle_count,
@@ -315,7 +317,8 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
                                                                         front,
                                                                         back,
                                                                         translucent,
-                                                                        reflection};
+                                                                        reflection,
+                                                                        passes_rays};
     }
 }
 
@@ -407,6 +410,7 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, const lam
     double share = params->occlusion_radius > 0 ? (double)params->occlusion_radius : 0.1;
     if (frame->occlusion && lam_scene_bounds(scene, &low, &high))
         frame->occlusion_radius = rounded(0.5 * share * v3_length(v3_sub(high, low)));
+    frame->occlusion_samples = params->occlusion_samples ? params->occlusion_samples : 64;
     if (!(frame->occlusion_radius > 0))
         frame->occlusion = LAM_OCCLUSION_OFF; // a scene without extent
 }
@@ -447,7 +451,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
                                                       : 0;
     frame->draw_count = frame->range_count = frame->light_count = frame->hemisphere_count = 0;
     frame->triangle_count = 0;
-    frame->translucent = frame->masked = frame->transmits = frame->makes_normals = false;
+    frame->translucent = frame->passes_rays = frame->masked = frame->transmits = frame->makes_normals = false;
 
     frame_materials_build(frame, scene);
 
@@ -523,11 +527,11 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->shadows = params->shadows && (lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_CLIPPED);
     frame->flat_terminator = params->flat_terminator;
     frame->shadow_samples = params->shadow_samples ? params->shadow_samples : 16;
-    if (frame->shadows)
-        frame_shadows_build(frame, scene, &view);
     frame->pixel_size =
         rounded(2 * (frame->orthographic ? camera->ortho_half_height : math_tan(0.5 * camera->fovy_rad)) / height);
     set_occlusion(frame, scene, params, physical);
+    if (frame_has_rays(frame))
+        frame_rays_build(frame, scene, &view);
     return true;
 }
 

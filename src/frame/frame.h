@@ -21,7 +21,7 @@ struct frame_draw {
     float eye[3][4];     // mesh positions to eye space
     float normal[3][3];  // mesh normals to eye space, up to a positive factor
     float tangent[3][3]; // mesh directions to eye space, up to a positive factor
-    // With shadows only: mesh positions to world space, mesh normals to world space up to a positive factor.
+    // With rays only: mesh positions to world space, mesh normals to world space up to a positive factor.
     double world[3][4], world_normal[3][3];
     bool mirrored; // the transform reverses the winding
     bool one_sided;
@@ -40,6 +40,7 @@ struct frame_draw_range {
     int front, back;           // indices into materials
     bool translucent;          // some opacity may be below 1, or it transmits: the triangles are blended or masked
     lam_reflection reflection; // of both sides; never AUTO
+    bool passes_rays;          // translucent, whatever the output
 };
 
 // A point, directional or spot light in eye space.
@@ -91,7 +92,7 @@ struct frame {
     bool shadows; // a light casts shadows, and the output shows it
     bool flat_terminator;
     int shadow_samples;        // of a light with a radius
-    double eye_to_world[3][4]; // with shadows only
+    double eye_to_world[3][4]; // with rays only
     lam_output output;
     // Largest sum, as a fraction of the encoded range, of the lights that a point may skip; 0: no light is skipped.
     float light_cutoff;
@@ -100,7 +101,9 @@ struct frame {
     float pixel_size;        // of a pixel in eye units, at distance 1 or, where orthographic, everywhere
     lam_occlusion occlusion; // never AUTO
     float occlusion_radius;  // eye units
+    int occlusion_samples;   // of LAM_OCCLUSION_RAYS
     bool translucent;        // any range is
+    bool passes_rays;        // any range does
     bool masked;             // and one has a material of LAM_ALPHA_MASK
     bool transmits;          // and one has LAYER_TRANSMISSION: layers let each channel through by a share of its own
     bool makes_normals;      // a draw has a crease_rad, and the output needs its normals
@@ -148,8 +151,14 @@ bool frame_params_check(const lam_draw_params *params, lam_error *error);
 // The reflection model that lights a material; never AUTO.
 lam_reflection frame_reflection(const struct frame *frame, const lam_material *material);
 
-// Fills in what shadows need of draws and lights, once those are built.
-void frame_shadows_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view);
+// Whether rays are sent from lit points.
+static inline bool frame_has_rays(const struct frame *frame)
+{
+    return frame->shadows || frame->occlusion == LAM_OCCLUSION_RAYS;
+}
+
+// Fills in what rays need of draws and lights, once those are built, and whether any light casts shadows.
+void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view);
 
 // A position of a draw's mesh in world space.
 static inline void frame_to_world(const struct frame_draw *draw, const float from[3], double to[3])

@@ -60,6 +60,8 @@ bool frame_params_check(const lam_draw_params *params, lam_error *error)
     if (!(params->occlusion_radius >= 0 && params->occlusion_radius <= 10))
         return fail(error, LAM_BAD_ARGUMENT, "occlusion_radius is %g, expected more than 0, up to 10",
                     (double)params->occlusion_radius);
+    if (params->occlusion_samples < 0 || params->occlusion_samples > 1024)
+        return fail(error, LAM_BAD_ARGUMENT, "occlusion_samples is %d, expected 0 to 1024", params->occlusion_samples);
     if (params->occlusion > LAM_OCCLUSION_OFF && params->shading != LAM_SHADING_PHONG)
         return fail(error, LAM_BAD_ARGUMENT,
                     "ambient occlusion is found for pixels: it goes with Phong shading, not with %s",

@@ -310,6 +310,10 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
         return fail(error, LAM_UNSUPPORTED,
                     "OpenGL: reference is %d, and this device has the split sum alone; the CPU device sums directions",
                     frame->reference);
+    if (frame->occlusion == LAM_OCCLUSION_RAYS)
+        return fail(
+            error, LAM_UNSUPPORTED,
+            "OpenGL: ambient occlusion is 'rays', and this device has 'screen' alone; the CPU device traces rays");
     if (!gl_context_enter(&device->context, &previous, error))
         return false;
     struct gl_frame f = {.device = device, .gl = &device->context.gl, .frame = frame, .call = call, .image = image};

@@ -10,6 +10,7 @@
 
 #include "buffer.h"
 #include "frame.h"
+#include "occlusion_pattern.h"
 
 struct pool;
 

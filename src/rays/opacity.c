@@ -53,7 +53,7 @@ float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b
     const struct frame_draw_range *range = &frame->ranges[frame_range_of(frame, number)];
     const struct frame_draw *draw = &frame->draws[range->draw];
     const lam_material *material = frame->materials[back && !draw->one_sided ? range->back : range->front];
-    if (!range->translucent || material->alpha_mode == LAM_ALPHA_OPAQUE)
+    if (!range->passes_rays || material->alpha_mode == LAM_ALPHA_OPAQUE)
         return 1;
     uint32_t triangle = number - draw->first_id;
     float alpha =

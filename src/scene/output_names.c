@@ -31,7 +31,7 @@ static const char *const names[LAM_OUTPUT_COUNT] = {
 
 const char *lam_output_name(lam_output output) { return (unsigned)output < LAM_OUTPUT_COUNT ? names[output] : NULL; }
 
-static const char *const occlusions[LAM_OCCLUSION_COUNT] = {"auto", "off", "screen"};
+static const char *const occlusions[LAM_OCCLUSION_COUNT] = {"auto", "off", "screen", "rays"};
 
 const char *lam_occlusion_name(lam_occlusion occlusion)
 {

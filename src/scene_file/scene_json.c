@@ -158,7 +158,8 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
     double radius = 0;
     occlusion_words(occlusions);
     if (!take_word(r, NULL, root, "ao", occlusions, &occlusion) ||
-        !take_number(r, NULL, root, "ao_radius", 0.001, 10, &radius))
+        !take_number(r, NULL, root, "ao_radius", 0.001, 10, &radius) ||
+        !take_whole(r, NULL, root, "ao_samples", 1, 1024, &draw->occlusion_samples))
         return false;
     draw->occlusion = (lam_occlusion)occlusion;
     draw->occlusion_radius = (float)radius;
@@ -191,6 +192,7 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
                 {"reference", LAM_SETTING_REFERENCE},
                 {"ao", LAM_SETTING_OCCLUSION},
                 {"ao_radius", LAM_SETTING_OCCLUSION_RADIUS},
+                {"ao_samples", LAM_SETTING_OCCLUSION_SAMPLES},
                 {"light_cutoff", LAM_SETTING_LIGHT_CUTOFF}};
     for (size_t i = 0; i < sizeof bits / sizeof *bits; i++)
         r->settings->present |= json_object_get(root, bits[i].key) ? bits[i].bit : 0;
@@ -215,11 +217,11 @@ static bool read_methods(struct scene_reader *r, const json_t *root)
 static bool read_root(struct scene_reader *r, const json_t *root)
 {
     static const char *const keys[] = {
-        "lambent",    "image",     "camera",    "ambient",           "environment",      "shading",
-        "reflection", "viewer",    "stage",     "flat_normal",       "match_highlights", "single_scattering",
-        "gl1",        "up",        "materials", "objects",           "lights",           "light_cutoff",
-        "anisotropy", "reference", "shadows",   "shadow_terminator", "shadow_samples",   "ao",
-        "ao_radius",  NULL};
+        "lambent",    "image",      "camera",    "ambient",           "environment",      "shading",
+        "reflection", "viewer",     "stage",     "flat_normal",       "match_highlights", "single_scattering",
+        "gl1",        "up",         "materials", "objects",           "lights",           "light_cutoff",
+        "anisotropy", "reference",  "shadows",   "shadow_terminator", "shadow_samples",   "ao",
+        "ao_radius",  "ao_samples", NULL};
     int version = 0;
     if (!check_keys(r, NULL, root, keys) || !take_whole(r, NULL, root, "lambent", -1000000, 1000000, &version))
         return false;

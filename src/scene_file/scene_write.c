@@ -555,6 +555,8 @@ static bool put_settings(struct scene_writer *w, json_t *root, const lam_picture
         put(w, root, "ao", json_string(lam_occlusion_name(s->draw.occlusion)));
     if ((s->present & LAM_SETTING_OCCLUSION_RADIUS) && s->draw.occlusion_radius > 0)
         put(w, root, "ao_radius", number_float(s->draw.occlusion_radius));
+    if ((s->present & LAM_SETTING_OCCLUSION_SAMPLES) && s->draw.occlusion_samples)
+        put(w, root, "ao_samples", json_integer(s->draw.occlusion_samples));
     if ((s->present & LAM_SETTING_LIGHT_CUTOFF) && s->draw.light_cutoff != 0)
         put(w, root, "light_cutoff", s->draw.light_cutoff > 0 ? number_float(s->draw.light_cutoff) : json_integer(0));
     return true;

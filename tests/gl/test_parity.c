@@ -329,9 +329,10 @@ static void check_refused(const struct demo *demo)
         assert_true(lam_image_make(&image, demo->width, demo->height, LAM_RGBA8, &error));
         assert_false(lam_draw(gl[i], demo->scene, &demo->camera, &demo->params, &image, NULL, &error));
         assert_int_equal(error.code, LAM_UNSUPPORTED);
-        assert_non_null(strstr(error.text, "reference is 100"));
+        assert_non_null(strstr(error.text, demo->params.reference ? "reference is 100" : "'rays'"));
         lam_draw_params params = demo->params;
         params.reference = 0;
+        params.occlusion = LAM_OCCLUSION_AUTO;
         assert_true(lam_draw(gl[i], demo->scene, &demo->camera, &params, &image, NULL, &error));
         lam_image_free(&image);
     }
@@ -363,7 +364,7 @@ static void check_scene(void **state)
         lam_scene_free(demo.scene);
         skip();
     }
-    if (demo.params.reference) {
+    if (demo.params.reference || demo.params.occlusion == LAM_OCCLUSION_RAYS) {
         check_refused(&demo);
         lam_scene_free(demo.scene);
         return;

@@ -207,7 +207,7 @@ static void test_errors(void **unused)
          "s.json: x: unknown key; expected lambent, image, camera, ambient, "
          "environment, shading, reflection, viewer, stage, flat_normal, match_highlights, single_scattering, gl1, up, "
          "materials, objects, lights, light_cutoff, anisotropy, reference, "
-         "shadows, shadow_terminator, shadow_samples, ao, ao_radius"},
+         "shadows, shadow_terminator, shadow_samples, ao, ao_radius, ao_samples"},
         {"{\"lambent\": 1}", "s.json: 'objects' is missing, expected a list of at least one object"},
         {"{\"lambent\": 2, " BALL "}", "s.json: lambent: the format's version is 2, this program reads version 1"},
         {"{\"lambent\": \"1\", " BALL "}", "s.json: lambent: found \"1\", expected a number"},
@@ -425,7 +425,9 @@ static void test_writing(void **unused)
         assert_true(lam_scene_add_light(scene, &lights[i], &error) == i);
     lam_scene_set_ambient(scene, (lam_rgb){0.1f, 0.7f, 1e-3f});
     lam_picture_settings s = {.present = ((LAM_SETTING_LIGHTS << 1) - 1) | LAM_SETTING_LIGHT_CUTOFF |
-                                         LAM_SETTING_SINGLE_SCATTERING | LAM_SETTING_REFERENCE | LAM_SETTING_SHADOWS,
+                                         LAM_SETTING_SINGLE_SCATTERING | LAM_SETTING_REFERENCE | LAM_SETTING_SHADOWS |
+                                         LAM_SETTING_OCCLUSION | LAM_SETTING_OCCLUSION_RADIUS |
+                                         LAM_SETTING_OCCLUSION_SAMPLES,
                               .width = 7,
                               .height = 9,
                               .camera = lam_camera_default()};
@@ -445,6 +447,9 @@ static void test_writing(void **unused)
                                .shadows = true,
                                .flat_terminator = true,
                                .shadow_samples = 5,
+                               .occlusion = LAM_OCCLUSION_RAYS,
+                               .occlusion_radius = 0.3f,
+                               .occlusion_samples = 9,
                                .single_scattering = true};
     s.camera.fovy_rad = 0.7123456789012345;
     s.camera.eye = (lam_vec3){1.0 / 3, 1e-9, 12345678.9};
@@ -465,6 +470,8 @@ static void test_writing(void **unused)
                 t.draw.match_highlights && t.draw.single_scattering && t.draw.rig == LAM_RIG_NONE &&
                 t.draw.light_cutoff < 0 && t.draw.reference == 64);
     assert_true(t.draw.shadows && t.draw.flat_terminator && t.draw.shadow_samples == 5);
+    assert_true(t.draw.occlusion == LAM_OCCLUSION_RAYS && t.draw.occlusion_radius == 0.3f &&
+                t.draw.occlusion_samples == 9);
     assert_memory_equal(&t.camera.eye, &s.camera.eye, sizeof s.camera.eye);
     assert_true(fabs(t.camera.fovy_rad - s.camera.fovy_rad) <= 1.2e-16);
     assert_true(t.camera.near_plane == 0.1 && t.camera.far_plane == 100 && t.width == 7 && t.height == 9);

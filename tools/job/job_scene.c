@@ -270,6 +270,7 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
         .point_size = (float)o->point_size,
         .occlusion = (lam_occlusion)o->occlusion,
         .occlusion_radius = (float)o->ao_radius,
+        .occlusion_samples = o->ao_samples,
         .light_cutoff = !o->has_light_cutoff  ? 0
                         : o->light_cutoff > 0 ? (float)o->light_cutoff
                                               : -1,

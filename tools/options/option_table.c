@@ -87,6 +87,8 @@ static const struct word occlusion_words[] = {
     {"auto", LAM_OCCLUSION_AUTO, "screen with the studio's lights and with environment light, else off"},
     {"off", LAM_OCCLUSION_OFF, "all light from around arrives everywhere"},
     {"screen", LAM_OCCLUSION_SCREEN, "from the distances of what the picture shows around each pixel"},
+    {"rays", LAM_OCCLUSION_RAYS,
+     "by `--ao-samples` rays from each point, past all surfaces: slower, on the CPU device alone"},
     {NULL, 0, NULL}};
 
 static const struct word glsl_words[] = {{"330", LAM_GLSL_330, "OpenGL 3.3"},
@@ -416,7 +418,7 @@ const struct option option_table[] = {
      "(behind the surface, beyond their range, outside their cone) are always skipped.",
      .store = store_number, FIELD(light_cutoff), .has_field = offsetof(struct options, has_light_cutoff), .min = 0,
      .max = 1},
-    {"ao", 0, GROUP_LIGHTS, "HOW", "auto", "Ambient occlusion: auto, off or screen.",
+    {"ao", 0, GROUP_LIGHTS, "HOW", "auto", "Ambient occlusion: auto, off, screen or rays.",
      "Light from all around reaches a recess less than an open face. Occlusion dims ambient, hemisphere and "
      "environment "
      "light and the share `occluded` of other lights, of which the studio's lights have one and lights by hand none. "
@@ -427,6 +429,9 @@ const struct option option_table[] = {
     {"ao-radius", 0, GROUP_LIGHTS, "SHARE", "0.1",
      "How far away surfaces occlude, as a share of half the diagonal of the scene's box.", "", NULL,
      .store = store_number, .others = "occlusion-radius ssao-radius", FIELD(ao_radius), .min = 0.001, .max = 10},
+    {"ao-samples", 0, GROUP_LIGHTS, "N", "64",
+     "Rays from each lit point with `--ao rays`; more of them make its grain finer.", NULL, NULL,
+     .store = store_integer, .others = "occlusion-samples ao-rays ray-count", FIELD(ao_samples), .min = 1, .max = 1024},
     {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1", "Multiply the brightness of all lights except `--ambient`.", NULL,
      .store = store_number, .others = "intensity light-intensity light-power", FIELD(light_scale),
      .has_field = offsetof(struct options, has_light_scale), .min = 0, .max = 1e6},

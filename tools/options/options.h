@@ -26,6 +26,7 @@ struct options {
     double point_size;      // the same
     int occlusion;          // lam_occlusion
     double ao_radius;       // 0: the library's default
+    int ao_samples;         // 0: the library's default
     const char *background; // as written; NULL: clear
     int color_mode;         // lam_color_mode
     int compress;           // lam_compress

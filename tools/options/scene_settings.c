@@ -64,6 +64,8 @@ void scene_settings_apply(struct job *job)
         own->occlusion = (int)s->draw.occlusion;
     if (takes_setting(job, LAM_SETTING_OCCLUSION_RADIUS, "ao-radius"))
         own->ao_radius = (double)s->draw.occlusion_radius;
+    if (takes_setting(job, LAM_SETTING_OCCLUSION_SAMPLES, "ao-samples"))
+        own->ao_samples = s->draw.occlusion_samples;
     if (takes_setting(job, LAM_SETTING_LIGHT_CUTOFF, "light-cutoff")) {
         own->light_cutoff = (double)s->draw.light_cutoff;
         own->has_light_cutoff = true;
@@ -147,6 +149,7 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     s.present |= draw->shadows ? LAM_SETTING_SHADOWS : 0;
     s.present |= draw->occlusion != LAM_OCCLUSION_AUTO ? LAM_SETTING_OCCLUSION : 0;
     s.present |= draw->occlusion_radius > 0 ? LAM_SETTING_OCCLUSION_RADIUS : 0;
+    s.present |= draw->occlusion_samples ? LAM_SETTING_OCCLUSION_SAMPLES : 0;
     s.present |= draw->light_cutoff != 0 ? LAM_SETTING_LIGHT_CUTOFF : 0;
     s.present |= draw->stage != LAM_STAGE_AUTO ? LAM_SETTING_STAGE : 0;
     s.present |= draw->viewer != LAM_VIEWER_LOCAL ? LAM_SETTING_VIEWER : 0;

@@ -72,6 +72,8 @@ void report_table(const struct job *job)
                   " points lit, %.1f MB\n",
                   frame->triangles_binned, frame->triangles, frame->pixels_covered, frame->points_lit,
                   (double)frame->memory_bytes / 1e6);
+    if (frame->rays)
+        say_plain("rays     %" PRIu64 "\n", frame->rays);
     if (job->exposure_fitted)
         say_plain("exposure %.10g stops, found for this picture\n", job->draw.exposure);
     if (job->draw.output == LAM_OUTPUT_DEPTH)
@@ -81,6 +83,8 @@ void report_table(const struct job *job)
     time_row("camera", job->times.camera);
     time_row("frame", frame->total_ms);
     time_row("  flatten", frame->frame_ms);
+    if (frame->hierarchy_ms > 0)
+        time_row("  hierarchy", frame->hierarchy_ms);
     if (lam_device_isa(job->device) == LAM_ISA_AUTO) {
         time_row("  lighting", frame->lighting_ms);
         time_row("  upload", frame->upload_ms);
@@ -212,6 +216,7 @@ static void json_times(struct json *json, const struct job_times *times)
     json_ms(json, "triangles", frame->triangles_ms);
     json_ms(json, "normals", frame->normals_ms);
     json_ms(json, "occlusion", frame->occlusion_ms);
+    json_ms(json, "hierarchy", frame->hierarchy_ms);
     json_ms(json, "tiles", frame->tiles_ms);
     json_ms(json, "coverage", frame->coverage_ms);
     json_ms(json, "lighting", frame->lighting_ms);
@@ -234,6 +239,7 @@ static void json_counts(struct json *json, const lam_frame_report *frame)
     json_count(json, "pixels_covered", frame->pixels_covered);
     json_count(json, "points_lit", frame->points_lit);
     json_count(json, "lights_evaluated", frame->lights_evaluated);
+    json_count(json, "rays", frame->rays);
     json_count(json, "memory_bytes", frame->memory_bytes);
     json_count(json, "bytes_uploaded", frame->bytes_uploaded);
     json_close(json, '}');

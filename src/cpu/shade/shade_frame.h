@@ -38,9 +38,10 @@ struct shade_frame {
     const struct environment_light *environment_light; // of physical materials; NULL: none
     const struct environment_samples *reference;       // in place of it; NULL: none
     const struct light_bounds *light_bounds;           // NULL: every light is evaluated everywhere
-    const struct hierarchy *hierarchy;                 // NULL: no shadows
+    const struct hierarchy *hierarchy;                 // NULL: no rays
     const struct light_pattern *light_pattern;         // of lights with a size
-    const struct screen_occlusion *occlusion;          // ambient occlusion of each pixel; NULL: none
+    const struct screen_occlusion *occlusion;          // ambient occlusion of each pixel; NULL: none, or by rays
+    const struct occlusion_pattern *occlusion_pattern; // ambient occlusion by rays; NULL: none
     const float *decode_srgb, *decode_linear;          // 256 entries each: the value of a colour byte
     struct visible_normals
         visible;               // of draws whose meshes have no normals; its set holds triangle numbers of the frame

@@ -1,4 +1,4 @@
-// frame_shadows.c: what shadow rays need of a frame: draws and lights in world space, in double.
+// frame_rays.c: what rays need of a frame: draws and lights in world space, in double.
 #include "frame.h"
 
 #include "linear.h"
@@ -64,16 +64,13 @@ static void store(double out[3], lam_vec3 v)
     out[2] = v.z;
 }
 
-void frame_shadows_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view)
+static void place_lights(struct frame *frame, const lam_scene *scene, const lam_mat4 *eye_to_world)
 {
-    lam_mat4 eye_to_world = lam_mat4_identity();
-    mat4_inverse_affine(view, &eye_to_world); // a rotation and a translation
     bool any = false;
-    memcpy(frame->eye_to_world, eye_to_world.m, sizeof frame->eye_to_world);
     for (int i = 0; i < frame->light_count; i++) {
         struct frame_light *light = &frame->lights[i];
         const lam_light *source = light->source;
-        lam_mat4 world = world_of(scene, source, &eye_to_world);
+        lam_mat4 world = world_of(scene, source, eye_to_world);
         store(light->world_position, mat4_point(&world, source->position));
         store(light->world_axis, v3_unit(mat4_vector(&world, source->direction)));
         light->casts_shadows = !source->no_shadows;
@@ -82,6 +79,15 @@ void frame_shadows_build(struct frame *frame, const lam_scene *scene, const lam_
         any |= light->casts_shadows;
     }
     frame->shadows = any;
-    for (int i = 0; i < frame->draw_count && any; i++)
+}
+
+void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view)
+{
+    lam_mat4 eye_to_world = lam_mat4_identity();
+    mat4_inverse_affine(view, &eye_to_world); // a rotation and a translation
+    memcpy(frame->eye_to_world, eye_to_world.m, sizeof frame->eye_to_world);
+    if (frame->shadows)
+        place_lights(frame, scene, &eye_to_world);
+    for (int i = 0; i < frame->draw_count && frame_has_rays(frame); i++)
         place_draw(&frame->draws[i], scene, &eye_to_world);
 }

@@ -1,0 +1,29 @@
+// occlusion_pattern.h: the rays of ambient occlusion that every lit point sends.
+//
+// Directions are those of the points of a disc over which the hemisphere stands (Malley's method: each then has an equal share
+// of the cosine-weighted integral); the disc has the spiral of Vogel (1979), as lights with a size have it
+// (light_pattern.h). A surface at the distance d occludes by the share
+//     w(d) = clamp((radius − d) / (OCCLUSION_FADING radius), 0, 1)
+// of its direction: as many of the rays reach as far as d, if their lengths are spread evenly from (1 − OCCLUSION_FADING)
+// radius to the whole of it. So a ray is stopped or it is not, and its distance does not matter.
+#ifndef OCCLUSION_PATTERN_H
+#define OCCLUSION_PATTERN_H
+
+#include "light_pattern.h"
+
+// The part of the radius in which surfaces occlude less and less.
+#define OCCLUSION_FADING 0.4f
+
+enum { OCCLUSION_RAYS_MAX = 1024 };
+
+// Rays about +z, neighbours in the list pointing in similar directions.
+struct occlusion_pattern {
+    int count;
+    double x[OCCLUSION_RAYS_MAX], y[OCCLUSION_RAYS_MAX], z[OCCLUSION_RAYS_MAX]; // unit
+    double length[OCCLUSION_RAYS_MAX];             // 0…1, from the longest ray to the shortest
+    double cosine[LIGHT_TURNS], sine[LIGHT_TURNS]; // of the turns of light_turn
+};
+
+void occlusion_pattern_fill(struct occlusion_pattern *pattern, int count);
+
+#endif

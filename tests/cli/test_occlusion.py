@@ -1,0 +1,60 @@
+# test_occlusion.py: --ao rays and what belongs to it.
+import json
+import unittest
+
+from harness import Case, pixel
+
+SCENE = {"lambent": 1, "image": {"size": [48, 48], "samples": 1}, "ambient": [1, 1, 1], "lights": [], "ao": "rays", "ao_radius": 0.5, "ao_samples": 24,
+         "objects": [{"shape": "plane", "transform": [["scale", 4, 1, 4]]},
+                     {"shape": "cube", "transform": [["translate", 0, 1, 0]]}]}
+
+
+class Occlusion(Case):
+    def scene(self, name="rays.json", **more):
+        (self.folder / name).write_text(json.dumps({**SCENE, **more}))
+        self.given.add(name)
+        return name
+
+    def test_scene_and_options(self):
+        drawn = self.png(self.scene())
+        self.assertEqual(self.png(self.scene("auto.json", ao="auto", ao_radius=0.1, ao_samples=1), "--ao", "rays", "--ao-radius", "0.5", "--ao-samples", "24"), drawn)
+        self.assertNotEqual(self.png(self.scene(), "--ao-samples", "25"), drawn)
+        self.assertNotEqual(self.png(self.scene(), "--ao", "off"), drawn)
+        self.assertEqual(self.png(self.scene(), "--save-scene", "saved.json"), drawn)
+        saved = json.loads((self.folder / "saved.json").read_text())
+        self.assertEqual((saved["ao"], saved["ao_radius"], saved["ao_samples"]), ("rays", 0.5, 24))
+        self.assertEqual(self.png("saved.json"), drawn)
+
+    def test_every_isa_and_thread_count(self):
+        self.assertEqual(self.png(self.scene(), "--isa", "scalar", "--threads", "1"), self.png(self.scene(), "--threads", "3"))
+
+    def test_explained_and_shown(self):
+        shown = self.png(self.scene(), "--show", "ao")
+        shares = set()
+        covered = [(x, y) for y in range(48) for x in range(48) if pixel(shown, x, y)[3]]
+        for x, y in covered[:: len(covered) // 6]:
+            point = json.loads(self.good("explain", self.scene(), "%d,%d" % (x, y), "--json").stdout)["triangles"][0]["points"][0]
+            shares.add(point["unoccluded"])
+            self.assertAlmostEqual(point["unoccluded"] * 24, round(point["unoccluded"] * 24), places=5)
+            self.assertEqual(pixel(shown, x, y)[0], int(255 * point["unoccluded"] + 0.5))
+        self.assertGreater(len(shares), 1)
+
+    def test_counts(self):
+        report = self.report(self.scene())
+        self.assertEqual(report["counts"]["rays"], 24 * report["counts"]["points_lit"])
+        self.assertGreater(report["times_ms"]["steps"]["hierarchy"], 0)
+        self.assertEqual(self.report(self.scene(), "--ao", "screen")["counts"]["rays"], 0)
+
+    def report(self, *arguments):
+        return json.loads(self.good(*arguments, "-o", "out.png", "--json").stdout)
+
+    def test_what_is_refused(self):
+        self.bad(1, self.scene(), "--ao-samples", "0", says="1 to 1024")
+        self.bad(1, self.scene(), "--ao", "ray", says="rays")
+        self.bad(1, self.scene(), "--shading", "flat", says="Phong shading")
+        self.bad(2, self.scene("bad.json", ao_samples=2000), says="ao_samples")
+        self.bad(3, self.scene(), "--device", "gl", says=("OpenGL",))
+
+
+if __name__ == "__main__":
+    unittest.main()

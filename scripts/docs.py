@@ -90,7 +90,21 @@ def roles(program, _):
         yield "| `%s` | %s | %s |" % (name, ", ".join(words), meaning)
 
 
-SECTIONS = {"rigs": rigs, "explained": explained, "roles": roles}
+def settings(program, _):
+    """The keys of scene files that are options too, from the schema: those with a default and an option of the same name."""
+    schema = json.loads(output(program, "generate", "scene-schema"))["properties"]
+    manual = output(program, "generate", "markdown")
+    yield "| key | default | values | |"
+    yield "|---|---|---|---|"
+    for key, value in schema.items():
+        if key == "up" or "default" not in value or "`--%s" % key.replace("_", "-") not in manual:
+            continue
+        values = ", ".join("`%s`" % word for word in value["enum"]) if "enum" in value else \
+            "`true`, `false`" if value["type"] == "boolean" else "%.10g to %.10g" % (value["minimum"], value["maximum"])
+        yield "| `%s` | `%s` | %s | %s |" % (key, json.dumps(value["default"]).strip('"'), values, value["description"])
+
+
+SECTIONS = {"rigs": rigs, "explained": explained, "roles": roles, "settings": settings}
 
 
 def pages_with_sections(program):

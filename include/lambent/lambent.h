@@ -34,6 +34,7 @@
 #include "render.h"
 #include "scene.h"
 #include "scene_file.h"
+#include "settings.h"
 #include "shader.h"
 #include "texture.h"
 #include "words.h"

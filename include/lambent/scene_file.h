@@ -2,47 +2,35 @@
 #ifndef LAMBENT_SCENE_FILE_H
 #define LAMBENT_SCENE_FILE_H
 
-#include "device.h"
+#include "settings.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-// The settings that a scene file may have: bits of lam_picture_settings.present.
+// The settings that a scene file may have besides those of lam_draw_setting: bits of lam_picture_settings.present.
 enum {
-    LAM_SETTING_SIZE = 1 << 0,               // width, height
-    LAM_SETTING_SAMPLES = 1 << 1,            // draw.samples
-    LAM_SETTING_BACKGROUND = 1 << 2,         // draw.background
-    LAM_SETTING_COLOR = 1 << 3,              // draw.color
-    LAM_SETTING_EXPOSURE = 1 << 4,           // draw.exposure
-    LAM_SETTING_CAMERA = 1 << 5,             // camera
-    LAM_SETTING_SHADING = 1 << 6,            // draw.shading
-    LAM_SETTING_REFLECTION = 1 << 7,         // draw.reflection
-    LAM_SETTING_STAGE = 1 << 8,              // draw.stage
-    LAM_SETTING_VIEWER = 1 << 9,             // draw.viewer
-    LAM_SETTING_FLAT_NORMAL = 1 << 10,       // draw.flat_normal
-    LAM_SETTING_MATCH_HIGHLIGHTS = 1 << 11,  // draw.match_highlights
-    LAM_SETTING_GL1 = 1 << 12,               // draw.gl1
-    LAM_SETTING_LIGHTS = 1 << 13,            // the scene's lights, even if the list is empty
-    LAM_SETTING_ENVIRONMENT = 1 << 14,       // environment_…
-    LAM_SETTING_LIGHT_CUTOFF = 1 << 15,      // draw.light_cutoff
-    LAM_SETTING_SINGLE_SCATTERING = 1 << 16, // draw.single_scattering
-    LAM_SETTING_TONE = 1 << 17,              // draw.tone
-    LAM_SETTING_ANISOTROPY = 1 << 18,        // draw.anisotropy
-    LAM_SETTING_REFERENCE = 1 << 19,         // draw.reference
-    LAM_SETTING_SHADOWS = 1 << 20,           // draw.shadows, draw.flat_terminator, draw.shadow_samples
-    LAM_SETTING_OCCLUSION = 1 << 21,         // draw.occlusion
-    LAM_SETTING_OCCLUSION_RADIUS = 1 << 22,  // draw.occlusion_radius
-    LAM_SETTING_OCCLUSION_SAMPLES = 1 << 23, // draw.occlusion_samples
+    LAM_SETTING_SIZE = 1 << 0,        // width, height
+    LAM_SETTING_SAMPLES = 1 << 1,     // draw.samples
+    LAM_SETTING_BACKGROUND = 1 << 2,  // draw.background
+    LAM_SETTING_COLOR = 1 << 3,       // draw.color
+    LAM_SETTING_EXPOSURE = 1 << 4,    // draw.exposure
+    LAM_SETTING_TONE = 1 << 5,        // draw.tone
+    LAM_SETTING_CAMERA = 1 << 6,      // camera
+    LAM_SETTING_LIGHTS = 1 << 7,      // the scene's lights, even if the list is empty
+    LAM_SETTING_ENVIRONMENT = 1 << 8, // environment_…
 };
 
 // The picture that a scene file describes: its size, camera and way of drawing. lam_scene has the rest. Settings that
 // are not present are zero.
 typedef struct lam_picture_settings {
-    unsigned present;  // LAM_SETTING_…: the settings that the file has
+    unsigned present; // LAM_SETTING_…: the settings that the file has
+    // Bit i: the file has lam_draw_setting(i), whose value is in `draw`.
+    uint64_t draw_present;
     int width, height; // pixels
     lam_camera camera; // as lam_draw takes it
-    // The settings above that begin with "draw.". `rig` is LAM_RIG_NONE where LAM_SETTING_LIGHTS is present.
+    // The settings above that begin with "draw.", and those of draw_present. `rig` is LAM_RIG_NONE where
+    // LAM_SETTING_LIGHTS is present.
     lam_draw_params draw;
     // The environment in one of three forms, NULL for the others. Paths can be opened from the current folder, except
     // those of a scene file in memory, which are as written. The strings live as long as the scene.

@@ -75,10 +75,6 @@ static bool draw(lam_scene *scene, const lam_render_params *params, lam_image *i
     lam_picture_settings settings;
     lam_scene_picture_settings(scene, &settings);
     lam_draw_params drawn = params->draw ? *params->draw : settings.draw;
-    bool by_vertex = drawn.stage == LAM_STAGE_APPLICATION || drawn.stage == LAM_STAGE_VERTEX;
-    if (!params->draw && by_vertex && !(settings.present & LAM_SETTING_SHADING))
-        drawn.shading = LAM_SHADING_GOURAUD;
-
     bool made = !image->pixels;
     if (made) {
         bool given = settings.present & LAM_SETTING_SIZE;

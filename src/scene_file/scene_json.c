@@ -1,7 +1,6 @@
 // scene_json.c: scene files: the JSON around it all, the picture's settings, and the row in the table of formats.
 #include "scene_reader.h"
 
-#include "environment_samples.h"
 #include "fail.h"
 #include "json_parse.h"
 #include "linear.h"
@@ -124,104 +123,102 @@ static bool read_camera(struct scene_reader *r, const json_t *root)
     return true;
 }
 
-// Words and switches at the top of the file.
-static bool read_methods(struct scene_reader *r, const json_t *root)
+// One row of the table of settings.
+static bool read_setting(struct scene_reader *r, const json_t *root, const lam_setting *setting)
 {
-    lam_draw_params *draw = &r->settings->draw;
-    int shading = 0, reflection = 0, stage = 0, viewer = 0, flat_normal = 0, up = LAM_UP_Y;
-    lam_rgb ambient = {0, 0, 0};
-    double cutoff = 0;
-    bool terminator = true;
-    struct json_choice reflections[LAM_REFLECTION_COUNT + 1];
-    reflection_words(reflections);
-    if (!take_word(r, NULL, root, "shading", shading_words, &shading) ||
-        !take_word(r, NULL, root, "reflection", reflections, &reflection) ||
-        !take_word(r, NULL, root, "stage", stage_words, &stage) ||
-        !take_word(r, NULL, root, "viewer", viewer_words, &viewer) ||
-        !take_word(r, NULL, root, "flat_normal", flat_normal_words, &flat_normal) ||
-        !take_bool(r, NULL, root, "match_highlights", &draw->match_highlights) ||
-        !take_bool(r, NULL, root, "single_scattering", &draw->single_scattering) ||
-        !take_bool(r, NULL, root, "shadows", &draw->shadows) ||
-        !take_bool(r, NULL, root, "shadow_terminator", &terminator) ||
-        !take_whole(r, NULL, root, "shadow_samples", 1, 256, &draw->shadow_samples) ||
-        !take_bool(r, NULL, root, "gl1", &draw->gl1) || !take_number(r, NULL, root, "light_cutoff", 0, 1, &cutoff) ||
-        !take_word(r, NULL, root, "up", up_words, &up) || !take_rgb(r, NULL, root, "ambient", &ambient))
-        return false;
-    if (!take_whole(r, NULL, root, "anisotropy", 1, 16, &draw->anisotropy) ||
-        !take_whole(r, NULL, root, "reference", 0, ENVIRONMENT_SAMPLES_MAX, &draw->reference))
-        return false;
-    if (draw->reference && draw->reference < ENVIRONMENT_SAMPLES_MIN)
-        return fail_place(r, KEY_OF(NULL, "reference"), "found %d, expected 0 or at least %d", draw->reference,
-                          ENVIRONMENT_SAMPLES_MIN);
-    struct json_choice occlusions[LAM_OCCLUSION_COUNT + 1];
-    int occlusion = LAM_OCCLUSION_AUTO;
-    double radius = 0;
-    occlusion_words(occlusions);
-    if (!take_word(r, NULL, root, "ao", occlusions, &occlusion) ||
-        !take_number(r, NULL, root, "ao_radius", 0.001, 10, &radius) ||
-        !take_whole(r, NULL, root, "ao_samples", 1, 1024, &draw->occlusion_samples))
-        return false;
-    draw->occlusion = (lam_occlusion)occlusion;
-    draw->occlusion_radius = (float)radius;
-    if (json_object_get(root, "light_cutoff"))
-        draw->light_cutoff = cutoff > 0 ? (float)cutoff : -1;
-    draw->flat_terminator = !terminator;
-    draw->shading = (lam_shading)shading;
-    draw->reflection = (lam_reflection)reflection;
-    draw->stage = (lam_stage)stage;
-    draw->viewer = (lam_viewer)viewer;
-    draw->flat_normal = (lam_flat_normal)flat_normal;
-    r->scene->ambient = ambient;
-    if (r->source->params->up == LAM_UP_AUTO)
-        r->scene->up = (lam_up)up;
-    static const struct {
-        const char *key;
-        unsigned bit;
-    } bits[] = {{"shading", LAM_SETTING_SHADING},
-                {"reflection", LAM_SETTING_REFLECTION},
-                {"stage", LAM_SETTING_STAGE},
-                {"viewer", LAM_SETTING_VIEWER},
-                {"flat_normal", LAM_SETTING_FLAT_NORMAL},
-                {"match_highlights", LAM_SETTING_MATCH_HIGHLIGHTS},
-                {"gl1", LAM_SETTING_GL1},
-                {"single_scattering", LAM_SETTING_SINGLE_SCATTERING},
-                {"shadows", LAM_SETTING_SHADOWS},
-                {"shadow_terminator", LAM_SETTING_SHADOWS},
-                {"shadow_samples", LAM_SETTING_SHADOWS},
-                {"anisotropy", LAM_SETTING_ANISOTROPY},
-                {"reference", LAM_SETTING_REFERENCE},
-                {"ao", LAM_SETTING_OCCLUSION},
-                {"ao_radius", LAM_SETTING_OCCLUSION_RADIUS},
-                {"ao_samples", LAM_SETTING_OCCLUSION_SAMPLES},
-                {"light_cutoff", LAM_SETTING_LIGHT_CUTOFF}};
-    for (size_t i = 0; i < sizeof bits / sizeof *bits; i++)
-        r->settings->present |= json_object_get(root, bits[i].key) ? bits[i].bit : 0;
-    bool by_vertex = draw->stage == LAM_STAGE_APPLICATION || draw->stage == LAM_STAGE_VERTEX;
-    if (by_vertex && !json_object_get(root, "shading")) {
-        draw->shading = LAM_SHADING_GOURAUD;
-        r->settings->present |= LAM_SETTING_SHADING;
+    void *member = (char *)&r->settings->draw + setting->offset;
+    switch (setting->type) {
+    case LAM_SETTING_WORD: {
+        struct json_choice words[WORDS_MAX];
+        setting_words(setting, words);
+        return take_word(r, NULL, root, setting->key, words, member);
     }
-    if (by_vertex && draw->shading == LAM_SHADING_PHONG)
+    case LAM_SETTING_FLAG:
+        return take_bool(r, NULL, root, setting->key, member);
+    case LAM_SETTING_NOT_FLAG: {
+        bool on = true;
+        if (!take_bool(r, NULL, root, setting->key, &on))
+            return false;
+        *(bool *)member = !on;
+        return true;
+    }
+    case LAM_SETTING_WHOLE:
+    case LAM_SETTING_NUMBER:
+        break;
+    }
+    double number = 0, min = setting->zero ? 0 : setting->min;
+    int whole = 0;
+    bool is_whole = setting->type == LAM_SETTING_WHOLE;
+    if (!(is_whole ? take_whole(r, NULL, root, setting->key, (int)min, (int)setting->max, &whole)
+                   : take_number(r, NULL, root, setting->key, min, setting->max, &number)))
+        return false;
+    number = is_whole ? whole : number;
+    if (number != 0 && number < setting->min)
+        return fail_place(r, KEY_OF(NULL, setting->key), "found %.10g, expected 0 or at least %.10g", number,
+                          setting->min);
+    if (is_whole)
+        *(int *)member = whole;
+    else
+        *(float *)member = number == 0 && setting->zero_is_negative ? -1.0f : (float)number;
+    return true;
+}
+
+// Lighting by vertex means Gouraud shading, unless the file says another.
+static bool check_stage(struct scene_reader *r)
+{
+    lam_picture_settings *s = r->settings;
+    uint64_t shading = UINT64_C(1) << lam_draw_setting_find("shading");
+    bool by_vertex = s->draw.stage == LAM_STAGE_APPLICATION || s->draw.stage == LAM_STAGE_VERTEX;
+    if (by_vertex && !(s->draw_present & shading)) {
+        s->draw.shading = LAM_SHADING_GOURAUD;
+        s->draw_present |= shading;
+    }
+    if (by_vertex && s->draw.shading == LAM_SHADING_PHONG)
         return fail_place(r, KEY_OF(NULL, "stage"),
                           "Phong shading has the stage fragment; application and vertex go with flat "
                           "and gouraud");
-    if (draw->stage == LAM_STAGE_FRAGMENT && draw->shading == LAM_SHADING_GOURAUD)
+    if (s->draw.stage == LAM_STAGE_FRAGMENT && s->draw.shading == LAM_SHADING_GOURAUD)
         return fail_place(r, KEY_OF(NULL, "stage"),
                           "Gouraud shading has the stages application and vertex; fragment goes with "
                           "flat and phong");
     return true;
 }
 
+// What stands at the top of the file, with the settings of the table.
+static bool read_settings(struct scene_reader *r, const json_t *root)
+{
+    int up = LAM_UP_Y;
+    lam_rgb ambient = {0, 0, 0};
+    for (int i = 0; lam_draw_setting(i); i++) {
+        const lam_setting *setting = lam_draw_setting(i);
+        if (!json_object_get(root, setting->key))
+            continue;
+        if (!read_setting(r, root, setting))
+            return false;
+        r->settings->draw_present |= UINT64_C(1) << i;
+    }
+    if (!take_word(r, NULL, root, "up", up_words, &up) || !take_rgb(r, NULL, root, "ambient", &ambient))
+        return false;
+    r->scene->ambient = ambient;
+    if (r->source->params->up == LAM_UP_AUTO)
+        r->scene->up = (lam_up)up;
+    return check_stage(r);
+}
+
 // --- the whole
 
 static bool read_root(struct scene_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {
-        "lambent",    "image",      "camera",    "ambient",           "environment",      "shading",
-        "reflection", "viewer",     "stage",     "flat_normal",       "match_highlights", "single_scattering",
-        "gl1",        "up",         "materials", "objects",           "lights",           "light_cutoff",
-        "anisotropy", "reference",  "shadows",   "shadow_terminator", "shadow_samples",   "ao",
-        "ao_radius",  "ao_samples", NULL};
+    static const char *const others[] = {"lambent", "image",     "camera",  "ambient", "environment",
+                                         "up",      "materials", "objects", "lights"};
+    enum { OTHERS = sizeof others / sizeof *others };
+    const char *keys[OTHERS + LAM_SETTINGS_MAX + 1];
+    int count = 0;
+    for (; count < OTHERS; count++)
+        keys[count] = others[count];
+    for (int i = 0; lam_draw_setting(i); i++)
+        keys[count++] = lam_draw_setting(i)->key;
+    keys[count] = NULL;
     int version = 0;
     if (!check_keys(r, NULL, root, keys) || !take_whole(r, NULL, root, "lambent", -1000000, 1000000, &version))
         return false;
@@ -232,7 +229,7 @@ static bool read_root(struct scene_reader *r, const json_t *root)
                     r->source->name, version);
     r->has_lights = json_object_get(root, "lights");
     // The order matters: the colour mode before colours, objects before the lights that stand on them.
-    return read_image(r, root) && read_camera(r, root) && read_methods(r, root) && read_environment(r, root) &&
+    return read_image(r, root) && read_camera(r, root) && read_settings(r, root) && read_environment(r, root) &&
            read_materials(r, root) && read_objects(r, root) && read_lights(r, root);
 }
 

@@ -50,13 +50,14 @@ bool take_rgba(struct scene_reader *r, const struct place *place, const json_t *
 // One of some words; the list ends with a NULL name.
 bool take_word(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
                const struct json_choice *words, int *out);
-extern const struct json_choice color_words[], shading_words[], stage_words[], viewer_words[], flat_normal_words[],
-    normals_words[], cull_words[], up_words[], frame_words[], tangent_words[];
+extern const struct json_choice color_words[], normals_words[], cull_words[], up_words[], frame_words[],
+    tangent_words[];
 
 void light_type_words(struct json_choice words[LAM_LIGHT_TYPE_COUNT + 1]);
-void reflection_words(struct json_choice words[LAM_REFLECTION_COUNT + 1]);
 void tone_words(struct json_choice words[LAM_TONE_COUNT + 1]);
-void occlusion_words(struct json_choice words[LAM_OCCLUSION_COUNT + 1]);
+// The words of a setting of type LAM_SETTING_WORD, which has fewer than WORDS_MAX.
+enum { WORDS_MAX = 32 };
+void setting_words(const lam_setting *setting, struct json_choice words[WORDS_MAX]);
 
 // The key of a field, set in a material or light.
 bool take_field(struct scene_reader *r, const struct place *place, const json_t *object, const lam_field *field,

@@ -122,17 +122,6 @@ bool take_text(struct scene_reader *r, const struct place *place, const json_t *
 }
 
 const struct json_choice color_words[] = {{"srgb", LAM_COLOR_SRGB}, {"raw", LAM_COLOR_RAW}, {NULL, 0}};
-const struct json_choice shading_words[] = {{"flat", LAM_SHADING_FLAT},    {"gouraud", LAM_SHADING_GOURAUD},
-                                            {"phong", LAM_SHADING_PHONG},  {"smooth", LAM_SHADING_GOURAUD},
-                                            {"normal", LAM_SHADING_PHONG}, {NULL, 0}};
-const struct json_choice stage_words[] = {{"auto", LAM_STAGE_AUTO},
-                                          {"application", LAM_STAGE_APPLICATION},
-                                          {"vertex", LAM_STAGE_VERTEX},
-                                          {"fragment", LAM_STAGE_FRAGMENT},
-                                          {NULL, 0}};
-const struct json_choice viewer_words[] = {{"local", LAM_VIEWER_LOCAL}, {"infinite", LAM_VIEWER_INFINITE}, {NULL, 0}};
-const struct json_choice flat_normal_words[] = {
-    {"face", LAM_FLAT_NORMAL_FACE}, {"vertex", LAM_FLAT_NORMAL_VERTEX}, {NULL, 0}};
 const struct json_choice normals_words[] = {
     {"file", LAM_NORMALS_FILE}, {"smooth", LAM_NORMALS_SMOOTH}, {"facet", LAM_NORMALS_FACET}, {NULL, 0}};
 const struct json_choice cull_words[] = {
@@ -161,18 +150,12 @@ void tone_words(struct json_choice words[LAM_TONE_COUNT + 1])
     words[LAM_TONE_COUNT] = (struct json_choice){NULL, 0};
 }
 
-void occlusion_words(struct json_choice words[LAM_OCCLUSION_COUNT + 1])
+void setting_words(const lam_setting *setting, struct json_choice words[WORDS_MAX])
 {
-    for (int i = 0; i < LAM_OCCLUSION_COUNT; i++)
-        words[i] = (struct json_choice){lam_occlusion_name((lam_occlusion)i), i};
-    words[LAM_OCCLUSION_COUNT] = (struct json_choice){NULL, 0};
-}
-
-void reflection_words(struct json_choice words[LAM_REFLECTION_COUNT + 1])
-{
-    for (int i = 0; i < LAM_REFLECTION_COUNT; i++)
-        words[i] = (struct json_choice){lam_reflection_describe((lam_reflection)i)->word, i};
-    words[LAM_REFLECTION_COUNT] = (struct json_choice){NULL, 0};
+    int count = 0, value;
+    for (const char *word; count < WORDS_MAX - 1 && (word = setting->word(count, &value)); count++)
+        words[count] = (struct json_choice){word, value};
+    words[count] = (struct json_choice){NULL, 0};
 }
 
 // --- colours

@@ -463,6 +463,15 @@ static void put_lights(struct scene_writer *w, json_t *root, lam_rig rig)
 
 // --- settings
 
+static json_t *setting_word(const lam_setting *setting, int value)
+{
+    const char *word;
+    for (int i = 0, named; (word = setting->word(i, &named)); i++)
+        if (named == value)
+            return json_string(word);
+    return NULL;
+}
+
 static void put_camera(struct scene_writer *w, json_t *root, const lam_camera *camera)
 {
     json_t *out = json_object();
@@ -518,6 +527,24 @@ static bool put_environment(struct scene_writer *w, json_t *root, const lam_pict
     return true;
 }
 
+// A row of the table of settings. Defaults that are no words are left out: reading them changes nothing.
+static void put_setting(struct scene_writer *w, json_t *root, const lam_setting *setting, const lam_draw_params *draw)
+{
+    const void *member = (const char *)draw + setting->offset;
+    json_t *value = NULL;
+    if (setting->type == LAM_SETTING_WORD)
+        value = setting_word(setting, *(const int *)member);
+    else if (lam_setting_is_default(setting, draw))
+        return;
+    else if (setting->type == LAM_SETTING_FLAG || setting->type == LAM_SETTING_NOT_FLAG)
+        value = json_boolean(setting->type == LAM_SETTING_FLAG);
+    else if (setting->type == LAM_SETTING_WHOLE)
+        value = json_integer(*(const int *)member);
+    else
+        value = number_float(*(const float *)member > 0 ? *(const float *)member : 0);
+    put(w, root, setting->key, value);
+}
+
 static bool put_settings(struct scene_writer *w, json_t *root, const lam_picture_settings *s)
 {
     put_image(w, root, s);
@@ -525,40 +552,9 @@ static bool put_settings(struct scene_writer *w, json_t *root, const lam_picture
         put_camera(w, root, &s->camera);
     if ((s->present & LAM_SETTING_ENVIRONMENT) && !put_environment(w, root, s))
         return false;
-    if (s->present & LAM_SETTING_SHADING)
-        put(w, root, "shading", word(shading_words, (int)s->draw.shading));
-    if (s->present & LAM_SETTING_REFLECTION)
-        put(w, root, "reflection", json_string(lam_reflection_describe(s->draw.reflection)->word));
-    if (s->present & LAM_SETTING_STAGE)
-        put(w, root, "stage", word(stage_words, (int)s->draw.stage));
-    if (s->present & LAM_SETTING_VIEWER)
-        put(w, root, "viewer", word(viewer_words, (int)s->draw.viewer));
-    if (s->present & LAM_SETTING_FLAT_NORMAL)
-        put(w, root, "flat_normal", word(flat_normal_words, (int)s->draw.flat_normal));
-    if ((s->present & LAM_SETTING_SINGLE_SCATTERING) && s->draw.single_scattering)
-        put(w, root, "single_scattering", json_true());
-    if ((s->present & LAM_SETTING_MATCH_HIGHLIGHTS) && s->draw.match_highlights)
-        put(w, root, "match_highlights", json_true());
-    if ((s->present & LAM_SETTING_GL1) && s->draw.gl1)
-        put(w, root, "gl1", json_true());
-    if ((s->present & LAM_SETTING_SHADOWS) && s->draw.shadows)
-        put(w, root, "shadows", json_true());
-    if ((s->present & LAM_SETTING_SHADOWS) && s->draw.flat_terminator)
-        put(w, root, "shadow_terminator", json_false());
-    if ((s->present & LAM_SETTING_SHADOWS) && s->draw.shadow_samples)
-        put(w, root, "shadow_samples", json_integer(s->draw.shadow_samples));
-    if ((s->present & LAM_SETTING_ANISOTROPY) && s->draw.anisotropy > 1)
-        put(w, root, "anisotropy", json_integer(s->draw.anisotropy));
-    if ((s->present & LAM_SETTING_REFERENCE) && s->draw.reference)
-        put(w, root, "reference", json_integer(s->draw.reference));
-    if ((s->present & LAM_SETTING_OCCLUSION) && s->draw.occlusion != LAM_OCCLUSION_AUTO)
-        put(w, root, "ao", json_string(lam_occlusion_name(s->draw.occlusion)));
-    if ((s->present & LAM_SETTING_OCCLUSION_RADIUS) && s->draw.occlusion_radius > 0)
-        put(w, root, "ao_radius", number_float(s->draw.occlusion_radius));
-    if ((s->present & LAM_SETTING_OCCLUSION_SAMPLES) && s->draw.occlusion_samples)
-        put(w, root, "ao_samples", json_integer(s->draw.occlusion_samples));
-    if ((s->present & LAM_SETTING_LIGHT_CUTOFF) && s->draw.light_cutoff != 0)
-        put(w, root, "light_cutoff", s->draw.light_cutoff > 0 ? number_float(s->draw.light_cutoff) : json_integer(0));
+    for (int i = 0; lam_draw_setting(i); i++)
+        if (s->draw_present >> i & 1)
+            put_setting(w, root, lam_draw_setting(i), &s->draw);
     return true;
 }
 

@@ -283,7 +283,7 @@ class Environment(Case):
         self.scene("heavy.json", {"lambent": 1, "environment": {"equirectangular": "wide.png"}, "objects": [{"shape": "cube"}]})
         self.given |= self.new_files()
         self.bad(4, "heavy.json", "--memory-limit", "10M", "-s", 20, says="memory limit")
-        self.good("unseen.json", "--memory-limit", "10M", "-s", 20, "--samples", 4, "-q", "-o", "a.png")
+        self.good("unseen.json", "--memory-limit", "10M", "-s", 20, "--samples", 4, "--threads", 2, "-q", "-o", "a.png")
         self.given |= self.new_files()
         self.bad(4, "unseen.json", "--environment", "wide.png", "--memory-limit", "10M", "-s", 20, says="memory limit")
 

@@ -138,7 +138,7 @@ static bool load_both(void)
 static bool fits(size_t kept)
 {
     lam_error error;
-    lam_scene *scene = lam_scene_load(path, &(lam_load_params){.normals_when_drawn = true},
+    lam_scene *scene = lam_scene_load(path, &(lam_load_params){.normals_when_drawn = true, .threads = 2},
                                       &(lam_control){.memory_limit_bytes = kept + size / 4 * 3}, &error);
     lam_scene_free(scene);
     return scene != NULL;

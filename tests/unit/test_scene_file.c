@@ -81,8 +81,14 @@ static void test_picture(void **unused)
              "[], " BALL "}");
     lam_picture_settings s;
     assert_true(lam_scene_picture_settings(scene, &s));
-    assert_int_equal(s.present,
-                     ((LAM_SETTING_LIGHTS << 1) - 1) | LAM_SETTING_LIGHT_CUTOFF | LAM_SETTING_SINGLE_SCATTERING);
+    assert_int_equal(s.present, LAM_SETTING_SIZE | LAM_SETTING_SAMPLES | LAM_SETTING_BACKGROUND | LAM_SETTING_COLOR |
+                                    LAM_SETTING_EXPOSURE | LAM_SETTING_CAMERA | LAM_SETTING_LIGHTS);
+    static const char *const given[] = {"shading",          "reflection",        "stage", "viewer",      "flat_normal",
+                                        "match_highlights", "single_scattering", "gl1",   "light_cutoff"};
+    uint64_t rows = 0;
+    for (size_t i = 0; i < sizeof given / sizeof *given; i++)
+        rows |= UINT64_C(1) << lam_draw_setting_find(given[i]);
+    assert_true(s.draw_present == rows);
     assert_true(s.draw.light_cutoff == 0.25f);
     assert_true(s.width == 30 && s.height == 20 && s.draw.samples == 8);
     assert_true(s.draw.background.r == (float)(128.0 / 255) && s.draw.background.a == (float)(128.0 / 255));
@@ -204,10 +210,8 @@ static void test_errors(void **unused)
         {"{\"lambent\": 1,\n \"objects\": [}", "s.json:2: column 14: found '}', expected a value"},
         {"{\"lambent\": 1, \"lambent\": 1}", "s.json:1: column 16: the key is given twice"},
         {"{\"x\": \"\\\"lambent\\\"\", \"lambent\": 1}",
-         "s.json: x: unknown key; expected lambent, image, camera, ambient, "
-         "environment, shading, reflection, viewer, stage, flat_normal, match_highlights, single_scattering, gl1, up, "
-         "materials, objects, lights, light_cutoff, anisotropy, reference, "
-         "shadows, shadow_terminator, shadow_samples, ao, ao_radius, ao_samples"},
+         "s.json: x: unknown key; expected lambent, image, camera, ambient, environment, up, materials, objects, "
+         "lights, ..."},
         {"{\"lambent\": 1}", "s.json: 'objects' is missing, expected a list of at least one object"},
         {"{\"lambent\": 2, " BALL "}", "s.json: lambent: the format's version is 2, this program reads version 1"},
         {"{\"lambent\": \"1\", " BALL "}", "s.json: lambent: found \"1\", expected a number"},
@@ -325,6 +329,8 @@ static void test_errors(void **unused)
         assert_null(load_scene(rows[i].text, &error));
         if (strstr(rows[i].text, "1e999")) // JSON has no infinity
             assert_non_null(strstr(error.text, "found '1e999', expected a number that a double can hold"));
+        else if (strstr(rows[i].sentence, ", ...")) // the settings of the table follow
+            assert_memory_equal(error.text, rows[i].sentence, strlen(rows[i].sentence) - strlen("..."));
         else
             assert_string_equal(error.text, rows[i].sentence);
         assert_int_equal(error.code, strstr(rows[i].text, "\"lambent\": 2") ? LAM_UNSUPPORTED : LAM_CANNOT_READ);
@@ -424,13 +430,8 @@ static void test_writing(void **unused)
     for (int i = 0; i < 4; i++)
         assert_true(lam_scene_add_light(scene, &lights[i], &error) == i);
     lam_scene_set_ambient(scene, (lam_rgb){0.1f, 0.7f, 1e-3f});
-    lam_picture_settings s = {.present = ((LAM_SETTING_LIGHTS << 1) - 1) | LAM_SETTING_LIGHT_CUTOFF |
-                                         LAM_SETTING_SINGLE_SCATTERING | LAM_SETTING_REFERENCE | LAM_SETTING_SHADOWS |
-                                         LAM_SETTING_OCCLUSION | LAM_SETTING_OCCLUSION_RADIUS |
-                                         LAM_SETTING_OCCLUSION_SAMPLES,
-                              .width = 7,
-                              .height = 9,
-                              .camera = lam_camera_default()};
+    lam_picture_settings s = {
+        .present = (LAM_SETTING_LIGHTS << 1) - 1, .width = 7, .height = 9, .camera = lam_camera_default()};
     s.draw = (lam_draw_params){.samples = 2,
                                .background = {0.1f, 0.2f, 0.3f, 0.4f},
                                .color = LAM_COLOR_RAW,
@@ -451,6 +452,23 @@ static void test_writing(void **unused)
                                .occlusion_radius = 0.3f,
                                .occlusion_samples = 9,
                                .single_scattering = true};
+    // Every row of the table with a value that is not its default. Those above go together.
+    for (int i = 0; lam_draw_setting(i); i++) {
+        const lam_setting *setting = lam_draw_setting(i);
+        void *member = (char *)&s.draw + setting->offset;
+        s.draw_present |= UINT64_C(1) << i;
+        if (!lam_setting_is_default(setting, &s.draw))
+            continue;
+        if (setting->type == LAM_SETTING_NUMBER)
+            *(float *)member = (float)(setting->min + (setting->max - setting->min) / 7);
+        else if (setting->type == LAM_SETTING_WHOLE)
+            *(int *)member = (int)setting->max;
+        else if (setting->type == LAM_SETTING_WORD)
+            assert_non_null(setting->word(1, member));
+        else
+            *(bool *)member = true;
+        assert_false(lam_setting_is_default(setting, &s.draw));
+    }
     s.camera.fovy_rad = 0.7123456789012345;
     s.camera.eye = (lam_vec3){1.0 / 3, 1e-9, 12345678.9};
     s.camera.near_plane = 0.1;
@@ -462,6 +480,13 @@ static void test_writing(void **unused)
     lam_picture_settings t;
     assert_true(lam_scene_picture_settings(back, &t));
     assert_int_equal(t.present, s.present);
+    assert_true(t.draw_present == s.draw_present);
+    for (int i = 0; lam_draw_setting(i); i++) {
+        lam_draw_params copy = t.draw;
+        lam_setting_copy(lam_draw_setting(i), &s.draw, &copy);
+        if (memcmp(&copy, &t.draw, sizeof copy) != 0)
+            fail_msg("%s came back with another value", lam_draw_setting(i)->key);
+    }
     assert_memory_equal(&t.draw.samples, &s.draw.samples, sizeof s.draw.samples);
     assert_memory_equal(&t.draw.background, &s.draw.background, sizeof s.draw.background);
     assert_true(t.draw.color == s.draw.color && t.draw.shading == s.draw.shading &&

@@ -100,12 +100,11 @@ static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, c
         options.background = SHEET_BACKGROUND;
     // Sheets compare methods of local lighting: what its sums leave out comes in only where it is asked for.
     if (!option_given(&options, "ao"))
-        options.occlusion = LAM_OCCLUSION_OFF;
+        options.draw.occlusion = LAM_OCCLUSION_OFF;
     if (c->exposure_fitted) {
         options.exposure_kind = EXPOSURE_LITERAL;
         options.exposure = c->exposure;
-        options.light_cutoff = options.has_light_cutoff ? options.light_cutoff : 0;
-        options.has_light_cutoff = true;
+        options.draw.light_cutoff = options.draw.light_cutoff != 0 ? options.draw.light_cutoff : -1;
     }
     struct job job = {.options = &options, .model = c->model, .device = c->device};
     job.times.start = clock_ms();

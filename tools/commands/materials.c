@@ -185,7 +185,7 @@ static bool draw_sheet(const lam_scene *scene, const struct options *o, lam_imag
     if (!lam_color_parse(o->background ? o->background : SHEET_BACKGROUND, (lam_color_mode)o->color_mode, &background,
                          error))
         return false;
-    lam_draw_params params = {.samples = o->samples,
+    lam_draw_params params = {.samples = o->draw.samples,
                               .background = background,
                               .color = (lam_color_mode)o->color_mode,
                               .viewer = LAM_VIEWER_INFINITE};

@@ -22,14 +22,14 @@
 // Phong shading runs in the fragment stage, Gouraud shading in the vertex stage or the application, flat in any.
 static bool check_stage(const struct options *o, lam_error *error)
 {
-    if (!o->has_shading || !o->stage)
+    if (!o->has_shading || !o->draw.stage)
         return true;
-    if (o->shading == LAM_SHADING_PHONG && o->stage != LAM_STAGE_FRAGMENT)
+    if (o->draw.shading == LAM_SHADING_PHONG && o->draw.stage != LAM_STAGE_FRAGMENT)
         return complain(error, LAM_BAD_ARGUMENT,
                         "phong shading cannot be evaluated in stage %s; phong works with fragment, gouraud with "
                         "application or vertex, flat with all three",
-                        o->stage == LAM_STAGE_VERTEX ? "vertex" : "application");
-    if (o->shading == LAM_SHADING_GOURAUD && o->stage == LAM_STAGE_FRAGMENT)
+                        o->draw.stage == LAM_STAGE_VERTEX ? "vertex" : "application");
+    if (o->draw.shading == LAM_SHADING_GOURAUD && o->draw.stage == LAM_STAGE_FRAGMENT)
         return complain(error, LAM_BAD_ARGUMENT,
                         "gouraud shading cannot be evaluated in stage fragment; gouraud works with application or "
                         "vertex, phong with fragment, flat with all three");

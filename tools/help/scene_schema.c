@@ -77,12 +77,41 @@ static void print_fields(const char *name, size_t length)
     }
 }
 
-static void print_reflections(void)
+static void print_words(const lam_setting *setting)
 {
-    printf("      \"enum\": [");
-    for (int i = 0; i < LAM_REFLECTION_COUNT; i++)
-        printf("%s\"%s\"", i ? ", " : "", lam_reflection_describe((lam_reflection)i)->word);
-    printf("]");
+    const char *word, *standard = "";
+    int value;
+    printf("\"enum\": [");
+    for (int i = 0; (word = setting->word(i, &value)); i++) {
+        printf("%s\"%s\"", i ? ", " : "", word);
+        if (value == 0 && !*standard)
+            standard = word;
+    }
+    printf("], \"default\": \"%s\"", standard);
+}
+
+static void print_settings(void)
+{
+    for (int i = 0; lam_draw_setting(i); i++) {
+        const lam_setting *setting = lam_draw_setting(i);
+        printf("%s    \"%s\": {", i ? ",\n" : "", setting->key);
+        switch (setting->type) {
+        case LAM_SETTING_WORD:
+            print_words(setting);
+            break;
+        case LAM_SETTING_FLAG:
+        case LAM_SETTING_NOT_FLAG:
+            printf("\"type\": \"boolean\", \"default\": %s", setting->type == LAM_SETTING_FLAG ? "false" : "true");
+            break;
+        case LAM_SETTING_WHOLE:
+        case LAM_SETTING_NUMBER:
+            printf("\"type\": \"%s\", \"minimum\": %.10g, \"maximum\": %.10g, \"default\": %.10g",
+                   setting->type == LAM_SETTING_WHOLE ? "integer" : "number", setting->zero ? 0 : setting->min,
+                   setting->max, setting->standard);
+            break;
+        }
+        printf(", \"description\": \"%s\"}", setting->summary);
+    }
 }
 
 static bool is(const char *name, size_t length, const char *word)
@@ -106,8 +135,8 @@ void generate_scene_schema(void)
             fputs(every_light, stdout);
         else if (is(name, name_length, "colored_light"))
             fputs(colored_light, stdout);
-        else if (is(name, name_length, "reflection"))
-            print_reflections();
+        else if (is(name, name_length, "settings"))
+            print_settings();
         else
             print_fields(name, name_length);
         printf(next[strspn(next, " ")] == '}' ? "\n" : ",\n");

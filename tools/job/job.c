@@ -137,7 +137,7 @@ static bool draws_once(const struct job *job)
     const struct options *o = job->options;
     if (job->device && lam_device_isa(job->device) == LAM_ISA_AUTO) // an OpenGL device
         return false;
-    bool tangents = lam_reflection_describe((lam_reflection)o->reflection)->tangents;
+    bool tangents = lam_reflection_describe(o->draw.reflection)->tangents;
     return o->repeat == 1 && !show_is_all(o) && !tangents;
 }
 
@@ -266,7 +266,7 @@ static bool fit_exposure(struct job *job, lam_draw_params *draw, int width, int 
     bool wanted = o->exposure_kind == EXPOSURE_AUTO || (o->exposure_kind == EXPOSURE_BY_FILE && job->file_lights);
     if (!wanted || !lam_output_is_light(draw->output))
         return true;
-    if (!o->has_light_cutoff)
+    if (draw->light_cutoff == 0)
         draw->light_cutoff = -1;
     job->exposure_fitted = true;
     return control_of(job, NULL, &control, error) && lam_exposure_fit(job->device, job->scene, &job->camera, draw,

@@ -134,7 +134,7 @@ static bool apply_rig(struct job *job, lam_error *error)
     if (dark)
         job->rig = LAM_RIG_NONE;
     bool classic =
-        o->reflection != LAM_REFLECTION_AUTO && !lam_reflection_describe((lam_reflection)o->reflection)->microfacet;
+        o->draw.reflection != LAM_REFLECTION_AUTO && !lam_reflection_describe(o->draw.reflection)->microfacet;
     if (job->rig == LAM_RIG_AUTO && classic && lam_scene_light_count(job->scene) == 0)
         job->rig = LAM_RIG_STUDIO; // where the environment lights physical models
     const char *format = lam_scene_format(job->scene);
@@ -188,7 +188,7 @@ bool job_apply_options(struct job *job, const lam_control *control, struct model
         lam_scene_sphere(scene, -1, &sphere->centre, &sphere->radius);
     if (!(sphere->radius > 0))
         sphere->radius = 1;
-    bool threads = lam_reflection_describe((lam_reflection)o->reflection)->tangents;
+    bool threads = lam_reflection_describe(o->draw.reflection)->tangents;
     return apply_materials(o, scene, error) && apply_sides(o, scene, error) && apply_rig(job, error) &&
            (!threads || lam_scene_make_tangents(scene, control, error));
 }
@@ -244,35 +244,12 @@ bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *er
 
 lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
 {
-    bool by_vertex = o->stage == LAM_STAGE_APPLICATION || o->stage == LAM_STAGE_VERTEX;
-    return (lam_draw_params){
-        .samples = o->samples,
-        .color = (lam_color_mode)o->color_mode,
-        .exposure = o->exposure_kind == EXPOSURE_LITERAL ? o->exposure : 0,
-        .tone = (lam_tone)o->tone,
-        .rig = rig,
-        .shading = o->has_shading ? (lam_shading)o->shading
-                   : by_vertex    ? LAM_SHADING_GOURAUD
-                                  : LAM_SHADING_PHONG,
-        .reflection = (lam_reflection)o->reflection,
-        .stage = (lam_stage)o->stage,
-        .viewer = (lam_viewer)o->viewer,
-        .flat_normal = (lam_flat_normal)o->flat_normal,
-        .match_highlights = o->match_highlights,
-        .gl1 = o->gl1,
-        .single_scattering = o->single_scattering,
-        .shadows = o->shadows,
-        .flat_terminator = o->shadow_terminator == 1,
-        .shadow_samples = o->shadow_samples,
-        .anisotropy = o->anisotropy,
-        .reference = o->reference,
-        .line_width = (float)o->line_width,
-        .point_size = (float)o->point_size,
-        .occlusion = (lam_occlusion)o->occlusion,
-        .occlusion_radius = (float)o->ao_radius,
-        .occlusion_samples = o->ao_samples,
-        .light_cutoff = !o->has_light_cutoff  ? 0
-                        : o->light_cutoff > 0 ? (float)o->light_cutoff
-                                              : -1,
-    };
+    lam_draw_params draw = o->draw;
+    bool by_vertex = draw.stage == LAM_STAGE_APPLICATION || draw.stage == LAM_STAGE_VERTEX;
+    if (!o->has_shading)
+        draw.shading = by_vertex ? LAM_SHADING_GOURAUD : LAM_SHADING_PHONG;
+    draw.color = (lam_color_mode)o->color_mode;
+    draw.exposure = o->exposure_kind == EXPOSURE_LITERAL ? o->exposure : 0;
+    draw.rig = rig;
+    return draw;
 }

@@ -241,22 +241,25 @@ const struct option option_table[] = {
      "of "
      "its own size. Each triangle that covers part of a pixel is lit once in that pixel.",
      sample_words, .store = store_word,
-     .others = "antialias antialiasing anti-aliasing aa msaa supersampling ssaa quality spp", FIELD(samples)},
+     .others = "antialias antialiasing anti-aliasing aa msaa supersampling ssaa quality spp", FIELD(draw.samples)},
     {"anisotropy", 0, GROUP_PICTURE, "N", "1",
      "Probes of a texture where it is seen at a slant, 1 to 16: more are sharper.",
      "Each pixel sees a texture through a footprint that is long where the surface turns away. One probe has the size "
      "of its "
      "longer axis, which blurs the shorter one; N probes along the longer axis are as sharp as N times that.",
-     .store = store_integer, .others = "anisotropic anisotropic-filtering", FIELD(anisotropy), .min = 1, .max = 16},
+     .store = store_integer, .others = "anisotropic anisotropic-filtering", FIELD(draw.anisotropy), .min = 1,
+     .max = 16},
     {"line-width", 0, GROUP_PICTURE, "PIXELS", "1.5", "The width of the lines that a model has.",
      "Lines of OBJ (`l`), PLY (`edge`) and glTF files are as wide at every distance. They lie nearer than their "
      "vertices by "
      "their width, so that lines on a surface are seen, and end without caps.",
-     .store = store_number, .others = "linewidth stroke-width thickness", FIELD(line_width), .min = 0.01, .max = 1000},
+     .store = store_float, .others = "linewidth stroke-width thickness", FIELD(draw.line_width), .min = 0.01,
+     .max = 1000},
     {"point-size", 0, GROUP_PICTURE, "PIXELS", "3", "The size of the points that a model has: the sides of squares.",
      "Points of OBJ (`p`) and glTF files, and the vertices of PLY files without faces and edges, are as large at every "
      "distance.",
-     .store = store_number, .others = "pointsize point-width splat-size", FIELD(point_size), .min = 0.01, .max = 1000},
+     .store = store_float, .others = "pointsize point-width splat-size", FIELD(draw.point_size), .min = 0.01,
+     .max = 1000},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
      "It lies wherever the model does not, in pictures of `--show` too, and behind each picture of a sheet. The sheets "
@@ -294,7 +297,7 @@ const struct option option_table[] = {
      "itself. "
      "`docs/lighting/tone.md` has the formulas.",
      tone_words, .store = store_word, .others = "tonemap tone-map tonemapping tone-mapping tone-curve view-transform",
-     FIELD(tone)},
+     FIELD(draw.tone)},
     {"show", 0, GROUP_PICTURE, "WHAT", "the picture",
      "Show a term of the light, one light, or a surface quantity instead of the picture.",
      "The terms `ambient`, `diffuse`, `specular`, `emission` and `reflection` add up to the picture. "
@@ -416,8 +419,7 @@ const struct option option_table[] = {
      "possible sum in a channel stays below this share of the channel's full range. The default is half a step "
      "of an 8-bit channel (0.5/255): no byte is off by more than 1. Lights that contribute exactly nothing "
      "(behind the surface, beyond their range, outside their cone) are always skipped.",
-     .store = store_number, FIELD(light_cutoff), .has_field = offsetof(struct options, has_light_cutoff), .min = 0,
-     .max = 1},
+     .store = store_cutoff, FIELD(draw.light_cutoff), .min = 0, .max = 1},
     {"ao", 0, GROUP_LIGHTS, "HOW", "auto", "Ambient occlusion: auto, off, screen or rays.",
      "Light from all around reaches a recess less than an open face. Occlusion dims ambient, hemisphere and "
      "environment "
@@ -425,13 +427,15 @@ const struct option option_table[] = {
      "It "
      "needs Phong shading. `docs/lighting/occlusion.md` has the formulas.",
      occlusion_words, .store = store_word, .others = "ambient-occlusion occlusion ssao gtao hbao no-ao",
-     FIELD(occlusion)},
+     FIELD(draw.occlusion)},
     {"ao-radius", 0, GROUP_LIGHTS, "SHARE", "0.1",
      "How far away surfaces occlude, as a share of half the diagonal of the scene's box.", "", NULL,
-     .store = store_number, .others = "occlusion-radius ssao-radius", FIELD(ao_radius), .min = 0.001, .max = 10},
+     .store = store_float, .others = "occlusion-radius ssao-radius", FIELD(draw.occlusion_radius), .min = 0.001,
+     .max = 10},
     {"ao-samples", 0, GROUP_LIGHTS, "N", "64",
      "Rays from each lit point with `--ao rays`; more of them make its grain finer.", NULL, NULL,
-     .store = store_integer, .others = "occlusion-samples ao-rays ray-count", FIELD(ao_samples), .min = 1, .max = 1024},
+     .store = store_integer, .others = "occlusion-samples ao-rays ray-count", FIELD(draw.occlusion_samples), .min = 1,
+     .max = 1024},
     {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1", "Multiply the brightness of all lights except `--ambient`.", NULL,
      .store = store_number, .others = "intensity light-intensity light-power", FIELD(light_scale),
      .has_field = offsetof(struct options, has_light_scale), .min = 0, .max = 1e6},
@@ -469,48 +473,49 @@ const struct option option_table[] = {
     {"shading", 0, GROUP_SHADING, "METHOD", "phong",
      "The shading method: flat, gouraud (per vertex) or phong (per pixel).", NULL, shading_words,
      .brief = "flat, gouraud or phong", .store = store_word, .others = "flat smooth gouraud phong interpolation",
-     FIELD(shading), .has_field = offsetof(struct options, has_shading)},
+     FIELD(draw.shading), .has_field = offsetof(struct options, has_shading)},
     {"reflection", 0, GROUP_SHADING, "MODEL", "auto", reflection_summary, NULL, reflection_words, .store = store_word,
-     .others = "brdf lobe lighting-model reflection-model blinn-phong lambert", FIELD(reflection)},
+     .others = "brdf lobe lighting-model reflection-model blinn-phong lambert", FIELD(draw.reflection)},
     {"stage", 0, GROUP_SHADING, "WHERE", "fragment", "Where lighting is evaluated: application, vertex or fragment.",
      "Without `--shading`, application and vertex imply gouraud, and fragment implies phong. flat works with "
      "all three, gouraud with application and vertex, phong with fragment. On the CPU all stages of a shading "
      "method give the same bytes.",
-     stage_words, .store = store_word, .others = "per-vertex per-pixel per-fragment", FIELD(stage)},
+     stage_words, .store = store_word, .others = "per-vertex per-pixel per-fragment", FIELD(draw.stage)},
     {"flat-normal", 0, GROUP_SHADING, "SOURCE", "face", "The normal of flat shading: face, or vertex (the last one's).",
-     NULL, flat_normal_words, .store = store_word, FIELD(flat_normal)},
+     NULL, flat_normal_words, .store = store_word, FIELD(draw.flat_normal)},
     {"viewer", 0, GROUP_SHADING, "KIND", "local", "The eye's position for highlights: local or infinite.", NULL,
-     viewer_words, .store = store_word, FIELD(viewer)},
+     viewer_words, .store = store_word, FIELD(draw.viewer)},
     {"match-highlights", 0, GROUP_SHADING, NULL, NULL,
      "Multiply Blinn-Phong's shininess by 4, so that it looks like Phong.", NULL, .store = store_switch,
-     FIELD(match_highlights)},
+     FIELD(draw.match_highlights)},
     {"single-scattering", 0, GROUP_SHADING, NULL, NULL,
      "Leave out the light that the mirrors of GGX send to one another.",
      "Rough metals are darker then, as in renderers that leave it out.", .store = store_switch,
-     FIELD(single_scattering)},
+     FIELD(draw.single_scattering)},
     {"reference", 0, GROUP_SHADING, "N", "0",
      "Sum the environment's light on physical materials by N directions at each point, 16 to 1048576; 0: split sum.",
      "The picture's environment light is an approximation, the split sum; this is the integral that it stands for, to "
      "compare with. "
      "1024 directions are mostly within 0.5 % of it, 4096 within 0.2 %. The directions are the same at every point "
      "and on every machine. CPU only.",
-     .store = store_integer, .others = "ground-truth importance-samples", FIELD(reference), .min = 0, .max = 1 << 20},
+     .store = store_integer, .others = "ground-truth importance-samples", FIELD(draw.reference), .min = 0,
+     .max = 1 << 20},
     {"shadows", 0, GROUP_SHADING, NULL, NULL, "Let triangles take away the light of points behind them.",
      "Exact: a ray from every lit point to every light whose key `shadows` is not off. Ambient and hemisphere light "
      "and the environment cast none. A light with a `radius` has soft shadows. `docs/lighting/shadows.md` describes "
      "what decides, and the mistakes that shadows are known for.",
-     .store = store_switch, .others = "shadow cast-shadows raytrace shadow-map", FIELD(shadows)},
+     .store = store_switch, .others = "shadow cast-shadows raytrace shadow-map", FIELD(draw.shadows)},
     {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", "on",
      "Whether shadows follow the curved surface that the normals stand for: on or off.", NULL, terminator_words,
-     .store = store_word, .others = "terminator shadow-bias", FIELD(shadow_terminator)},
+     .store = store_word_flag, .others = "terminator shadow-bias", FIELD(draw.flat_terminator)},
     {"shadow-samples", 0, GROUP_SHADING, "N", "16",
      "Points of a light with a radius that each lit point is tested with.",
      "Their share that is in sight is the share of the light that arrives.", .store = store_integer,
-     .others = "soft-shadow-samples light-samples", FIELD(shadow_samples), .min = 1, .max = 256},
+     .others = "soft-shadow-samples light-samples", FIELD(draw.shadow_samples), .min = 1, .max = 256},
     {"gl1", 0, GROUP_SHADING, NULL, NULL, "Light as OpenGL 1: colours clamped, shininess to 128, ambient attenuated.",
      "For comparison with old programs: vertex colours are clamped to 0...1 before interpolation, the shininess "
      "is at most 128, and the ambient light of a light is attenuated and limited to its cone.",
-     .store = store_switch, FIELD(gl1)},
+     .store = store_switch, FIELD(draw.gl1)},
     {"two-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces with the reversed normal, whatever the model says.",
      NULL, .store = store_switch, FIELD(two_sided)},
     {"one-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces like front faces, with the unchanged normal.", NULL,

@@ -32,14 +32,13 @@ bool store_text(const struct option *option, const char *value, struct options *
     return true;
 }
 
-bool store_word(const struct option *option, const char *value, struct options *options, lam_error *error)
+// The value of one of the option's words.
+static bool read_word(const struct option *option, const char *value, int *found, lam_error *error)
 {
     struct suggestion nearest = suggest_start(value);
     for (const struct word *w = option->words; w->name; w++) {
         if (strcmp(w->name, value) == 0) {
-            *(int *)field_of(options, option->field) = w->value;
-            if (option->has_field)
-                *(bool *)field_of(options, option->has_field) = true;
+            *found = w->value;
             return true;
         }
         suggest_try(&nearest, w->name);
@@ -53,6 +52,24 @@ bool store_word(const struct option *option, const char *value, struct options *
     if (nearest.best && nearest.best[0] > '9') // a number is not a mistyped word
         snprintf(guess, sizeof guess, "; did you mean '%s'?", nearest.best);
     return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s%s", value, known, guess);
+}
+
+bool store_word(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    if (!read_word(option, value, field_of(options, option->field), error))
+        return false;
+    if (option->has_field)
+        *(bool *)field_of(options, option->has_field) = true;
+    return true;
+}
+
+bool store_word_flag(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    int flag;
+    if (!read_word(option, value, &flag, error))
+        return false;
+    *(bool *)field_of(options, option->field) = flag != 0;
+    return true;
 }
 
 bool store_words(const struct option *option, const char *value, struct options *options, lam_error *error)
@@ -142,6 +159,25 @@ bool store_number(const struct option *option, const char *value, struct options
         return false;
     if (option->has_field)
         *(bool *)field_of(options, option->has_field) = true;
+    return true;
+}
+
+bool store_float(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    double number;
+    if (!number_between(option, value, false, &number, error))
+        return false;
+    *(float *)field_of(options, option->field) = (float)number;
+    return true;
+}
+
+// 0 is a cutoff too: nothing is left out.
+bool store_cutoff(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    float *share = field_of(options, option->field);
+    if (!store_float(option, value, options, error))
+        return false;
+    *share = *share > 0 ? *share : -1;
     return true;
 }
 

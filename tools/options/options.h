@@ -15,25 +15,19 @@ struct texts {
 
 // The options of a command line; option_defaults() returns their defaults.
 struct options {
+    // Stored by the options of lam_draw_setting, and by --samples and --tone. draw_params_of adds the others.
+    lam_draw_params draw;
+
     // Picture
     const char *output;     // NULL: <model's name>.png; "-": standard output
     int width, height;      // pixels
     bool has_size;          // the size was given
-    int samples;            // 0: the library's default
-    int anisotropy;         // 0: 1
-    int reference;          // directions; 0: the split sum
-    double line_width;      // pixels; 0: the library's default
-    double point_size;      // the same
-    int occlusion;          // lam_occlusion
-    double ao_radius;       // 0: the library's default
-    int ao_samples;         // 0: the library's default
     const char *background; // as written; NULL: clear
     int color_mode;         // lam_color_mode
     int compress;           // lam_compress
     int quality;            // 0: the format's own
     double exposure;        // stops, where the next is literal
     int exposure_kind;      // enum exposure_kind
-    int tone;               // lam_tone
     const char *show;       // as written (show_option.h); NULL: the picture
 
     const char *save_scene; // the scene file to write; NULL: none
@@ -57,8 +51,8 @@ struct options {
     int rig;             // lam_rig, or RIG_DARK
     bool has_rig;
     const char *ambient; // as written; NULL: none
-    double light_scale, light_cutoff;
-    bool has_light_scale, has_light_cutoff;
+    double light_scale;
+    bool has_light_scale;
 
     // Materials
     struct texts materials; // as written, checked
@@ -68,16 +62,8 @@ struct options {
     bool has_shininess, has_opacity;
 
     // Shading
-    int shading; // lam_shading
     bool has_shading;
-    int reflection;  // lam_reflection
-    int stage;       // lam_stage
-    int viewer;      // lam_viewer
-    int flat_normal; // lam_flat_normal
-    bool shadows;
-    int shadow_terminator; // 1: off
-    int shadow_samples;    // 0: the library's default
-    bool match_highlights, single_scattering, gl1, two_sided, one_sided, show_lights;
+    bool two_sided, one_sided, show_lights;
     int cull; // lam_cull
     bool has_cull;
     struct texts rotations; // as written, checked
@@ -276,6 +262,9 @@ bool store_integer(const struct option *, const char *, struct options *, lam_er
 bool store_number(const struct option *, const char *, struct options *, lam_error *);       // double
 bool store_seconds(const struct option *, const char *, struct options *, lam_error *);      // double, or none
 bool store_count(const struct option *, const char *, struct options *, lam_error *);        // uint64_t
+bool store_float(const struct option *, const char *, struct options *, lam_error *);        // float
+bool store_cutoff(const struct option *, const char *, struct options *, lam_error *);       // float; 0 is stored as -1
+bool store_word_flag(const struct option *, const char *, struct options *, lam_error *);    // bool, words of 0 and 1
 bool store_exposure(const struct option *, const char *, struct options *, lam_error *);     // double, or auto
 bool store_size(const struct option *, const char *, struct options *, lam_error *);         // width, height
 bool store_segments(const struct option *, const char *, struct options *, lam_error *);     // slices, stacks

@@ -1,6 +1,7 @@
 // scene_settings.c: the picture settings of a scene file, which the command line overrides; and --save-scene.
 #include "scene_settings.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +12,16 @@
 static bool takes_setting(const struct job *job, unsigned bit, const char *option)
 {
     return (job->settings.present & bit) && !option_given(&job->own, option);
+}
+
+// True if the command line has the option of a setting.
+static bool setting_given(const struct options *o, const lam_setting *setting)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%s", setting->key);
+    for (char *c = name; *c; c++)
+        *c = *c == '_' ? '-' : *c;
+    return option_given(o, name);
 }
 
 void scene_settings_apply(struct job *job)
@@ -26,7 +37,7 @@ void scene_settings_apply(struct job *job)
         own->height = s->height;
     }
     if (takes_setting(job, LAM_SETTING_SAMPLES, "samples"))
-        own->samples = s->draw.samples;
+        own->draw.samples = s->draw.samples;
     if (takes_setting(job, LAM_SETTING_COLOR, "color-mode"))
         own->color_mode = (int)s->draw.color;
     if (takes_setting(job, LAM_SETTING_EXPOSURE, "exposure") && own->exposure_kind == EXPOSURE_BY_FILE) {
@@ -34,41 +45,16 @@ void scene_settings_apply(struct job *job)
         own->exposure_kind = EXPOSURE_LITERAL;
     }
     if (takes_setting(job, LAM_SETTING_TONE, "tone"))
-        own->tone = (int)s->draw.tone;
-    if (takes_setting(job, LAM_SETTING_SHADING, "shading")) {
-        own->shading = (int)s->draw.shading;
-        own->has_shading = !option_given(own, "stage");
-    }
-    if (takes_setting(job, LAM_SETTING_REFLECTION, "reflection"))
-        own->reflection = (int)s->draw.reflection;
-    // A shading on the command line discards the file's stage, which may not fit it.
-    if (takes_setting(job, LAM_SETTING_STAGE, "stage") && !option_given(own, "shading"))
-        own->stage = (int)s->draw.stage;
-    if (takes_setting(job, LAM_SETTING_VIEWER, "viewer"))
-        own->viewer = (int)s->draw.viewer;
-    if (takes_setting(job, LAM_SETTING_FLAT_NORMAL, "flat-normal"))
-        own->flat_normal = (int)s->draw.flat_normal;
-    own->match_highlights |= s->draw.match_highlights;
-    own->gl1 |= s->draw.gl1;
-    own->single_scattering |= s->draw.single_scattering;
-    own->shadows |= s->draw.shadows;
-    if (takes_setting(job, LAM_SETTING_SHADOWS, "shadow-terminator"))
-        own->shadow_terminator = s->draw.flat_terminator;
-    if (takes_setting(job, LAM_SETTING_SHADOWS, "shadow-samples"))
-        own->shadow_samples = s->draw.shadow_samples;
-    if (takes_setting(job, LAM_SETTING_ANISOTROPY, "anisotropy"))
-        own->anisotropy = s->draw.anisotropy;
-    if (takes_setting(job, LAM_SETTING_REFERENCE, "reference"))
-        own->reference = s->draw.reference;
-    if (takes_setting(job, LAM_SETTING_OCCLUSION, "ao"))
-        own->occlusion = (int)s->draw.occlusion;
-    if (takes_setting(job, LAM_SETTING_OCCLUSION_RADIUS, "ao-radius"))
-        own->ao_radius = (double)s->draw.occlusion_radius;
-    if (takes_setting(job, LAM_SETTING_OCCLUSION_SAMPLES, "ao-samples"))
-        own->ao_samples = s->draw.occlusion_samples;
-    if (takes_setting(job, LAM_SETTING_LIGHT_CUTOFF, "light-cutoff")) {
-        own->light_cutoff = (double)s->draw.light_cutoff;
-        own->has_light_cutoff = true;
+        own->draw.tone = s->draw.tone;
+    bool shading_given = option_given(own, "shading");
+    for (int i = 0; lam_draw_setting(i); i++) {
+        const lam_setting *setting = lam_draw_setting(i);
+        bool stage = setting->offset == offsetof(lam_draw_params, stage);
+        // A shading on the command line discards the file's stage, which may not fit it.
+        if ((s->draw_present >> i & 1) && !setting_given(own, setting) && !(stage && shading_given))
+            lam_setting_copy(setting, &s->draw, &own->draw);
+        if (setting->offset == offsetof(lam_draw_params, shading) && (s->draw_present >> i & 1) && !shading_given)
+            own->has_shading = !option_given(own, "stage");
     }
     // A list of lights, even an empty one, replaces the studio.
     if (takes_setting(job, LAM_SETTING_LIGHTS, "rig")) {
@@ -141,19 +127,15 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     s.present &= LAM_SETTING_ENVIRONMENT;
     s.present |= draw->exposure != 0 || job->file_lights ? LAM_SETTING_EXPOSURE : 0;
     s.present |= draw->tone != LAM_TONE_AUTO ? LAM_SETTING_TONE : 0;
-    s.present |= LAM_SETTING_SIZE | LAM_SETTING_SAMPLES | LAM_SETTING_BACKGROUND | LAM_SETTING_COLOR |
-                 LAM_SETTING_CAMERA | LAM_SETTING_SHADING | LAM_SETTING_REFLECTION | LAM_SETTING_MATCH_HIGHLIGHTS |
-                 LAM_SETTING_GL1;
-    s.present |= draw->anisotropy > 1 ? LAM_SETTING_ANISOTROPY : 0;
-    s.present |= draw->reference ? LAM_SETTING_REFERENCE : 0;
-    s.present |= draw->shadows ? LAM_SETTING_SHADOWS : 0;
-    s.present |= draw->occlusion != LAM_OCCLUSION_AUTO ? LAM_SETTING_OCCLUSION : 0;
-    s.present |= draw->occlusion_radius > 0 ? LAM_SETTING_OCCLUSION_RADIUS : 0;
-    s.present |= draw->occlusion_samples ? LAM_SETTING_OCCLUSION_SAMPLES : 0;
-    s.present |= draw->light_cutoff != 0 ? LAM_SETTING_LIGHT_CUTOFF : 0;
-    s.present |= draw->stage != LAM_STAGE_AUTO ? LAM_SETTING_STAGE : 0;
-    s.present |= draw->viewer != LAM_VIEWER_LOCAL ? LAM_SETTING_VIEWER : 0;
-    s.present |= draw->flat_normal != LAM_FLAT_NORMAL_FACE ? LAM_SETTING_FLAT_NORMAL : 0;
+    s.present |=
+        LAM_SETTING_SIZE | LAM_SETTING_SAMPLES | LAM_SETTING_BACKGROUND | LAM_SETTING_COLOR | LAM_SETTING_CAMERA;
+    s.draw_present = 0;
+    for (int i = 0; lam_draw_setting(i); i++) {
+        size_t offset = lam_draw_setting(i)->offset;
+        bool always = offset == offsetof(lam_draw_params, shading) || offset == offsetof(lam_draw_params, reflection);
+        if (always || !lam_setting_is_default(lam_draw_setting(i), draw))
+            s.draw_present |= UINT64_C(1) << i;
+    }
     s.width = job->image.width;
     s.height = job->image.height;
     s.camera = job->camera;

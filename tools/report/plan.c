@@ -8,7 +8,7 @@
 
 int planned_samples(const struct options *options)
 {
-    return options->samples ? options->samples : lam_default_samples(options->width, options->height);
+    return options->draw.samples ? options->draw.samples : lam_default_samples(options->width, options->height);
 }
 
 bool plan_replaces(const struct job *job)

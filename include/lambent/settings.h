@@ -1,0 +1,54 @@
+// lambent/settings.h: the table of the settings of lam_draw_params that scene files and options have. Scene files are
+// read and written, their schema is made, and options are applied from its rows.
+#ifndef LAMBENT_SETTINGS_H
+#define LAMBENT_SETTINGS_H
+
+#include "device.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum lam_setting_type {
+    LAM_SETTING_WORD,     // an enumeration; lam_setting.word has its words
+    LAM_SETTING_FLAG,     // a bool
+    LAM_SETTING_NOT_FLAG, // a bool that is false where the setting is true, which is the default
+    LAM_SETTING_WHOLE,    // an int
+    LAM_SETTING_NUMBER,   // a float
+} lam_setting_type;
+
+// A setting of lam_draw_params. A member of 0 stands for the default.
+typedef struct lam_setting {
+    const char *key; // in scene files; an option has - in place of _
+    lam_setting_type type;
+    size_t offset; // of the member in lam_draw_params
+    // The range of WHOLE and NUMBER, and the default.
+    double min, max, standard;
+    bool zero;             // WHOLE, NUMBER: 0 may be written too, whatever `min` is
+    bool zero_is_negative; // NUMBER: a written 0 is −1 in the member, where 0 is the default
+    // The words of WORD: the one with this index and its value; NULL past the end. Of several words for one value the
+    // first is written.
+    const char *(*word)(int index, int *value);
+    const char *summary; // one sentence
+    LAM_RESERVED(8);
+} lam_setting;
+
+// The most rows of the table: lam_picture_settings has a bit for each.
+enum { LAM_SETTINGS_MAX = 64 };
+
+// A row of the table; NULL past the end.
+LAM_API const lam_setting *lam_draw_setting(int index);
+
+// The index of the row with this key; −1: no such row.
+LAM_API int lam_draw_setting_find(const char *key);
+
+// True if the member is 0.
+LAM_API bool lam_setting_is_default(const lam_setting *setting, const lam_draw_params *params);
+
+// Copies the member.
+LAM_API void lam_setting_copy(const lam_setting *setting, const lam_draw_params *from, lam_draw_params *to);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

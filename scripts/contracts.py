@@ -16,7 +16,7 @@ sys.path.insert(0, os.path.join(ROOT, SHADERS))
 from lectures import LECTURES  # noqa: E402
 
 # The correct program of each contract that the page shows. Lambent's own is printed by `lambent shader`.
-CORRECT = {"pittsburgh": "pittsburgh", "oregon": "oregon", "nyu": "nyu", "learnopengl": "learnopengl", "angel": "angel", "mdn": "mdn",
+CORRECT = {"pittsburgh": "pittsburgh", "oregon": "oregon", "nyu": "nyu", "learnopengl": "learnopengl", "learnopengl-pbr": "learnopengl-pbr", "gltf": "gltf", "angel": "angel", "mdn": "mdn",
            "threejs": "threejs"}
 SPACES = {"eye": "eye space", "world": "world space", "object": "the model's space"}
 REPORT = "`lambent check %s.frag --vertex %s.vert` reports:"
@@ -79,7 +79,13 @@ def facts(contract):
     yield "lit in " + SPACES[contract["space"]]
     yield "terms: " + ", ".join(contract["terms"])
     if "specular" in contract["terms"]:
-        yield "highlight: " + {"phong": "Phong's", "blinn-phong": "Blinn–Phong's"}[contract["highlight"]]
+        yield "highlight: " + {"phong": "Phong's", "blinn-phong": "Blinn–Phong's", "metallic-roughness": "of metalness and roughness"}[contract["highlight"]]
+
+
+FORMS = {"masking": {"smith": "Smith's masking for GGX with correlated heights", "schlick": "Schlick's approximation of the masking, k = (roughness + 1)²/8"},
+         "diffuse": {"dielectric": "a diffuse part of (1 − metallic)(1 − F), F from 0.04", "mix": "a diffuse part of (1 − metallic)(1 − F)",
+                     "whole": "a diffuse part of 1 − metallic"},
+         "tone": {"reinhard": "Reinhard's tone curve"}, "encoding": {"gamma": "gamma-encoded, pow(x, 1/2.2)"}}
 
 
 def value(x):
@@ -110,6 +116,10 @@ def section(program, contract, meaning):
     numbers = contract.get("constants", {})
     if numbers:
         yield "Numbers in the text that take their place: " + ", ".join("`%s`" % key for key in numbers) + "."
+    forms = contract.get("physical")
+    if forms:
+        yield ""
+        yield "Metalness and roughness: " + "; ".join(FORMS[key][word] for key, word in forms.items() if word in FORMS[key]) + "."
     correct = CORRECT.get(name)
     if correct:
         yield ""
@@ -157,7 +167,7 @@ the check finds in the course's own, written anew with the same mistakes. [Check
 [contract files](contract-file.md) how to write a contract of your own.
 """
     yield from glance()
-    order = re.findall(r'\{"(\w+)", text_\w+_json\}', read("src", "check", "contract", "contract.c"))
+    order = re.findall(r'\{"([\w-]+)", text_\w+_json\}', read("src", "check", "contract", "contract.c"))
     for name in order:
         yield "\n".join(section(program if runs else None, json.loads(read("src", "check", "contracts", name + ".json")), meaning)) + "\n"
 

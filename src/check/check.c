@@ -132,9 +132,14 @@ static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
         return false;
     r->frame = p->light_frame == LAM_FRAME_WORLD ? r->interface.light_frame : p->light_frame;
     r->reflection = p->reflection != LAM_REFLECTION_AUTO ? p->reflection
+                    : r->interface.physical              ? LAM_REFLECTION_GGX
                     : r->interface.phong                 ? LAM_REFLECTION_PHONG
                                                          : r->interface.contract->reflection;
-    if (r->reflection != LAM_REFLECTION_PHONG && r->reflection != LAM_REFLECTION_BLINN_PHONG)
+    if (r->interface.physical && p->reflection != LAM_REFLECTION_AUTO)
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "check: the shader has metalness and roughness, whose highlight is not a matter of choice; leave "
+                    "--highlight out");
+    if (!r->interface.physical && r->reflection != LAM_REFLECTION_PHONG && r->reflection != LAM_REFLECTION_BLINN_PHONG)
         return fail(error, LAM_BAD_ARGUMENT, "check: unknown highlight, expected phong or blinn-phong");
     if (!p->vertex) {
         char unknown[256];

@@ -161,14 +161,15 @@ static bool is_searchable(struct run *r, bool writes)
     return writes && clear < 0.9 && usable > 0;
 }
 
-// Reports a style of the shader that is as right as the reference, and compares with pictures that have it too.
-static bool accept_style(struct run *r, struct fault_search *s, bool writes, lam_error *error)
+// Reports styles of the shader that are as right as the reference, and compares with pictures that have them too.
+static bool accept_styles(struct run *r, struct fault_search *s, bool writes, lam_error *error)
 {
     if (s->count == 0)
         for (int i = 0; i < r->scene_count; i++)
             if (!r->scenes[i].passes && !fault_search_draw_style(s, i, r->scenes[i].reference, error))
                 return false;
-    diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s", s->style->explanation);
+    for (int i = 0; i < s->style_count; i++)
+        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s", s->styles[i]->explanation);
     if (s->count == 0)
         measure(r, writes);
     return true;
@@ -247,7 +248,7 @@ static bool explain(struct run *r, bool writes, lam_error *error)
         return fail_memory(error, 1);
     if (!fault_search_run(&s, error))
         return false;
-    if (s.style && !accept_style(r, &s, writes, error))
+    if (s.style_count && !accept_styles(r, &s, writes, error))
         return false;
     if (r->report->verdict == LAM_CHECK_PASSES)
         return true;

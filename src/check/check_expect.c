@@ -7,10 +7,55 @@
 #include "arena.h"
 #include "expectation.h"
 #include "fail.h"
+#include "render_cache.h"
 #include "shader_constants.h"
+
+// x^(1/2.2), 0 to 1: the root of y^11 = x^5 by Newton's steps from above.
+static double gamma_encoded(double x)
+{
+    double power = x * x * x * x * x, y = 1;
+    for (int i = 0; i < 200 && x > 0; i++) {
+        double y2 = y * y, y5 = y2 * y2 * y, step = (y5 * y5 * y - power) / (11 * y5 * y5);
+        y -= step;
+        if (step < 1e-9)
+            break;
+    }
+    return x > 0 ? y : 0;
+}
+
+// What shaders with metalness and roughness write for the light that leaves a point.
+static void display(const struct physical_convention *c, float *pixels, size_t count)
+{
+    for (size_t i = 0; i < 4 * count; i++)
+        if (i % 4 != 3) {
+            double x = (double)pixels[i];
+            x = c->tone == TONE_REINHARD ? x / (1 + x) : x;
+            pixels[i] = (float)(c->encoding == ENCODING_GAMMA ? gamma_encoded(x < 1 ? x : 1) : x);
+        }
+}
+
+// The CPU device has glTF's own equations; the other forms of them are the fault shader's.
+static bool is_of_device(const struct run *r)
+{
+    const struct physical_convention *c = &r->interface.contract->physical;
+    return !r->interface.physical || (c->masking == MASKING_SMITH && c->diffuse == DIFFUSE_OF_DIELECTRIC);
+}
+
+static bool draw_by_shader(struct run *r, struct scene_comparison *scene, lam_error *error)
+{
+    const lam_check_params *p = r->params;
+    const fault_set none = {0};
+    if (!r->shader && !(r->shader = render_cache_take_shader(p->cache, p->gl_device, r->size, 1, error)))
+        return false;
+    return fault_shader_draw(r->shader, &scene->reference_scene, &r->interface,
+                             shader_interface_light_count(&r->interface), r->frame, r->reflection, &none,
+                             scene->reference, error);
+}
 
 static bool draw_reference(struct run *r, lam_device *device, struct scene_comparison *scene, lam_error *error)
 {
+    if (!is_of_device(r))
+        return draw_by_shader(r, scene, error);
     lam_camera camera;
     struct reference_scene opaque = scene->reference_scene; // the shader under test is drawn without blending
     opaque.alpha = 1;
@@ -25,6 +70,7 @@ static bool draw_reference(struct run *r, lam_device *device, struct scene_compa
                    : r->interface.vertex_lit   ? LAM_SHADING_GOURAUD
                                                : LAM_SHADING_PHONG,
         .flat_normal = LAM_FLAT_NORMAL_VERTEX,
+        .single_scattering = true,
     };
     if (world && !two_sides) {
         lam_object object = *lam_scene_object(world, 0);
@@ -37,6 +83,8 @@ static bool draw_reference(struct run *r, lam_device *device, struct scene_compa
         memcpy(scene->reference, image.pixels, 4 * (size_t)r->size * (size_t)r->size * sizeof(float));
         for (size_t i = 0; i < (size_t)r->size * (size_t)r->size; i++)
             scene->reference[4 * i + 3] *= scene->reference_scene.alpha;
+        if (r->interface.physical)
+            display(&r->interface.contract->physical, scene->reference, (size_t)r->size * (size_t)r->size);
     }
     lam_image_free(&image);
     lam_scene_free(world);
@@ -188,6 +236,8 @@ bool check_draw_references(struct run *r, lam_error *error)
     if (ok && !best.fits) // the last one tried need not be the best
         ok = try_candidate(r, device, r->scene_count, &best, error);
     lam_device_free(device);
+    render_cache_keep_shader(r->params->cache, r->shader);
+    r->shader = NULL;
     char text[400];
     expectation_describe(r->expectation, &r->interface, r->params->terms, text, sizeof text);
     if (ok && text[0])

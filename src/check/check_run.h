@@ -4,6 +4,7 @@
 
 #include "diagnostics.h"
 #include "draw_request.h"
+#include "fault_shader.h"
 #include "scene_comparison.h"
 #include "shader_interface.h"
 
@@ -25,8 +26,9 @@ struct run {
     struct draw_result drawn;
     struct scene_comparison *scenes;
     int scene_count;
-    unsigned expectation; // bits of enum expectation
-    float *numbers;       // scratch memory for the samples of a picture
+    unsigned expectation;        // bits of enum expectation
+    float *numbers;              // scratch memory for the samples of a picture
+    struct fault_shader *shader; // draws references that the CPU device has no equations for; NULL: not open
 };
 
 // Draws the references of `scenes`: of the possible expectations the first that the pictures fulfil, else the nearest.

@@ -12,7 +12,7 @@ def quoted(line):
 
 with open(sys.argv[1], "w") as out:
     for path in sys.argv[2:]:
-        name = "text_" + os.path.basename(path).replace(".", "_")
+        name = "text_" + re.sub("[.-]", "_", os.path.basename(path))
         def included(line):
             return open(os.path.join(os.path.dirname(path), line.group(1)), encoding="utf-8").read()
         source = open(path, encoding="utf-8").read().partition("// --- C only")[0]

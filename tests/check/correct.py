@@ -323,6 +323,65 @@ void main() {
 }
 """)
 
+# --- metalness and roughness: the forms that are as right as the expected one
+B_VERT, B_FRAG = read("learnopengl-pbr", "vert"), read("learnopengl-pbr", "frag")
+G_VERT, G_FRAG = read("gltf", "vert"), read("gltf", "frag")
+H_VERT, H_FRAG = read("threejs-pbr", "vert"), read("threejs-pbr", "frag")
+B_SUM = "4.0 * nl * nv + 0.0001"
+B_TONE = "    color = color / (color + vec3(1.0));\n"
+SMITH = """float masking(float cosine)
+{
+    float a = roughness * roughness;
+    return 2.0 * cosine / max(cosine + sqrt(a * a + (1.0 - a * a) * cosine * cosine), 1e-6);
+}
+"""
+
+
+def edit(text, *pairs):
+    for old, new in pairs:
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    return text
+
+
+def between(text, start, end, new):
+    return text[:text.index(start)] + new + text[text.index(end):]
+
+
+add("learnopengl-pbr without a vertex shader", "", B_FRAG)
+add("learnopengl-pbr with lights as a list of structs", B_VERT, edit(
+    B_FRAG, ("uniform vec3 lightPositions[4];\nuniform vec3 lightColors[4];", "struct Light { vec3 position, color; };\nuniform Light lights[2];"),
+    ("i < 4", "i < 2"), ("lightPositions[i]", "lights[i].position"), ("lightColors[i]", "lights[i].color")))
+add("learnopengl-pbr with one light", B_VERT, edit(
+    B_FRAG, ("uniform vec3 lightPositions[4];\nuniform vec3 lightColors[4];", "uniform vec3 lightPos, lightColor;"), ("i < 4", "i < 1"),
+    ("lightPositions[i]", "lightPos"), ("lightColors[i]", "lightColor")))
+add("learnopengl-pbr with lights that have pi in them", B_VERT, edit(B_FRAG, (" / PI + specular)", " + PI * specular)")))
+add("learnopengl-pbr with lights that have pi in them, and sRGB", B_VERT, edit(
+    B_FRAG, (" / PI + specular)", " + PI * specular)"),
+    ("pow(color, vec3(1.0 / 2.2))", "mix(1.055 * pow(color, vec3(1.0 / 2.4)) - 0.055, 12.92 * color, lessThanEqual(color, vec3(0.0031308)))")))
+add("learnopengl-pbr with another ambient light", B_VERT, edit(B_FRAG, ("vec3(0.03)", "vec3(0.1, 0.15, 0.2)")))
+add("learnopengl-pbr without a tone curve", B_VERT, edit(B_FRAG, (B_TONE, "")))
+add("learnopengl-pbr with an exponential tone curve", B_VERT, edit(B_FRAG, (B_TONE, "    color = vec3(1.0) - exp(-color);\n")))
+add("learnopengl-pbr with a fit of ACES", B_VERT, edit(
+    B_FRAG, (B_TONE, "    color = clamp(color * (2.51 * color + 0.03) / (color * (2.43 * color + 0.59) + 0.14), 0.0, 1.0);\n")))
+add("learnopengl-pbr with Smith's masking as a product", B_VERT, between(B_FRAG, "float masking", "\nvoid main", SMITH))
+add("learnopengl-pbr with correlated heights and glTF's diffuse part", B_VERT, edit(
+    B_FRAG, ("float G = masking(nl) * masking(nv);", "float a2 = pow(roughness, 4.0), V = 0.5 / max(nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2), 1e-6);"),
+    ("G * F / (" + B_SUM + ")", "(nv > 0.0 ? V : 0.0) * F"), ("(vec3(1.0) - F) * (1.0 - metallic)", "vec3(0.96 * (1.0 - pow(1.0 - max(dot(h, v), 0.0), 5.0)) * (1.0 - metallic))")))
+add("gltf with n.v clamped, as Khronos has it", G_VERT, edit(G_FRAG, ("nl > 0.0 && nv > 0.0 ?", "nl > 0.0 || nv > 0.0 ?")))
+add("gltf with Schlick's masking and the mixed F0", G_VERT, edit(
+    G_FRAG, ("0.5 / (l + v) : 0.0", "1.0 / (4.0 * nl * nv + 0.0001) * nl * nv / ((nl * (1.0 - k) + k) * (nv * (1.0 - k) + k)) : 0.0"),
+    ("    return l + v > 0.0", "    float k = (u_RoughnessFactor + 1.0) * (u_RoughnessFactor + 1.0) / 8.0;\n    return l + v > 0.0"),
+    ("mix(dielectric, metal, u_MetallicFactor)", "((1.0 - F) * (1.0 - u_MetallicFactor) * u_BaseColorFactor.rgb / M_PI + shine * F)"),
+    ("        vec3 dielectric", "        vec3 F = mix(mix(vec3(0.04), u_BaseColorFactor.rgb, u_MetallicFactor), vec3(1.0), power);\n        vec3 dielectric")))
+add("gltf with Reinhard's tone curve", G_VERT, edit(G_FRAG, ("pow(color,", "pow(color / (1.0 + color),")))
+add("three.js, metalness and roughness, gamma-encoded", H_VERT, edit(
+    H_FRAG, ("gl_FragColor = vec4(lightColor * dotNL * (diffuse + F * (V * D)), 1.0);", "gl_FragColor = vec4(pow(lightColor * dotNL * (diffuse + F * (V * D)), vec3(1.0 / 2.2)), 1.0);")))
+add("three.js, metalness and roughness, as LearnOpenGL divides the diffuse part", H_VERT, edit(
+    H_FRAG, ("vec3 diffuse = color *", "vec3 diffuse = (1.0 - F) * color *")))
+add("three.js, metalness and roughness, lights with pi in them", H_VERT, edit(
+    H_FRAG, ("(1.0 - metalness) * RECIPROCAL_PI", "(1.0 - metalness)"), ("F * (V * D)", "F * (V * D / RECIPROCAL_PI)")))
+
 if __name__ == "__main__":
     target = pathlib.Path(sys.argv[1])
     target.mkdir(parents=True, exist_ok=True)

@@ -16,6 +16,7 @@ LECTURES = [
     ("learnopengl-printed", "learnopengl", "as printed in \"Basic Lighting\"", "differs", ["no-gate", "normal-unit-late"]),
     ("learnopengl-casters", "learnopengl", "as printed in \"Light casters\": a point light", "differs",
      ["ambient-attenuated", "no-gate", "normal-unit-late"]),
+    ("learnopengl-pbr-printed", "learnopengl-pbr", "as printed in \"PBR: Lighting\"", "differs", ["normal-unit-late"]),
     ("angel-printed", "angel", "as printed: lit per vertex", "differs", ["direction-as-point", "normal-by-model-view"]),
     ("mdn-printed", "mdn", "as printed", "differs", ["normal-never-unit"]),
     ("threejs-printed", "threejs", "as tutorials print it: a highlight by ShaderMaterial", "differs", ["no-gate", "normal-eye-space"]),

@@ -130,8 +130,13 @@ static void test_errors(void **state)
     bad("{\"contract\": 1, \"nam\": \"x\"}", "my.json: nam: unknown key; did you mean 'name'?");
     bad("{\"contract\": 1, \"name\": \"x\", \"space\": \"clip\"}",
         "my.json: space: found \"clip\", expected eye or world");
+    bad(GOOD LIGHT "}, \"physical\": {\"masking\": \"smth\"}}",
+        "my.json: physical.masking: found \"smth\", expected smith or schlick; did you mean 'smith'?");
+    bad(GOOD LIGHT "}, \"highlight\": \"metallic-roughness\"}",
+        "my.json: uniforms: found no name with the role metallic or roughness, which the highlight metallic-roughness "
+        "needs");
     bad("{\"contract\": 1, \"name\": \"x\", \"highlight\": \"fong\"}",
-        "my.json: highlight: found \"fong\", expected phong or blinn-phong; did you mean 'phong'?");
+        "my.json: highlight: found \"fong\", expected phong, blinn-phong or metallic-roughness; did you mean 'phong'?");
     bad("{\"contract\": 1, \"name\": \"x\", \"terms\": []}", "my.json: terms: found a list of 0, expected a list of");
     bad("{\"contract\": 1, \"name\": \"x\", \"terms\": [\"shiny\"]}", "my.json: terms[0]: found \"shiny\", expected");
     bad(GOOD END, "my.json: uniforms: found no light: expected a name with the role light_position");

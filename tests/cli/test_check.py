@@ -81,7 +81,9 @@ class Right(CheckTest):
                                     ("learnopengl", "learnopengl", "fragment"), ("learnopengl-materials", "learnopengl", "fragment"),
                                     ("learnopengl-spot", "learnopengl", "fragment"), ("learnopengl-lights", "learnopengl", "fragment"),
                                     ("angel", "angel", "fragment"), ("angel-vertex", "angel", "vertex"), ("mdn", "mdn", "vertex"),
-                                    ("threejs", "threejs", "fragment"), ("threejs-raw", "threejs", "fragment")):
+                                    ("threejs", "threejs", "fragment"), ("threejs-raw", "threejs", "fragment"),
+                                    ("learnopengl-pbr", "learnopengl-pbr", "fragment"), ("gltf", "gltf", "fragment"),
+                                    ("threejs-pbr", "threejs", "fragment")):
             with self.subTest(name):
                 report = self.report_of(*self.shader(name), size=128)
                 self.assertEqual((report["verdict"], report["contract"], report["lit_in"]), ("passes", contract, lit))

@@ -16,9 +16,16 @@
 static const struct {
     const char *name, *text;
 } shipped[] = {
-    {"lambent", text_lambent_json}, {"pittsburgh", text_pittsburgh_json},   {"oregon", text_oregon_json},
-    {"nyu", text_nyu_json},         {"learnopengl", text_learnopengl_json}, {"angel", text_angel_json},
-    {"mdn", text_mdn_json},         {"threejs", text_threejs_json},
+    {"lambent", text_lambent_json},
+    {"pittsburgh", text_pittsburgh_json},
+    {"oregon", text_oregon_json},
+    {"nyu", text_nyu_json},
+    {"learnopengl", text_learnopengl_json},
+    {"angel", text_angel_json},
+    {"mdn", text_mdn_json},
+    {"threejs", text_threejs_json},
+    {"learnopengl-pbr", text_learnopengl_pbr_json},
+    {"gltf", text_gltf_json},
 };
 enum { SHIPPED = sizeof shipped / sizeof *shipped };
 

@@ -63,6 +63,26 @@ struct contract_constant {
     enum uniform_semantic semantic;
 };
 
+// How the shaders of a contract with metalness and roughness light. All of it is as glTF 2.0's appendix B has it where
+// nothing is said; other forms are recognised, and accepted where they are as right (fault_table.c).
+enum masking {
+    MASKING_SMITH,  // Smith's for GGX, height-correlated
+    MASKING_SCHLICK // Schlick's approximation of it, k = (roughness + 1)²/8
+};
+enum diffuse_share {
+    DIFFUSE_OF_DIELECTRIC, // (1 - metallic)(1 - F), F from 0.04
+    DIFFUSE_OF_MIX,        // (1 - metallic)(1 - F), F from mix(0.04, base colour, metallic)
+    DIFFUSE_WHOLE          // 1 - metallic
+};
+enum tone_curve { TONE_NONE, TONE_REINHARD };
+enum encoding { ENCODING_NONE, ENCODING_GAMMA }; // pow(x, 1/2.2)
+struct physical_convention {
+    enum masking masking;
+    enum diffuse_share diffuse;
+    enum tone_curve tone;
+    enum encoding encoding;
+};
+
 enum contract_term { TERM_AMBIENT = 1, TERM_DIFFUSE = 2, TERM_SPECULAR = 4 };
 enum { MAX_LIGHT_GROUPS = 8 };
 
@@ -84,6 +104,7 @@ struct contract {
     lam_light_frame light_frame;
     lam_reflection reflection;
     struct contract_defaults defaults;
+    struct physical_convention physical;       // of shaders with metalness and roughness
     const struct contract_constant *constants; // ends with NULL
     // What an engine writes before the texts of a program, which then have no version line and declare none of its names.
     // NULL: nothing.

@@ -66,6 +66,10 @@ static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
         if (n->group >= 0 && strstr(n->name, "[]"))
             c->supports |= NEED_LIGHTS;
     }
+    if (c->reflection == LAM_REFLECTION_GGX && !has(c, SEMANTIC_METALLIC) && !has(c, SEMANTIC_ROUGHNESS))
+        return json_fail(&r->json, KEY_OF(NULL, "uniforms"),
+                         "found no name with the role metallic or roughness, which the highlight metallic-roughness "
+                         "needs");
     bool drawn = has(c, SEMANTIC_POSITION);
     for (const char *const *word = c->built_ins; *word; word++)
         drawn = drawn || strcmp(*word, "gl_Vertex") == 0;
@@ -83,9 +87,11 @@ static bool read_root(struct contract_reader *r, const json_t *root)
     static const char *const keys[] = {"contract",   "name",       "title",     "glsl",      "space",
                                        "terms",      "highlight",  "alpha",     "two_sided", "printed",
                                        "attributes", "uniforms",   "built_ins", "varyings",  "outputs",
-                                       "constants",  "undeclared", "prefix",    NULL};
-    static const struct json_choice highlights[] = {
-        {"phong", LAM_REFLECTION_PHONG}, {"blinn-phong", LAM_REFLECTION_BLINN_PHONG}, {NULL, 0}};
+                                       "constants",  "undeclared", "prefix",    "physical",  NULL};
+    static const struct json_choice highlights[] = {{"phong", LAM_REFLECTION_PHONG},
+                                                    {"blinn-phong", LAM_REFLECTION_BLINN_PHONG},
+                                                    {"metallic-roughness", LAM_REFLECTION_GGX},
+                                                    {NULL, 0}};
     static const struct json_choice spaces[] = {{"eye", LAM_FRAME_CAMERA}, {"world", LAM_FRAME_WORLD}, {NULL, 0}};
     struct contract *c = r->contract;
     double version = 0;
@@ -122,7 +128,7 @@ static bool read_root(struct contract_reader *r, const json_t *root)
         return false;
     return read_terms(r, root) && contract_read_names(r, root) && contract_read_varyings(r, root) &&
            contract_read_defaults(r, root) && contract_read_constants(r, root) && contract_read_prefix(r, root) &&
-           complete(r, alpha, two_sided);
+           contract_read_physical(r, root) && complete(r, alpha, two_sided);
 }
 
 lam_check_contract *lam_check_contract_read(const char *text, size_t size, const char *file, lam_error *error)

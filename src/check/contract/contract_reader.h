@@ -31,5 +31,6 @@ bool contract_read_varyings(struct contract_reader *r, const json_t *root); // a
 bool contract_read_defaults(struct contract_reader *r, const json_t *root); // undeclared
 bool contract_read_constants(struct contract_reader *r, const json_t *root);
 bool contract_read_prefix(struct contract_reader *r, const json_t *root);
+bool contract_read_physical(struct contract_reader *r, const json_t *root);
 
 #endif

@@ -1,4 +1,5 @@
-// contract_values.c: reads what a contract says of varyings, of names that are not declared, of numbers, and of an engine.
+// contract_values.c: reads what a contract says of varyings, of names that are not declared, of numbers, of an engine, and
+// of metalness and roughness.
 #include "contract_reader.h"
 
 #include <stdio.h>
@@ -197,5 +198,33 @@ bool contract_read_prefix(struct contract_reader *r, const json_t *root)
         if (!contract_read_list(r, KEY_OF(place, keys[i]), list, "\n", false, false, texts[i]))
             return false;
     }
+    return true;
+}
+
+// --- how metalness and roughness are lit
+
+bool contract_read_physical(struct contract_reader *r, const json_t *root)
+{
+    static const char *const keys[] = {"masking", "diffuse", "tone", "encoding", NULL};
+    static const struct json_choice maskings[] = {{"smith", MASKING_SMITH}, {"schlick", MASKING_SCHLICK}, {NULL, 0}},
+                                    shares[] = {{"dielectric", DIFFUSE_OF_DIELECTRIC},
+                                                {"mix", DIFFUSE_OF_MIX},
+                                                {"whole", DIFFUSE_WHOLE},
+                                                {NULL, 0}},
+                                    tones[] = {{"none", TONE_NONE}, {"reinhard", TONE_REINHARD}, {NULL, 0}},
+                                    encodings[] = {{"none", ENCODING_NONE}, {"gamma", ENCODING_GAMMA}, {NULL, 0}};
+    const json_t *object = json_object_get(root, "physical");
+    const struct place *place = KEY_OF(NULL, "physical");
+    int masking = MASKING_SMITH, diffuse = DIFFUSE_OF_DIELECTRIC, tone = TONE_NONE, encoding = ENCODING_NONE;
+    if (!object)
+        return true;
+    if (!json_check_keys(&r->json, place, object, keys) ||
+        !json_take_word(&r->json, place, object, "masking", maskings, &masking) ||
+        !json_take_word(&r->json, place, object, "diffuse", shares, &diffuse) ||
+        !json_take_word(&r->json, place, object, "tone", tones, &tone) ||
+        !json_take_word(&r->json, place, object, "encoding", encodings, &encoding))
+        return false;
+    r->contract->physical = (struct physical_convention){(enum masking)masking, (enum diffuse_share)diffuse,
+                                                         (enum tone_curve)tone, (enum encoding)encoding};
     return true;
 }

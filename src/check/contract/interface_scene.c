@@ -98,6 +98,43 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
                      LIGHT_SPECULAR);
 }
 
+// Metalness and roughness leave no strength apart: a scene that shows the ambient term alone has dark lights instead.
+static void adapt_physical(const struct shader_interface *r, struct reference_scene *s)
+{
+    const struct contract_defaults *d = &r->defaults;
+    const lam_rgb black = {0, 0, 0}, white = {1, 1, 1};
+    bool own = declares(r, SEMANTIC_COLOR) || declares(r, SEMANTIC_DIFFUSE), dark = s->kd == 0 && s->ks == 0;
+    s->physical = true;
+    if (!own)
+        s->diffuse = color_of(&d->diffuse_color, s->diffuse, s->diffuse, s->diffuse);
+    if (!has_product(r, SEMANTIC_AMBIENT))
+        s->ambient = color_of(&d->ambient_color, s->ambient, s->diffuse, s->diffuse);
+    s->specular = white;
+    s->kd = s->ks = 1;
+    if (!has_product(r, SEMANTIC_AMBIENT) && !declares(r, SEMANTIC_KA) && d->ambient_strength.given)
+        s->ka = d->ambient_strength.value;
+    s->metallic = declares(r, SEMANTIC_METALLIC) ? s->metallic : 0;
+    s->roughness = declares(r, SEMANTIC_ROUGHNESS) ? s->roughness : 1;
+    bool sum = !declares(r, SEMANTIC_LIGHT_AMBIENT) && !declares(r, SEMANTIC_AMBIENT_LIGHT);
+    for (int i = 0; i < s->light_count; i++) {
+        struct reference_light *light = &s->lights[i];
+        light->color = dark ? black : light->color;
+        light->specular = dark ? black : light->specular;
+        if (sum && i > 0) // the ambient light is one number
+            light->ambient = black;
+    }
+}
+
+// Makes a light with another attenuation as bright as before at the scene's middle: the inverse square alone would leave
+// little of it.
+static void keep_brightness(const struct reference_scene *s, const float before[3], struct reference_light *light)
+{
+    const float *now = light->attenuation, d = (float)v3_length(v3_sub(light->position, s->target));
+    float k = (now[0] + now[1] * d + now[2] * d * d) / (before[0] + before[1] * d + before[2] * d * d);
+    light->color = (lam_rgb){light->color.r * k, light->color.g * k, light->color.b * k};
+    light->specular = (lam_rgb){light->specular.r * k, light->specular.g * k, light->specular.b * k};
+}
+
 // A point light has an axis too, which shaders of spots normalize: towards the model, so that every lit point is in
 // front of it.
 static void set_axis(struct reference_light *light, lam_vec3 target)
@@ -131,8 +168,12 @@ static void adapt_light(const struct shader_interface *r, int index, const struc
     }
     bool attenuated = declares(r, SEMANTIC_ATTENUATION) || declares(r, SEMANTIC_ATTENUATION_CONSTANT) ||
                       declares(r, SEMANTIC_ATTENUATION_LINEAR) || declares(r, SEMANTIC_ATTENUATION_QUADRATIC);
+    float before[3];
+    memcpy(before, light->attenuation, sizeof before);
     if (!attenuated && d->has_attenuation)
         memcpy(light->attenuation, d->attenuation, sizeof light->attenuation);
+    if (r->physical && light->type != LAM_LIGHT_DIRECTIONAL)
+        keep_brightness(s, before, light);
     if (light->type == LAM_LIGHT_DIRECTIONAL)
         memcpy(light->attenuation, (const float[]){1, 0, 0}, sizeof light->attenuation);
     if (!declares(r, SEMANTIC_SPOT_EXPONENT) && !declares(r, SEMANTIC_CONE) && d->spot_exponent.given)
@@ -198,8 +239,12 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
         s->lights[kept++] = s->lights[i];
     }
     s->light_count = kept;
+    const int capacity = shader_interface_light_count(r), lit = 3; // the most lights that a scene has
+    int room = lit;
+    for (int g = 0; g < MAX_LIGHT_GROUPS; g++) // a list alone may be longer
+        room = r->groups[g].count == capacity && !r->contract->printed ? MAX_SCENE_LIGHTS : room;
     for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
-        for (; r->groups[g].count > taken[g] && s->light_count < MAX_SCENE_LIGHTS; taken[g]++) {
+        for (; r->groups[g].count > taken[g] && s->light_count < room; taken[g]++) {
             struct reference_light *black = &s->lights[s->light_count++];
             *black = (struct reference_light){
                 .type = r->groups[g].kinds & NEED_POINT         ? LAM_LIGHT_POINT
@@ -212,6 +257,13 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
             if (kept && black->type != LAM_LIGHT_DIRECTIONAL && s->lights[0].type != LAM_LIGHT_DIRECTIONAL)
                 memcpy(black->attenuation, s->lights[0].attenuation, sizeof black->attenuation);
         }
+    // In a list with room for more, the last light is lit, so that a shader can miss it. In printed shaders each place has its kind.
+    for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
+        if (kept > 1 && r->groups[g].count == s->light_count && capacity == s->light_count && !r->contract->printed) {
+            struct reference_light last = s->lights[kept - 1];
+            s->lights[kept - 1] = s->lights[s->light_count - 1];
+            s->lights[s->light_count - 1] = last;
+        }
 }
 
 struct reference_scene shader_interface_scene(const struct shader_interface *r,
@@ -222,7 +274,12 @@ struct reference_scene shader_interface_scene(const struct shader_interface *r,
     for (int i = 0; i < s.light_count; i++)
         adapt_light(r, i, &s, &s.lights[i]);
     place_lights(r, &s);
-    adapt_material(r, &s);
+    if (r->physical) {
+        adapt_physical(r, &s);
+    } else {
+        adapt_material(r, &s);
+        s.metallic = s.roughness = 0;
+    }
     s.ka = terms & TERM_AMBIENT ? s.ka : 0;
     s.kd = terms & TERM_DIFFUSE ? s.kd : 0;
     s.ks = terms & TERM_SPECULAR && !(r->supports & RULE_NO_SPECULAR) ? s.ks : 0;

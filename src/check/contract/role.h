@@ -35,6 +35,8 @@ enum uniform_semantic {
     SEMANTIC_COLOR,
     SEMANTIC_SPECULAR_COLOR,
     SEMANTIC_SHININESS,
+    SEMANTIC_METALLIC,
+    SEMANTIC_ROUGHNESS,
     SEMANTIC_LIGHT_POSITION, // w 1; for a directional light the direction to it, w 0
     SEMANTIC_LIGHT_X,
     SEMANTIC_LIGHT_Y,
@@ -54,6 +56,7 @@ enum uniform_semantic {
     SEMANTIC_SPOT_EXPONENT,
     SEMANTIC_AMBIENT_LIGHT, // sum over all lights
     SEMANTIC_LIGHT_COUNT,
+    SEMANTIC_LIGHT_KIND, // KHR_lights_punctual's order: 0 directional, 1 point, 2 spot
     SEMANTIC_FLAT,
     SEMANTIC_EYE_POSITION,
     SEMANTIC_ZERO,

@@ -196,7 +196,7 @@ int shader_constants_values(const struct shader_interface *r, enum uniform_seman
         bool vector = is_vector(semantic);
         if (vector ? !read_vector(d, &at, v) : !read_number(d, &at, &v[0]))
             continue;
-        if (!vector && !(v[0] > 0 && v[0] < 1))
+        if (vector ? v[0] == 0 && v[1] == 0 && v[2] == 0 : !(v[0] > 0 && v[0] < 1))
             continue;
         bool known = false;
         for (int k = 0; k < count; k++)

@@ -48,7 +48,7 @@ static bool is_light(enum uniform_semantic semantic) { return (role_of(semantic)
 
 static bool is_material(enum uniform_semantic semantic)
 {
-    return semantic >= SEMANTIC_AMBIENT && semantic <= SEMANTIC_SHININESS;
+    return semantic >= SEMANTIC_AMBIENT && semantic <= SEMANTIC_ROUGHNESS;
 }
 
 // Whether a shader computes lighting: it declares a uniform of a material or light. The colour of the surface alone may
@@ -177,6 +177,8 @@ static unsigned kind_of(enum uniform_semantic semantic, const char *type)
     case SEMANTIC_CONE:
     case SEMANTIC_CUTOFF:
         return NEED_SPOT;
+    case SEMANTIC_LIGHT_KIND: // the number tells
+        return NEED_DIRECTIONAL;
     default:
         return 0;
     }
@@ -280,6 +282,8 @@ bool shader_interface_make(struct shader_interface *r, const struct complete_tex
     }
     find_declared(r);
     shader_constants_find(r);
+    r->physical = contract->reflection == LAM_REFLECTION_GGX || shader_interface_declares(r, SEMANTIC_METALLIC) ||
+                  shader_interface_declares(r, SEMANTIC_ROUGHNESS);
     r->space = find_space(r);
     r->light_frame = find_light_frame(r);
     r->vertex_lit = texts->vertex && !is_lit(r, &r->fragment);

@@ -25,6 +25,7 @@ struct shader_interface {
     // As contract->groups. Where the shaders declare no light, the first one holds the light that the contract fixes.
     struct light_group groups[MAX_LIGHT_GROUPS];
     bool vertex_lit; // the fragment shader has no name of a material or light
+    bool physical;   // metalness and roughness: contract->physical says how they are lit
     bool phong;      // printed by `lambent shader --reflection phong`
 };
 

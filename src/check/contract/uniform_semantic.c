@@ -60,6 +60,10 @@ static struct uniform_value cone(const struct reference_light *light)
     return (struct uniform_value){{cosine, light->exponent, cosine, 1e5f}};
 }
 
+// Shaders with metalness and roughness divide by pi, as published; lambent's lights have it in them: a white surface that
+// faces a light of 1 is 1.
+static float light_scale(const struct reference_scene *s) { return s->physical ? (float)PI : 1; }
+
 // The inverse transpose of the matrix from the model's space.
 static struct uniform_value normal_matrix(lam_light_frame space, const struct reference_matrices *m)
 {
@@ -132,10 +136,16 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
         return vector(v3_unit(mat4_vector(&to, light->to_light)), 0);
     case SEMANTIC_LIGHT_TRAVEL:
         return vector(v3_scale(v3_unit(mat4_vector(&to, light->to_light)), -1), 0);
+    case SEMANTIC_METALLIC:
+        return number(s->metallic);
+    case SEMANTIC_ROUGHNESS:
+        return number(s->roughness);
+    case SEMANTIC_LIGHT_KIND:
+        return number(light->type == LAM_LIGHT_DIRECTIONAL ? 0 : light->type == LAM_LIGHT_POINT ? 1 : 2);
     case SEMANTIC_LIGHT_COLOR:
-        return color(light->color, 1, 1);
+        return color(light->color, light_scale(s), 1);
     case SEMANTIC_LIGHT_SPECULAR:
-        return color(light->specular, 1, 1);
+        return color(light->specular, light_scale(s), 1);
     case SEMANTIC_LIGHT_AMBIENT:
         return color(light->ambient, 1, 1);
     case SEMANTIC_AMBIENT_LIGHT:

@@ -7,8 +7,7 @@ bool fault_set_has(const fault_set *set, enum fault_bit bit) { return set->words
 
 bool fault_set_equal(const fault_set *a, const fault_set *b)
 {
-    return a->words[0] == b->words[0] && a->words[1] == b->words[1] && a->factor == b->factor &&
-           a->constant == b->constant;
+    return memcmp(a->words, b->words, sizeof a->words) == 0 && a->factor == b->factor && a->constant == b->constant;
 }
 
 fault_set fault_set_add(const fault_set *set, const struct fault *fault)
@@ -29,6 +28,16 @@ static bool hands_on_four(const struct declarations *fragment)
     return false;
 }
 
+// How the light of metalness and roughness is computed in a contract, as bits of fault_where.
+static unsigned physical_bits(const struct physical_convention *c)
+{
+    return WHERE_PHYSICAL | (c->masking == MASKING_SCHLICK ? WHERE_SCHLICK : WHERE_SMITH) |
+           (c->diffuse == DIFFUSE_WHOLE ? 0u : WHERE_SHARED) |
+           (c->diffuse == DIFFUSE_OF_MIX ? WHERE_OF_MIX : WHERE_NOT_OF_MIX) |
+           (c->tone == TONE_NONE ? WHERE_UNTONED : WHERE_TONED) |
+           (c->encoding == ENCODING_NONE ? WHERE_LINEAR : WHERE_ENCODED);
+}
+
 bool fault_applies(const struct fault *fault, const struct shader_interface *interface, lam_light_frame frame,
                    lam_reflection reflection, unsigned needs)
 {
@@ -42,7 +51,8 @@ bool fault_applies(const struct fault *fault, const struct shader_interface *int
                     (interface->space == LAM_FRAME_WORLD ? WHERE_WORLD : 0) |
                     (reflection == LAM_REFLECTION_PHONG ? WHERE_PHONG : WHERE_BLINN) | (reflects ? WHERE_REFLECT : 0) |
                     (interface->contract->material_strengths ? WHERE_STRENGTHS : 0) |
-                    (interface->vertex_lit || hands_on_four(&interface->fragment) ? WHERE_FOUR : 0);
+                    (interface->vertex_lit || hands_on_four(&interface->fragment) ? WHERE_FOUR : 0) |
+                    (interface->physical ? physical_bits(&interface->contract->physical) : WHERE_CLASSIC);
     return (fault->where & ~here) == 0 && (fault->needs & ~needs) == 0;
 }
 

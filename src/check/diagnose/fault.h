@@ -24,7 +24,15 @@
     X(SPECULAR_AS_DIFFUSE) X(BARE_KA) X(BARE_KD) X(BARE_KS) X(WHITE_LIGHT) X(SPECULAR_LIGHT_AS_DIFFUSE) X(ENCODED) X(ALPHA_ONE) X(ALPHA_SUM) \
     X(FIRST_LIGHT_ONLY) X(LAST_LIGHT_ONLY) X(LAST_LIGHT_MISSING) X(FIRST_LIGHT_MISSING) X(NO_CONE) X(NO_CUTOFF) \
     X(NO_EXPONENT) X(CONE_IN_DEGREES) X(CONE_BY_ACOS) X(CONE_INSIDE_OUT) X(CONE_REVERSED) X(EVERY_LIGHT_A_SPOT) X(CONE_OF_L) X(NO_FLIP) X(FLIP) \
-    X(SMOOTH_FOR_FLAT) X(VERTEX_CLAMPED) X(UPSIDE_DOWN)
+    X(SMOOTH_FOR_FLAT) X(VERTEX_CLAMPED) X(UPSIDE_DOWN) \
+    X(ALPHA_IS_ROUGHNESS) X(ALPHA_IS_ROUGHNESS_D) X(ALPHA_IS_ROUGHNESS_V) X(D_NOT_SQUARED) X(D_TIMES_PI) \
+    X(USE_HEIGHT) X(USE_SEPARABLE) X(USE_SCHLICK) X(USE_SCHLICK_IBL) X(K_OF_ALPHA) X(NO_MASKING) X(MASKING_OF_V) \
+    X(MASKING_OF_L) X(NOT_DIVIDED) X(DIVIDED_BY_4) X(DIVIDED_WITHOUT_4) X(DIVIDED_TWICE) X(FRESNEL_OF_NV) \
+    X(FRESNEL_OF_NH) X(FRESNEL_OF_NL) X(FRESNEL_INVERTED) X(FRESNEL_LINEAR) X(NO_FRESNEL) X(FRESNEL_TWICE) \
+    X(F0_CONSTANT) X(F0_IS_ALBEDO) X(SHARE_OF_DIELECTRIC) X(SHARE_OF_MIX) X(SHARE_WHOLE) X(METAL_KEEPS_DIFFUSE) \
+    X(METAL_ROUGH_SWAPPED) X(ROUGHNESS_INVERTED) X(ALBEDO_DECODED) X(NO_N_DOT_L) X(LIT_SIDE_ALONE) X(SPECULAR_WITHOUT_N_DOT_L) \
+    X(DIFFUSE_TIMES_PI) X(LIGHT_WITHOUT_PI) X(USE_NO_TONE) X(USE_REINHARD) X(USE_EXPONENTIAL) X(USE_ACES) \
+    X(USE_SRGB) X(USE_GAMMA) X(NOT_ENCODED) X(TONE_AFTER_ENCODING) X(RIM_KEPT)
 // clang-format on
 
 enum fault_bit {
@@ -34,13 +42,14 @@ enum fault_bit {
 #undef FAULT_BIT
         FAULT_BIT_COUNT
 };
-_Static_assert(FAULT_BIT_COUNT <= 128, "fault_set has two words");
+enum { FAULT_WORDS = 3 };
+_Static_assert(FAULT_BIT_COUNT <= 64 * FAULT_WORDS, "fault_set has room for all switches");
 
 // Switches, and what is done with the exponent of the highlight.
 typedef struct fault_set {
-    uint64_t words[2]; // bit i: switch i
-    float factor;      // the exponent is multiplied by it; 0: it is not
-    float constant;    // the exponent, whatever the material's is; 0: the material's
+    uint64_t words[FAULT_WORDS]; // bit i: switch i
+    float factor;                // the exponent is multiplied by it; 0: it is not
+    float constant;              // the exponent, whatever the material's is; 0: the material's
 } fault_set;
 
 bool fault_set_has(const fault_set *set, enum fault_bit bit);
@@ -59,6 +68,17 @@ enum fault_where {
     WHERE_WORLD_LIGHT = 256, // lights in world space, lighting in eye space
     WHERE_STRENGTHS = 1024,  // colours and their strengths are apart
     WHERE_FOUR = 512,        // vectors of four components may be lit: some varying is a vec4, or the vertices are lit
+    WHERE_CLASSIC = 2048,    // highlights with an exponent
+    WHERE_PHYSICAL = 4096,   // metalness and roughness
+    WHERE_SCHLICK = 8192,    // and the contract's masking is Schlick's
+    WHERE_SMITH = 16384,     // or Smith's
+    WHERE_SHARED = 32768,    // the contract's diffuse part is reduced by Fresnel's
+    WHERE_TONED = 65536,     // its shaders have a tone curve
+    WHERE_UNTONED = 131072,  // or none
+    WHERE_ENCODED = 262144,  // they encode what they write
+    WHERE_LINEAR = 524288,   // or do not
+    WHERE_OF_MIX = 1048576,  // the contract's F comes from the mixed F0 for the diffuse part too
+    WHERE_NOT_OF_MIX = 2097152,
 };
 
 // What the search has to find out about a fault: the factor of the exponent, above or below 1, or the constant.

@@ -3,7 +3,7 @@
 // is(NAME) returns whether a fault is switched on; fault.h lists the names. Vectors have four components, since some
 // faults involve the fourth; in the others w is 0.
 
-#define LAMPS 3
+#define LAMPS 4
 
 struct Lamp {
     vec4 position; // in the space of the lighting, which is eye or world space; w 0: the direction to it
@@ -127,7 +127,14 @@ vec4 mirrored(vec4 l, vec4 n) { return 2.0 * dot(n, l) * n - l; }
 
 bool is_phong() { return is(OTHER_LOBE) ? !phong_lobe : phong_lobe; }
 
-// cos of the angle between n and the half vector, or between r and v. `way`: l before it was normalized.
+// `way`: l before it was normalized.
+vec4 half_vector(int i, Surface s, vec4 l, vec4 way, vec4 v)
+{
+    vec4 h = is(EARLY_MIRROR) ? s.early_mirror[i] : (is(RAW_HALF) ? way : l) + v;
+    return is(HALF_LONG) ? h : (is(HALF_MEAN) ? 0.5 * h : unit4(h));
+}
+
+// cos of the angle between n and the half vector, or between r and v.
 float highlight_base(int i, Surface s, vec4 n, vec4 l, vec4 way, vec4 v)
 {
     if (is_phong()) {
@@ -135,8 +142,7 @@ float highlight_base(int i, Surface s, vec4 n, vec4 l, vec4 way, vec4 v)
         r = is(UNIT_REFLECTION) ? unit4(r) : r;
         return dot(is(REFLECT_SIGN) ? -r : r, v);
     }
-    vec4 h = is(EARLY_MIRROR) ? s.early_mirror[i] : (is(RAW_HALF) ? way : l) + v;
-    return dot(n, is(HALF_LONG) ? h : (is(HALF_MEAN) ? 0.5 * h : unit4(h)));
+    return dot(n, half_vector(i, s, l, way, v));
 }
 
 float diffuse_of(float nl)
@@ -168,7 +174,7 @@ float specular_of(float base, float nl)
 vec3 diffuse_light(int i)
 {
     if (is(WHITE_LIGHT)) {
-        return vec3(1.0);
+        return vec3(physical ? 1.0 / PI : 1.0); // the shader divides by pi
     }
     return products && is(KD_KS_SWAPPED) ? lamps[i].specular : (products && is(KA_KD_SWAPPED) ? ambient_light : lamps[i].diffuse);
 }
@@ -216,8 +222,16 @@ vec4 shade(Surface s)
         arrived = attenuation * cone;
         ambient += lamps[i].ambient * (is(AMBIENT_ATTENUATED) ? arrived : 1.0);
         float nl = dot(n, l), D = diffuse_of(nl);
-        float S = specular_of(highlight_base(i, s, n, l, way, v), nl);
         float kept_d = is(BARE_DIFFUSE) ? cone : arrived, kept_s = is(BARE_SPECULAR) ? cone : arrived;
+        if (physical) {
+            vec4 h = half_vector(i, s, l, way, v);
+            vec3 matt, shine;
+            reflect_physical(Angles(is(ABSOLUTE_DIFFUSE) ? abs(nl) : max(nl, 0.0), max(dot(n, v), 0.0), max(dot(n, h), 0.0), clamp(dot(h, v), 0.0, 1.0), D), matt, shine);
+            diffuse += diffuse_light(i) * kept_d * matt;
+            specular += diffuse_light(i) * kept_s * shine;
+            continue;
+        }
+        float S = specular_of(highlight_base(i, s, n, l, way, v), nl);
         diffuse += diffuse_light(i) * diffuse_color * (kept_d * D);
         specular += specular_light(i) * specular_color * (kept_s * S);
         diffuse_alpha += kept_d * opacity * D;
@@ -233,6 +247,9 @@ vec4 shade(Surface s)
     }
     if (!is(NO_SPECULAR)) {
         sum += specular;
+    }
+    if (physical) {
+        sum = displayed(sum);
     }
     if (is(ENCODED)) {
         sum = pow(clamp(sum, 0.0, 1.0), vec3(1.0 / 2.2));

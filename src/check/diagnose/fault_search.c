@@ -389,7 +389,7 @@ static bool store(struct state *t, struct candidate *c, lam_error *error)
         if (!try_candidate(t, &part, no_limit, no_limit, error))
             return false;
         if (c->members[i].row->style) {
-            s->style = c->members[i].row;
+            s->styles[s->style_count++] = c->members[i].row;
             continue;
         }
         struct found_fault *found = &s->found[s->count++];
@@ -442,7 +442,9 @@ bool fault_search_draw_style(struct fault_search *s, int scene, float *pixels, l
 {
     struct fault_measure m = {.s = s, .scenes = s->scenes, .stride = 1, .size = s->size};
     const fault_set none = {0};
-    fault_set set = fault_set_add(&none, s->style);
+    fault_set set = none;
+    for (int i = 0; i < s->style_count; i++)
+        set = fault_set_add(&set, s->styles[i]);
     bool ok = fault_measure_draw(&m, scene, &set, pixels, error);
     render_cache_keep_shader(s->cache, m.shader);
     return ok;

@@ -36,8 +36,9 @@ struct fault_search {
     struct found_fault found[MAX_FOUND_FAULTS];
     int count;
     bool certain;
-    // A style of the table that the shader has, which is no mistake. NULL: none.
-    const struct fault *style;
+    // Styles of the table that the shader has, which are no mistakes.
+    const struct fault *styles[MAX_FOUND_FAULTS];
+    int style_count;
     // For each scene, the found fault that explains it alone. NULL: none.
     const struct fault **scene_faults;
 };
@@ -48,7 +49,7 @@ struct fault_search {
 // a style is found `certain`, with a count of 0.
 bool fault_search_run(struct fault_search *search, lam_error *error);
 
-// Draws a scene as a shader of search->style does. `pixels`: size² × 4 floats.
+// Draws a scene as a shader of search->styles does. `pixels`: size² × 4 floats.
 bool fault_search_draw_style(struct fault_search *search, int scene, float *pixels, lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// fault_shader.c: a program that computes the lighting with faults switched on or off (fault_light.glsl).
+// fault_shader.c: a program that computes the lighting with faults switched on or off (fault_light.glsl, fault_physical.glsl).
 #include "fault_shader.h"
 #include "offscreen.h"
 
@@ -26,7 +26,8 @@ static const char *const bit_names[FAULT_BIT_COUNT] = {"NONE",
 
 static GLuint compile(struct fault_shader *m, GLenum kind, bool in_vertex, const char *body, lam_error *error)
 {
-    size_t capacity = strlen(text_fault_light_glsl) + strlen(body) + 40 * FAULT_BIT_COUNT + 100;
+    size_t capacity =
+        strlen(text_fault_physical_glsl) + strlen(text_fault_light_glsl) + strlen(body) + 40 * FAULT_BIT_COUNT + 100;
     char *text = malloc(capacity), log[1024] = "";
     if (!text) {
         fail_memory(error, capacity);
@@ -36,7 +37,7 @@ static GLuint compile(struct fault_shader *m, GLenum kind, bool in_vertex, const
                                  in_vertex ? "#define IN_VERTEX\n" : "", FAULT_BIT_COUNT);
     for (int i = 0; i < FAULT_BIT_COUNT; i++)
         at += (size_t)snprintf(text + at, capacity - at, "#define %s %d\n", bit_names[i], i);
-    snprintf(text + at, capacity - at, "%s%s", text_fault_light_glsl, body);
+    snprintf(text + at, capacity - at, "%s%s%s", text_fault_physical_glsl, text_fault_light_glsl, body);
     GLuint shader = offscreen_compile(&m->offscreen, kind, text, log, sizeof log);
     free(text);
     if (!shader)
@@ -225,6 +226,15 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     gl->Uniform1f(place(m, "exponent_constant"), set->constant);
     gl->Uniform1i(place(m, "ambient_by_light"), shader_interface_declares(interface, SEMANTIC_LIGHT_AMBIENT));
     gl->Uniform1i(place(m, "phong_lobe"), reflection == LAM_REFLECTION_PHONG);
+    const struct physical_convention *physical = &interface->contract->physical;
+    gl->Uniform1i(place(m, "physical"), interface->physical);
+    set_color(m, "base_color", reference_scene->diffuse, 1);
+    gl->Uniform1f(place(m, "metallic"), reference_scene->metallic);
+    gl->Uniform1f(place(m, "roughness"), reference_scene->roughness);
+    gl->Uniform1i(place(m, "masking"), (GLint)physical->masking);
+    gl->Uniform1i(place(m, "diffuse_share"), (GLint)physical->diffuse);
+    gl->Uniform1i(place(m, "tone"), (GLint)physical->tone);
+    gl->Uniform1i(place(m, "encoding"), (GLint)physical->encoding);
     gl->Uniform1i(place(m, "flat_shading"), reference_scene->flat);
     gl->Uniform1i(place(m, "two_sided"), (interface->supports & NEED_TWO_SIDES) != 0);
     return offscreen_draw(&m->offscreen, reference_scene->mesh, 0, 1, pixels, error);

@@ -26,6 +26,10 @@ static const struct {
     {"c", SEMANTIC_ATTENUATION_QUADRATIC, "c"},
     {"count", SEMANTIC_LIGHT_COUNT, "LIGHTS"},
     {"flat", SEMANTIC_FLAT, "flat"},
+    {"base", SEMANTIC_COLOR, "albedo"},
+    {"occlusion", SEMANTIC_KA, "ao"},
+    {"metallic", SEMANTIC_METALLIC, "metallic"},
+    {"roughness", SEMANTIC_ROUGHNESS, "roughness"},
 };
 
 struct line {
@@ -182,10 +186,10 @@ static void put_place(struct line *line, const char *place)
             const char *name = term ? term_name(line, places[i].semantic) : own_name(line, places[i].semantic);
             bool wide = name && is_wide(line, places[i].semantic);
             bool extend = name && places[i].semantic == SEMANTIC_POSITION && !wide;
-            bool cut = places[i].semantic == SEMANTIC_NORMAL && wide;
+            bool cut = wide && (places[i].semantic == SEMANTIC_NORMAL || places[i].semantic == SEMANTIC_COLOR);
             put(line, "%s%s%s", extend ? "vec4(" : "", name ? name : places[i].fallback,
                 extend ? ", 1.0)"
-                : cut  ? ".xyz"
+                : cut  ? (places[i].semantic == SEMANTIC_COLOR ? ".rgb" : ".xyz")
                        : "");
         }
 }

@@ -71,6 +71,7 @@ static size_t bucket_of(const struct render_key *k)
                               k->expectation,
                               k->set.words[0],
                               k->set.words[1],
+                              k->set.words[2],
                               bits_of(k->set.factor),
                               bits_of(k->set.constant)};
     uint64_t hash = 14695981039346656037u; // FNV-1a, one number at a time

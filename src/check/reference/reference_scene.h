@@ -6,7 +6,7 @@
 #include <lambent/check.h>
 #include <lambent/lambent.h>
 
-enum { MAX_SCENE_LIGHTS = 3, MESH_COUNT = 5 };
+enum { MAX_SCENE_LIGHTS = 4, MESH_COUNT = 5 };
 
 enum reference_mesh { MESH_TEAPOT, MESH_SPHERE, MESH_COARSE, MESH_PLANE, MESH_BOWL };
 
@@ -64,6 +64,9 @@ struct reference_scene {
     float ka, kd, ks;                   // their strengths
     float alpha;                        // of the diffuse colour
     float shininess;
+    // Of shaders with metalness and roughness: `diffuse` is then the base colour, and kd and ks are 1.
+    float metallic, roughness;
+    bool physical;
     bool flat;
     int light_count;
     struct reference_light lights[MAX_SCENE_LIGHTS];

@@ -10,6 +10,7 @@
 #include "exit_codes.h"
 #include "help.h"
 #include "report.h"
+#include "sandbox.h"
 
 // Scans a command line for --json and -o -, so that an error while reading it is reported where the user expects it.
 static struct options scan_report_options(int count, char **words)
@@ -56,13 +57,16 @@ static int execute(const struct command *command, int operands, char **words, st
         return 0;
     }
     if (options->version) {
-        printf("lambent %s\n%s\n", lam_version(), lam_build_info());
+        char sandbox[SANDBOX_TEXT_SIZE];
+        struct sandbox_state offered = sandbox_offered();
+        printf("lambent %s\n%s\nsandbox %s\n", lam_version(), lam_build_info(), sandbox_text(&offered, sandbox));
         return 0;
     }
     if (options->output && strcmp(options->output, "/dev/stdout") == 0)
         options->output = "-"; // nothing but the picture may be written there
     if (!check_operands(command, operands, words, &error))
         return report_failure(&error, options);
+    options->files_inside |= options->sandbox == SANDBOX_REQUIRE && !options->allow_paths.count;
 #define RUN(name) run_##name,
     static command_fn *const functions[] = {COMMANDS(RUN)};
     return functions[command - command_table](operands, words, options);

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 const char *path_name(const char *path)
@@ -200,15 +201,41 @@ bool file_check_regular(const char *path, lam_error *error)
     return !kind || fail(error, LAM_CANNOT_READ, "%s: %s", path, kind);
 }
 
+enum { OPEN_FLAGS = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY };
+
+// Opens a path whose first `folder` bytes are a folder, below that folder: between the check of the path and here, nothing
+// can lead out of it. Kernels before 5.6 lack the call; there the path that was checked is opened.
+static int open_beneath(const char *path, size_t folder)
+{
+#ifdef SYS_openat2
+    const struct {
+        uint64_t flags, mode, resolve;
+    } how = {.flags = OPEN_FLAGS, .resolve = 0x02 | 0x04 | 0x08}; // RESOLVE_NO_MAGICLINKS, _NO_SYMLINKS, _BENEATH
+    char *name = strndup(path, folder);
+    int top = name ? open(name, O_PATH | O_DIRECTORY | O_CLOEXEC) : -1;
+    free(name);
+    if (top >= 0) {
+        int file = (int)syscall(SYS_openat2, top, path + folder, &how, sizeof how), reason = errno;
+        close(top);
+        errno = reason;
+        if (file >= 0 || (reason != ENOSYS && reason != EPERM))
+            return file;
+    }
+#else
+    (void)folder;
+#endif
+    return open(path, OPEN_FLAGS | O_NOFOLLOW);
+}
+
 // Opens a regular file; −1: an error. What is not one is not even opened. `shown` NULL: the user's own path.
-static int open_regular(const char *path, const char *shown, struct stat *about, lam_error *error)
+static int open_regular(const char *path, size_t folder, const char *shown, struct stat *about, lam_error *error)
 {
     const char *advice = shown ? "" : " (- is standard input)";
     shown = shown ? shown : path;
     int file = -1;
     bool found = stat(path, about) == 0;
     if (found && !kind_of(about->st_mode)) {
-        file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+        file = folder ? open_beneath(path, folder) : open(path, OPEN_FLAGS);
         found = file >= 0 && fstat(file, about) == 0; // again: another file may have come into its place
     }
     if (!found)
@@ -223,12 +250,12 @@ static int open_regular(const char *path, const char *shown, struct stat *about,
     return -1;
 }
 
-bool file_read_named(const char *path, const char *shown, struct pool *pool, struct call_control *call,
+bool file_read_named(const char *path, size_t folder, const char *shown, struct pool *pool, struct call_control *call,
                      struct file_bytes *out, lam_error *error)
 {
     struct stat about;
     *out = (struct file_bytes){0};
-    int file = open_regular(path, shown, &about, error);
+    int file = open_regular(path, folder, shown, &about, error);
     if (file < 0)
         return false;
     shown = shown ? shown : path;
@@ -244,14 +271,15 @@ bool file_read(const char *path, struct pool *pool, struct call_control *call, s
     *out = (struct file_bytes){0};
     if (strcmp(path, "-") == 0)
         return read_stream(STDIN_FILENO, "standard input", call, out, error);
-    return file_read_named(path, NULL, pool, call, out, error);
+    return file_read_named(path, 0, NULL, pool, call, out, error);
 }
 
-char *path_within(const char *path, const char *folder, bool *outside)
+char *path_within(const char *path, const char *folder, bool *outside, size_t *folder_length)
 {
     char *real = realpath(path, NULL), *top = real ? realpath(*folder ? folder : ".", NULL) : NULL;
     size_t length = top ? strlen(top) : 0;
     *outside = top && !(strncmp(real, top, length) == 0 && (real[length] == '/' || top[length - 1] == '/'));
+    *folder_length = length + (length > 0 && top[length - 1] != '/');
     if (top && !*outside) {
         free(top);
         return real;

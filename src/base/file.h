@@ -24,16 +24,17 @@ bool file_read(const char *path, struct pool *pool, struct call_control *call, s
                lam_error *error);
 
 // The same for a regular file that another file names: `shown` stands for its path in messages (NULL: the path), and "-"
-// is a file's name.
-bool file_read_named(const char *path, const char *shown, struct pool *pool, struct call_control *call,
+// is a file's name. `folder`: the length of the folder's part of the path, as path_within gives it: the rest is opened
+// below that folder without a link on its way, even where one has come there since. 0: the path is opened as it is.
+bool file_read_named(const char *path, size_t folder, const char *shown, struct pool *pool, struct call_control *call,
                      struct file_bytes *out, lam_error *error);
 
 // Whether a path that another library opens leads to a regular file; false: LAM_CANNOT_READ.
 bool file_check_regular(const char *path, lam_error *error);
 
 // The path after every link and ".." is followed, from malloc, if it lies in the folder ("": the current one) or below.
-// NULL: it does not (*outside is then true), or cannot be followed (errno).
-char *path_within(const char *path, const char *folder, bool *outside);
+// NULL: it does not (*outside is then true), or cannot be followed (errno). *length: of the folder's part, with its '/'.
+char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
 // A large file that is read in parts, from any thread.
 enum { FILE_HEAD = 64 << 10, FILE_LARGE = 1 << 20 };

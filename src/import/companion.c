@@ -11,15 +11,14 @@
 
 // --- names
 
-// Copies the components of a path, without "." and empty ones, to `out`, which may be where `name` is. With `resolve` a
-// ".." takes the component before it away; else it is copied. False: it leaves the folder, nothing is left, or
-// `capacity` is too small.
-static bool copy_components(const char *name, bool resolve, char *out, size_t capacity)
+// Copies the components of a path, without "." and empty ones, to `out`, which may be where `name` is. A ".." takes the
+// component before it away. False: it leaves the folder, nothing is left, or `capacity` is too small.
+static bool copy_components(const char *name, char *out, size_t capacity)
 {
     size_t used = 0;
     for (const char *at = name; *at; at += strspn(at, "/")) {
         size_t length = strcspn(at, "/");
-        bool up = resolve && length == 2 && at[0] == '.' && at[1] == '.';
+        bool up = length == 2 && at[0] == '.' && at[1] == '.';
         if (up && used == 0)
             return false;
         if (up) {
@@ -46,14 +45,11 @@ bool confine(const char *name, char *out, size_t capacity)
         return false;
     for (size_t i = 0; i <= length; i++)
         out[i] = name[i] == '\\' ? '/' : name[i];
-    bool escapes = out[0] == '/' || (out[0] && out[1] == ':');
-    for (const char *at = out; *at; at += strspn(at, "/")) {
-        size_t end = strcspn(at, "/");
-        escapes |= end == 2 && at[0] == '.' && at[1] == '.';
-        at += end;
-    }
-    const char *kept = escapes ? path_name(out) : out;
-    return strcmp(kept, "..") != 0 && copy_components(kept, false, out, capacity);
+    bool rooted = out[0] == '/' || (out[0] && out[1] == ':');
+    if (!rooted && copy_components(out, out, capacity))
+        return true;
+    const char *kept = path_name(out); // whose bytes are as they were: components only move to the front
+    return strcmp(kept, "..") != 0 && copy_components(kept, out, capacity);
 }
 
 static bool fail_name(const struct import_source *source, const char *name, const char *why, lam_error *error)
@@ -113,15 +109,17 @@ static bool open_beside(const struct import_source *source, const char *name, bo
     if (!out->path || !out->shown)
         return call_memory_error(source->call, strlen(folder) + strlen(name), error);
     bool outside;
-    char *real = path_within(out->path, confined ? root : "/", &outside);
+    size_t length = 0;
+    char *real = path_within(out->path, confined ? root : "/", &outside, &length);
     if (outside)
         return fail(error, LAM_CANNOT_READ, "%s: leads out of the folder %s%s", out->shown, *root ? root : ".", advice);
     if (!real && errno == ENOMEM)
         return fail_memory(error, COMPANION_NAME_SIZE);
     // What was checked is read. Of a path that leads nowhere, reading says why.
     out->real = real ? arena_string(arena, real) : out->path;
+    length = real && confined ? length : 0;
     free(real);
-    return out->real ? file_read_named(out->real, out->shown, source->pool, source->call, &out->file, error)
+    return out->real ? file_read_named(out->real, length, out->shown, source->pool, source->call, &out->file, error)
                      : call_memory_error(source->call, COMPANION_NAME_SIZE, error);
 }
 
@@ -145,7 +143,7 @@ bool companion_open_of_scene(const struct import_source *source, const char *nam
     char inside[COMPANION_NAME_SIZE];
     *out = (struct companion){0};
     if (companions->open || !companions->folder) {
-        if (name[0] == '/' || !copy_components(name, true, inside, sizeof inside))
+        if (name[0] == '/' || !copy_components(name, inside, sizeof inside))
             return fail_name(source, name, "which does not lie in the scene file's folder", error);
         return open_by_caller(source, inside, arena, out, error);
     }
@@ -160,7 +158,7 @@ bool companions_of_model(const struct import_source *scene, const char *name, co
     *out = *(const struct companions *)scene->open_state;
     const char *path = model->path;
     if (!path) {
-        copy_components(name, true, inside, sizeof inside); // as open_of_scene has done
+        copy_components(name, inside, sizeof inside); // as open_of_scene has done
         path = inside;
     }
     const char *folder = arena_string_of(arena, path, (size_t)(path_name(path) - path));

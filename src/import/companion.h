@@ -36,8 +36,8 @@ bool companion_open_of_scene(const struct import_source *source, const char *nam
 bool companions_of_model(const struct import_source *scene, const char *name, const struct companion *model,
                          struct arena *arena, struct companions *out, lam_error *error);
 
-// Confines a file name to a folder: backslashes become slashes, "." and empty components go, and a name that begins at
-// a root or a drive, or contains "..", is cut to its last component. So the names of one file are the same text. False:
+// Confines a file name to a folder: backslashes become slashes, "." and empty components go, ".." takes the component
+// before it away, and a name that begins at a root or a drive, or leads out of the folder, is cut to its last component. So the names of one file are the same text. False:
 // nothing is left, or `capacity` is too small.
 enum { COMPANION_NAME_SIZE = 4096 };
 bool confine(const char *name, char *out, size_t capacity);

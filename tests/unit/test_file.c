@@ -279,13 +279,59 @@ static void test_handlers_run(void **state)
     sigaction(SIGALRM, &old, NULL);
 }
 
+// What is named by a file is opened below its folder: a link or ".." that has come into its path since it was checked
+// leads nowhere.
+static void test_beneath(void **state)
+{
+    (void)state;
+    struct file_bytes read = {0};
+    lam_error error;
+    bool outside = true;
+    size_t length = 0;
+    assert_int_equal(mkdir(in_folder("in"), 0777), 0);
+    assert_true(file_write(in_folder("in/a"), "inside", 6, NULL, &error));
+    assert_true(file_write(in_folder("secret"), "outside", 7, NULL, &error));
+    char in[100], path[200];
+    snprintf(in, sizeof in, "%s/in", folder);
+    char *real = path_within(in_folder("in/a"), in, &outside, &length);
+    assert_non_null(real);
+    assert_false(outside);
+    assert_string_equal(real + length, "a");
+    assert_true(file_read_named(real, length, NULL, NULL, NULL, &read, &error));
+    assert_int_equal(read.size, 6);
+    file_release(&read);
+    free(real);
+    static const char *const ways[] = {"out", "dots/../../secret", "../secret"};
+    assert_int_equal(symlink("../secret", in_folder("in/out")), 0);
+    assert_int_equal(mkdir(in_folder("in/dots"), 0777), 0);
+    for (int i = 0; i < 3; i++) {
+        snprintf(path, sizeof path, "%s/%s", in, ways[i]);
+        assert_false(file_read_named(path, strlen(in) + 1, "shown", NULL, NULL, &read, &error));
+        assert_int_equal(error.code, LAM_CANNOT_READ);
+        assert_true(strncmp(error.text, "shown: cannot open: ", 20) == 0);
+        assert_true(file_read_named(path, 0, NULL, NULL, NULL, &read, &error)); // by itself it can be read
+        file_release(&read);
+        free(path_within(path, in, &outside, &length));
+        assert_true(outside);
+    }
+    unlink(in_folder("in/out"));
+    unlink(in_folder("in/a"));
+    rmdir(in_folder("in/dots"));
+    rmdir(in_folder("in"));
+    unlink(in_folder("secret"));
+}
+
 int main(void)
 {
     umask(022);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_written_and_replaced),  cmocka_unit_test(test_failures_leave_nothing),
-        cmocka_unit_test(test_signals_leave_nothing), cmocka_unit_test(test_kill_leaves_nothing),
-        cmocka_unit_test(test_file_size_limit),       cmocka_unit_test(test_handlers_run),
+        cmocka_unit_test(test_written_and_replaced),
+        cmocka_unit_test(test_failures_leave_nothing),
+        cmocka_unit_test(test_signals_leave_nothing),
+        cmocka_unit_test(test_kill_leaves_nothing),
+        cmocka_unit_test(test_file_size_limit),
+        cmocka_unit_test(test_handlers_run),
+        cmocka_unit_test(test_beneath),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -15,6 +15,7 @@
 #include "report.h"
 #include "sheet.h"
 #include "sheet_defaults.h"
+#include "sandbox_start.h"
 
 enum { CELL_WIDTH = 480, CELL_HEIGHT = 400, ENLARGED = 3, INK = 0x222222, GREY = 0x777777, FRAME = 0xd55e00 };
 
@@ -365,6 +366,12 @@ int run_compare(int operand_count, char **operands, const struct options *option
     if (ok && !(path = path_of(options, c.model, c.sheet.name)))
         ok = complain(&error, LAM_LIMIT, "out of memory");
     ok = ok && check(options, c.model, path, &error);
+    if (ok) {
+        struct sandbox_paths paths = {0};
+        sandbox_add_input(&paths, c.model);
+        sandbox_add_output(&paths, path);
+        ok = sandbox_start(options, &paths, &error);
+    }
     if (ok) {
         c.device = device_option_make(options, &error);
         progress_start(&c.progress, c.model, console_is_terminal() && !options->quiet);

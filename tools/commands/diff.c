@@ -9,9 +9,10 @@
 #include "console.h"
 #include "exit_codes.h"
 #include "json.h"
-#include "limits.h"
+#include "limit_options.h"
 #include "output.h"
 #include "report.h"
+#include "sandbox_start.h"
 
 struct pair {
     const char *name[2];
@@ -126,7 +127,13 @@ int run_diff(int operand_count, char **operands, const struct options *options)
         ok = complain(&error, LAM_LIMIT, "out of memory");
     else if (options->output && !to_stdout)
         ok = output_check(pair.output, pair.name[0], output_is_named(options->output), &error);
-    ok = ok && load_pair(&pair, options, &error) && (!options->output || write_picture(&pair, options, &error));
+    struct sandbox_paths paths = {0};
+    for (int i = 0; i < 2; i++)
+        sandbox_add_file(&paths, operands[i]);
+    if (pair.output)
+        sandbox_add_output(&paths, pair.output);
+    ok = ok && sandbox_start(options, &paths, &error) && load_pair(&pair, options, &error) &&
+         (!options->output || write_picture(&pair, options, &error));
     bool differ = ok && pair.difference.maximum > options->tolerance / 255.0;
     if (ok) {
         FILE *file = to_stdout ? stderr : stdout;

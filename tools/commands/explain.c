@@ -11,6 +11,7 @@
 #include "interrupt.h"
 #include "job.h"
 #include "report.h"
+#include "sandbox_start.h"
 
 // Reads digits up to the character `end`; returns the text after it, NULL if there are no digits or too many.
 static const char *read_pixel_number(const char *text, char end, int *value)
@@ -68,7 +69,9 @@ int run_explain(int operand_count, char **operands, const struct options *given)
     if (error.code)
         return report_failure(&error, &options);
     interrupt_start();
-    job.device = device_option_make(&options, &error);
+    struct sandbox_paths paths = {0};
+    sandbox_add_input(&paths, job.model);
+    job.device = sandbox_start(&options, &paths, &error) ? device_option_make(&options, &error) : NULL;
     if (!job.device)
         return report_failure(&error, &options);
     job.times.start = clock_ms();

@@ -9,8 +9,9 @@
 #include "console.h"
 #include "exit_codes.h"
 #include "interrupt.h"
-#include "limits.h"
+#include "limit_options.h"
 #include "report.h"
+#include "sandbox_start.h"
 
 // A file that requires what this version does not know is read without it.
 static bool load(struct info *info, struct job *job, struct options *options, lam_error *error)
@@ -89,6 +90,11 @@ int run_info(int operand_count, char **operands, const struct options *options)
     if (error.code)
         return report_failure(&error, options);
     interrupt_start();
+    struct sandbox_paths paths = {0};
+    for (int i = 0; i < operand_count; i++)
+        sandbox_add_input(&paths, operands[i]);
+    if (!sandbox_start(options, &paths, &error))
+        return report_failure(&error, options);
     int worst = 0;
     for (int i = 0; i < operand_count && !interrupted(); i++) {
         int code = print_one(operands[i], options, i == 0);

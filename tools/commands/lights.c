@@ -7,6 +7,7 @@
 #include "interrupt.h"
 #include "job.h"
 #include "report.h"
+#include "sandbox_start.h"
 
 int run_lights(int operand_count, char **operands, const struct options *options)
 {
@@ -18,8 +19,10 @@ int run_lights(int operand_count, char **operands, const struct options *options
     interrupt_start();
     job.times.start = clock_ms();
     progress_start(&progress, job.model, false);
-    bool ok = job_load(&job, &progress, &error) && job_arrange(&job, &progress, &error) &&
-              lam_lights_encode(job.scene, job.rig, &text, &error);
+    struct sandbox_paths paths = {0};
+    sandbox_add_input(&paths, job.model);
+    bool ok = sandbox_start(options, &paths, &error) && job_load(&job, &progress, &error) &&
+              job_arrange(&job, &progress, &error) && lam_lights_encode(job.scene, job.rig, &text, &error);
     progress_end(&progress);
     if (ok)
         fwrite(text.data, 1, text.size, stdout); // main reports a failed write

@@ -9,7 +9,7 @@
 #include "command.h"
 #include "console.h"
 #include "json.h"
-#include "limits.h"
+#include "limit_options.h"
 #include "output.h"
 #include "report.h"
 #include "suggest.h"

@@ -11,11 +11,12 @@
 #include "device_option.h"
 #include "interrupt.h"
 #include "job.h"
-#include "limits.h"
+#include "limit_options.h"
 #include "output.h"
 #include "plan.h"
 #include "progress.h"
 #include "report.h"
+#include "sandbox_start.h"
 
 // --- checks of the options together
 
@@ -210,6 +211,21 @@ static int render_one(const char *model, lam_device *device, const struct option
     return exit_code_of(error.code)->code;
 }
 
+static bool enter_sandbox(int count, char **models, const struct options *o, lam_error *error)
+{
+    struct sandbox_paths paths = {0};
+    for (int i = 0; i < count; i++)
+        sandbox_add_input(&paths, models[i]);
+    for (int i = 0; i < count; i++) {
+        char *path = path_of(o, models[i]);
+        paths.failed |= !path;
+        if (path)
+            sandbox_add_output(&paths, path);
+        free(path);
+    }
+    return sandbox_start(o, &paths, error);
+}
+
 int run_render(int operand_count, char **operands, const struct options *options)
 {
     lam_error error = {0};
@@ -217,7 +233,8 @@ int run_render(int operand_count, char **operands, const struct options *options
         !check_names(operand_count, operands, options, &error))
         return report_failure(&error, options);
     interrupt_start();
-    lam_device *device = device_option_make(options, &error);
+    lam_device *device =
+        enter_sandbox(operand_count, operands, options, &error) ? device_option_make(options, &error) : NULL;
     if (!device)
         return report_failure(&error, options);
     int worst = 0;

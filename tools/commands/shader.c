@@ -11,6 +11,7 @@
 #include "job.h"
 #include "output.h"
 #include "report.h"
+#include "sandbox_start.h"
 
 // --- the list of inputs
 
@@ -153,7 +154,11 @@ int run_shader(int operand_count, char **operands, const struct options *given)
     job.times.start = clock_ms();
     struct progress progress;
     progress_start(&progress, job.model, console_is_terminal() && !options.quiet);
-    lam_shader *shader = job_shader(&job, &progress, &error);
+    struct sandbox_paths paths = {0};
+    sandbox_add_input(&paths, job.model);
+    if (to_files)
+        sandbox_add_output(&paths, options.output);
+    lam_shader *shader = sandbox_start(&options, &paths, &error) ? job_shader(&job, &progress, &error) : NULL;
     progress_end(&progress);
     bool ok = shader && (!to_files || write_files(given, shader, job.model, &error));
     if (ok && options.json)

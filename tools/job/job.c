@@ -13,8 +13,9 @@
 #include "interrupt.h"
 #include "job_scene.h"
 #include "light_markers.h"
-#include "limits.h"
+#include "limit_options.h"
 #include "output.h"
+#include "sandbox_start.h"
 #include "scene_settings.h"
 #include "show_all.h"
 #include "show_option.h"
@@ -128,7 +129,7 @@ static void add_guess(const struct job *job, lam_error *error)
     char text[200];
     size_t length = strlen(error->text);
     guess(job, error, text, sizeof text);
-    snprintf(error->text + length, sizeof error->text - length, "%s", text);
+    snprintf(error->text + length, sizeof error->text - length, "%s%s", text, *text ? "" : sandbox_advice(error));
 }
 
 // True if only one frame is drawn, so that normals of its visible triangles suffice.

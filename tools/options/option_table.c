@@ -6,6 +6,8 @@
 
 #include <lambent/check.h>
 
+#include "sandbox.h"
+
 #define FIELD(name) .field = offsetof(struct options, name)
 
 const char *const group_titles[GROUP_COUNT] = {
@@ -33,6 +35,11 @@ static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4
 // Filled by option_table_fill: auto, and the contracts that are built in.
 enum { CONTRACT_WORDS_MAX = 24 };
 static struct word contract_words[CONTRACT_WORDS_MAX] = {{"auto", 0, NULL}};
+
+static const struct word sandbox_words[] = {{"auto", SANDBOX_AUTO, "what the kernel has"},
+                                            {"require", SANDBOX_REQUIRE, "all of it, or an error"},
+                                            {"off", SANDBOX_OFF, "none"},
+                                            {NULL, 0, NULL}};
 
 static const struct word light_frame_words[] = {
     {"object", LAM_FRAME_OBJECT, "in object space: the model-view matrix transforms it, like the vertices"},
@@ -598,6 +605,20 @@ const struct option option_table[] = {
      "it, wherever links and `..` lead, so that it cannot show other files. The files that a model names (MTL) "
      "lie in the model's folder in any case, and files named on the command line may lie anywhere.",
      .store = store_switch, FIELD(files_inside), .single = TAKES_FILES},
+    {"sandbox", 0, GROUP_LIMITS, "MODE", "auto", "Whether the program gives up what reading a file does not need.",
+     "With it a file that finds a mistake in a decoder cannot run programs, open sockets, or read other files: only "
+     "the folders of the models and those of `--allow-path` are read, besides the system's libraries and fonts, and "
+     "only the folders of the pictures are written to. It is made of Linux's Landlock and a seccomp filter. `auto` "
+     "takes what the kernel has; `require` fails where it lacks one of them (exit 3), and lets scene files name only "
+     "files of their folder (`--files-inside`) or of `--allow-path`. `-v`, `--json` and `--version` say what holds. "
+     "Commands that read models or pictures have it; `check` and OpenGL do not, since drivers need what it takes "
+     "away: with `auto` it is off there. A scene file (`.json`) may name files anywhere with `auto`, unless "
+     "`--files-inside` or `--allow-path` is given.",
+     sandbox_words, .store = store_word, .others = "seccomp landlock jail", FIELD(sandbox),
+     .single = TAKES_PICTURE_LIMITS},
+    {"allow-path", 0, GROUP_LIMITS, "DIR", NULL, "Let the sandbox reach this folder or file too; may be repeated.",
+     NULL, .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(allow_paths),
+     .single = TAKES_PICTURE_LIMITS},
 
     {"json", 0, GROUP_REPORT, NULL, NULL, "Print a report in JSON, one line for each model.",
      "The report goes to standard output, or to standard error when the picture goes to standard output (then "

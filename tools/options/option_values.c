@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "console.h"
 #include "material_option.h"
@@ -353,6 +354,14 @@ bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg)
     *axis = (lam_vec3){text[0] == 'x', text[0] == 'y', text[0] == 'z'};
     text = read_number(text + 2, angle_deg);
     return text && !*text && *angle_deg >= -1e6 && *angle_deg <= 1e6;
+}
+
+// A file or a folder that exists.
+bool store_path(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    if (access(value, F_OK) != 0)
+        return wrong(error, value, "a folder or file that exists");
+    return append(option, value, options, error);
 }
 
 bool store_rotation(const struct option *option, const char *value, struct options *options, lam_error *error)

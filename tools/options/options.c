@@ -28,6 +28,7 @@ void options_free(struct options *options)
     free(options->rotations.items);
     free(options->sheet_rotations.items);
     free(options->across.items);
+    free(options->allow_paths.items);
 }
 
 static bool texts_copy(struct texts *texts)
@@ -48,6 +49,7 @@ bool options_copy(struct options *to, const struct options *from)
     ok = texts_copy(&to->rotations) && ok;
     ok = texts_copy(&to->sheet_rotations) && ok;
     ok = texts_copy(&to->across) && ok;
+    ok = texts_copy(&to->allow_paths) && ok;
     if (!ok)
         options_free(to);
     return ok;

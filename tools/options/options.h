@@ -84,7 +84,7 @@ struct options {
     const char *gl_device; // a number or a part of a name; NULL: the first
     int repeat;
 
-    // Limits (limits.h)
+    // Limits (limit_options.h)
     double time_limit_s;         // 0: the default; infinity: none
     uint64_t memory_limit_bytes; // 0: the default; UINT64_MAX: none
     uint64_t triangle_limit;     // 0: the library's default, as in the next ones
@@ -92,6 +92,8 @@ struct options {
     uint64_t file_limit_bytes;
     int json_depth_limit;
     bool files_inside; // that a scene file names
+    int sandbox;       // enum sandbox_mode
+    struct texts allow_paths;
     // Models that are worked on at the same time, which share the default memory; set by the loop over them. 0: one.
     int in_flight;
 
@@ -260,6 +262,7 @@ bool store_glsl(const struct option *, const char *, struct options *, lam_error
 bool store_up(const struct option *, const char *, struct options *, lam_error *);           // likewise
 bool store_integer(const struct option *, const char *, struct options *, lam_error *);      // int
 bool store_number(const struct option *, const char *, struct options *, lam_error *);       // double
+bool store_path(const struct option *, const char *, struct options *, lam_error *);         // struct texts
 bool store_seconds(const struct option *, const char *, struct options *, lam_error *);      // double, or none
 bool store_count(const struct option *, const char *, struct options *, lam_error *);        // uint64_t
 bool store_float(const struct option *, const char *, struct options *, lam_error *);        // float

@@ -10,6 +10,7 @@
 #include "exit_codes.h"
 #include "json.h"
 #include "plan.h"
+#include "sandbox_start.h"
 
 // The model's format; "shape" for a built-in shape.
 static const char *format_of(const lam_scene *scene)
@@ -59,7 +60,9 @@ void report_table(const struct job *job)
         say_plain("orthographic, half height %.7g\n", camera->ortho_half_height);
     else
         say_plain("%.7g degrees high\n", degrees(camera->fovy_rad));
+    char sandbox[SANDBOX_TEXT_SIZE];
     say_plain("device   %s\n", lam_device_name(job->device));
+    say_plain("sandbox  %s\n", sandbox_text(sandbox_active(), sandbox));
     say_plain("picture  %s, %dx%d, %" PRIu64 " bytes\n",
               strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->image.width, job->image.height,
               job->bytes);
@@ -282,11 +285,20 @@ static void json_error(struct json *json, const lam_error *error)
     json_close(json, '}');
 }
 
+static void json_sandbox(struct json *json, const struct sandbox_state *state)
+{
+    json_open(json, "sandbox", '{');
+    json_count(json, "landlock", (uint64_t)state->landlock);
+    json_flag(json, "seccomp", state->filter);
+    json_close(json, '}');
+}
+
 void report_json(FILE *file, const struct job *job, const lam_error *error)
 {
     struct json json = {.file = file};
     json_open(&json, NULL, '{');
     json_text(&json, "lambent", lam_version());
+    json_sandbox(&json, sandbox_active());
     if (job) {
         json_model(&json, job);
     } else {

@@ -1,6 +1,6 @@
-// limits.h: the limits of the options, as the library takes them.
-#ifndef LIMITS_H
-#define LIMITS_H
+// limit_options.h: the limits of the options, as the library takes them.
+#ifndef LIMIT_OPTIONS_H
+#define LIMIT_OPTIONS_H
 
 #include "options.h"
 

@@ -1,5 +1,5 @@
-// limits.c: the limits of the options, as the library takes them.
-#include "limits.h"
+// limit_options.c: the limits of the options, as the library takes them.
+#include "limit_options.h"
 
 #include <math.h>
 

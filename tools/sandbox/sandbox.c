@@ -1,0 +1,218 @@
+// sandbox.c: Landlock: files are within reach only below the given paths. https://docs.kernel.org/userspace-api/landlock.html
+//
+// The numbers of the interface are written here, because headers of distributions are older than kernels.
+#include "sandbox.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "console.h"
+
+void sandbox_add(struct sandbox_paths *paths, const char *path, int access)
+{
+    if (paths->count && paths->items[paths->count - 1].access == access &&
+        strcmp(paths->items[paths->count - 1].path, path) == 0)
+        return; // models of one folder follow each other
+    if (paths->count == paths->capacity) {
+        int capacity = paths->capacity ? 2 * paths->capacity : 32;
+        struct sandbox_path *grown = realloc(paths->items, (size_t)capacity * sizeof *grown);
+        paths->failed |= !grown;
+        if (!grown)
+            return;
+        paths->items = grown;
+        paths->capacity = capacity;
+    }
+    char *copy = strdup(path);
+    paths->failed |= !copy;
+    if (copy)
+        paths->items[paths->count++] = (struct sandbox_path){copy, access};
+}
+
+void sandbox_paths_free(struct sandbox_paths *paths)
+{
+    for (int i = 0; i < paths->count; i++)
+        free(paths->items[i].path);
+    free(paths->items);
+    *paths = (struct sandbox_paths){0};
+}
+
+const char *sandbox_text(const struct sandbox_state *state, char out[SANDBOX_TEXT_SIZE])
+{
+    size_t used = 0;
+    if (state->landlock)
+        used = (size_t)snprintf(out, SANDBOX_TEXT_SIZE, "Landlock %d%s", state->landlock,
+                                state->filter ? " and seccomp" : "");
+    else
+        used = (size_t)snprintf(out, SANDBOX_TEXT_SIZE, "%s", state->filter ? "seccomp" : "off");
+    if (state->reason && used < SANDBOX_TEXT_SIZE)
+        used += (size_t)snprintf(out + used, SANDBOX_TEXT_SIZE - used, "; %s", state->reason);
+    if (state->landlock && state->reads_everything && used < SANDBOX_TEXT_SIZE)
+        snprintf(out + used, SANDBOX_TEXT_SIZE - used, "; a scene file may name files anywhere");
+    return out;
+}
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(memory_sanitizer) || __has_feature(thread_sanitizer)
+#define SANITIZED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SANITIZED
+#endif
+
+#if defined(__linux__) && (defined(__x86_64__) || defined(__aarch64__)) && !defined(SANITIZED)
+
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+
+enum {
+    CREATE_RULESET = 444,
+    ADD_RULE = 445,
+    RESTRICT_SELF = 446,
+    RULESET_VERSION = 1 << 0, // a flag of CREATE_RULESET
+    PATH_BENEATH = 1,         // a kind of rule
+};
+
+// Rights to files, by the version that brought them.
+enum {
+    EXECUTE = 1 << 0,
+    WRITE_FILE = 1 << 1,
+    READ_FILE = 1 << 2,
+    READ_DIR = 1 << 3,
+    REMOVE_FILE = 1 << 5,
+    MAKE_DIR = 1 << 7,
+    MAKE_REG = 1 << 8,
+    VERSION_1 = (1 << 13) - 1,
+    REFER = 1 << 13,     // 2
+    TRUNCATE = 1 << 14,  // 3
+    IOCTL_DEV = 1 << 15, // 5
+    OF_FILES = EXECUTE | WRITE_FILE | READ_FILE | TRUNCATE | IOCTL_DEV,
+};
+
+struct ruleset {
+    uint64_t files;
+    uint64_t network; // 4: binding and connecting TCP
+    uint64_t scoped;  // 6: sockets without a path, signals
+};
+
+struct path_beneath {
+    uint64_t allowed;
+    int32_t folder;
+} __attribute__((packed));
+
+static bool under_valgrind(void)
+{
+    const char *preloaded = getenv("LD_PRELOAD");
+    return preloaded && strstr(preloaded, "vgpreload");
+}
+
+static int landlock_version(void)
+{
+    long version = syscall(CREATE_RULESET, NULL, 0, RULESET_VERSION);
+    return version > 0 ? (int)version : 0;
+}
+
+struct sandbox_state sandbox_offered(void)
+{
+    struct sandbox_state state = {0};
+    if (under_valgrind()) { // whose own system calls would be those of the program
+        state.reason = "Valgrind runs the program";
+        return state;
+    }
+    state.landlock = landlock_version();
+    state.filter = prctl(PR_GET_SECCOMP, 0, 0, 0, 0) >= 0;
+    if (!state.landlock || !state.filter)
+        state.reason = state.landlock ? "the kernel has no seccomp filters"
+                       : state.filter ? "the kernel has no Landlock"
+                                      : "the kernel has neither Landlock nor seccomp filters";
+    return state;
+}
+
+static uint64_t rights_of(int version)
+{
+    return (uint64_t)VERSION_1 | (version >= 2 ? REFER : 0) | (version >= 3 ? TRUNCATE : 0) |
+           (version >= 5 ? IOCTL_DEV : 0);
+}
+
+// False: the kernel refuses the rule. A path that does not exist, or may not be opened, needs none.
+static bool add_path(int rules, const struct sandbox_path *path, uint64_t handled)
+{
+    struct stat about;
+    int file = open(path->path, O_PATH | O_CLOEXEC);
+    if (file < 0)
+        return true;
+    uint64_t allowed = 0;
+    if (path->access & SANDBOX_READ)
+        allowed |= READ_FILE | READ_DIR;
+    if (path->access & SANDBOX_WRITE)
+        allowed |= WRITE_FILE | TRUNCATE | MAKE_REG | MAKE_DIR | REMOVE_FILE;
+    bool ok = fstat(file, &about) == 0;
+    if (ok && !S_ISDIR(about.st_mode))
+        allowed &= OF_FILES;
+    struct path_beneath rule = {.allowed = allowed & handled, .folder = file};
+    ok = ok && syscall(ADD_RULE, rules, PATH_BENEATH, &rule, 0) == 0;
+    close(file);
+    return ok;
+}
+
+static bool enter_landlock(const struct sandbox_paths *paths, int version)
+{
+    struct ruleset set = {.files = rights_of(version), .network = 3, .scoped = 3};
+    size_t size = version >= 6 ? sizeof set : version >= 4 ? 2 * sizeof(uint64_t) : sizeof(uint64_t);
+    int rules = (int)syscall(CREATE_RULESET, &set, size, 0);
+    if (rules < 0)
+        return false;
+    bool ok = true;
+    for (int i = 0; ok && i < paths->count; i++)
+        ok = add_path(rules, &paths->items[i], set.files);
+    ok = ok && syscall(RESTRICT_SELF, rules, 0) == 0;
+    close(rules);
+    return ok;
+}
+
+bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *state, lam_error *error)
+{
+    *state = sandbox_offered();
+    if (paths->failed)
+        return complain(error, LAM_LIMIT, "out of memory");
+    if (!state->landlock && !state->filter)
+        return true;
+    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) { // without it a program could be run with more rights
+        *state = (struct sandbox_state){.reason = "the kernel does not let a process give up privileges"};
+        return true;
+    }
+    if (state->landlock && !enter_landlock(paths, state->landlock)) {
+        state->landlock = 0;
+        state->reason = "the kernel refuses Landlock";
+    }
+    if (state->filter && !sandbox_filter_install()) {
+        state->filter = false;
+        state->reason = state->landlock ? "the kernel refuses the seccomp filter"
+                                        : "the kernel refuses Landlock and the seccomp filter";
+    }
+    return true;
+}
+
+#else
+
+struct sandbox_state sandbox_offered(void)
+{
+#ifdef SANITIZED
+    return (struct sandbox_state){.reason = "this build has sanitizers"};
+#else
+    return (struct sandbox_state){.reason = "this system has neither Landlock nor seccomp filters"};
+#endif
+}
+
+bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *state, lam_error *error)
+{
+    *state = sandbox_offered();
+    return !paths->failed || complain(error, LAM_LIMIT, "out of memory");
+}
+
+#endif

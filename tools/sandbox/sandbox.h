@@ -1,0 +1,55 @@
+// sandbox.h: takes from this process what a program that reads a stranger's file does not need: files outside of a few
+// folders (Landlock), other programs, the network, other processes (a seccomp filter). What is given up cannot be got
+// back. Linux on x86-64 and aarch64; elsewhere there is none.
+#ifndef SANDBOX_H
+#define SANDBOX_H
+
+#include <lambent/base.h>
+
+enum sandbox_mode { SANDBOX_AUTO, SANDBOX_REQUIRE, SANDBOX_OFF };
+
+enum {
+    SANDBOX_READ = 1,  // a file, or all files of a folder and below it
+    SANDBOX_WRITE = 2, // a file, or making, replacing and removing files and making folders in a folder and below it
+};
+
+struct sandbox_path {
+    char *path;
+    int access; // SANDBOX_…
+};
+
+// The files that stay within reach.
+struct sandbox_paths {
+    struct sandbox_path *items;
+    int count, capacity;
+    bool failed;      // memory was out: sandbox_enter fails
+    bool scene_files; // some of them may name files anywhere (sandbox_start.c)
+};
+
+// Adds a path, which is copied. What does not exist when the sandbox is entered stays out of reach.
+void sandbox_add(struct sandbox_paths *paths, const char *path, int access);
+void sandbox_paths_free(struct sandbox_paths *paths);
+
+// What holds, or what this machine has.
+struct sandbox_state {
+    int landlock;          // the kernel's version of Landlock; 0: none
+    bool filter;           // the seccomp filter
+    bool reads_everything; // files may be read anywhere
+    const char *reason;    // why one of them is missing; NULL: both are there
+};
+
+// What the kernel offers. Changes nothing.
+struct sandbox_state sandbox_offered(void);
+
+// Enters the sandbox: this thread and those that it starts from now on, and the filter for all threads; call it before
+// threads start. What the kernel lacks is left out, and `state` says so. False with LAM_LIMIT: out of memory.
+bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *state, lam_error *error);
+
+// One line: "Landlock 7 and seccomp", "seccomp; Landlock is missing: …", "off". Returns `out`.
+enum { SANDBOX_TEXT_SIZE = 160 };
+const char *sandbox_text(const struct sandbox_state *state, char out[SANDBOX_TEXT_SIZE]);
+
+// sandbox_filter.c: installs the seccomp filter for all threads. False: the kernel refuses; errno says why.
+bool sandbox_filter_install(void);
+
+#endif

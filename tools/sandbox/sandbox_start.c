@@ -1,0 +1,191 @@
+// sandbox_start.c: which files a command may reach.
+#include "sandbox_start.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "console.h"
+#include "limit_options.h"
+
+static struct sandbox_state active = {.reason = "not entered"};
+
+const struct sandbox_state *sandbox_active(void) { return &active; }
+
+const char *sandbox_advice(const lam_error *error)
+{
+    bool denied = error->code == LAM_CANNOT_READ && strstr(error->text, strerror(EACCES));
+    return active.landlock && denied
+               ? "; the sandbox lets files be read in the model's folder, and in those of --allow-path"
+               : "";
+}
+
+// The folder of a path: what stands before its last '/', with it; "." where there is none. False: out of memory.
+static bool add_folder_of(struct sandbox_paths *paths, const char *path, int access)
+{
+    const char *slash = strrchr(path, '/');
+    char *folder = slash ? strndup(path, (size_t)(slash + 1 - path)) : strdup(".");
+    if (folder)
+        sandbox_add(paths, folder, access);
+    paths->failed |= !folder;
+    free(folder);
+    return !paths->failed;
+}
+
+static bool is_scene_file(const char *model)
+{
+    const char *dot = strrchr(model, '.');
+    return dot && strcmp(dot, ".json") == 0;
+}
+
+void sandbox_add_input(struct sandbox_paths *paths, const char *model)
+{
+    if (strcmp(model, "-") == 0 || lam_shape_find(model) >= 0)
+        return;
+    sandbox_add(paths, model, SANDBOX_READ); // by itself too: it may be a link to a file elsewhere, which the user made
+    add_folder_of(paths, model, SANDBOX_READ);
+    paths->scene_files |= is_scene_file(model);
+}
+
+void sandbox_add_file(struct sandbox_paths *paths, const char *file) { sandbox_add(paths, file, SANDBOX_READ); }
+
+// The nearest folder above a path that exists, where folders can be made.
+static void add_folder_to_be(struct sandbox_paths *paths, const char *path)
+{
+    char *folder = strdup(path);
+    struct stat about;
+    paths->failed |= !folder;
+    while (folder) {
+        char *slash = strrchr(folder, '/');
+        if (slash)
+            slash[slash == folder] = 0;
+        const char *there = slash ? folder : ".";
+        bool found = stat(there, &about) == 0;
+        if (found || !slash || strcmp(folder, "/") == 0) {
+            if (found)
+                sandbox_add(paths, there, SANDBOX_WRITE);
+            break;
+        }
+    }
+    free(folder);
+}
+
+void sandbox_add_output(struct sandbox_paths *paths, const char *path)
+{
+    struct stat about;
+    if (strcmp(path, "-") == 0)
+        return;
+    if (stat(path, &about) != 0) {
+        add_folder_to_be(paths, path);
+    } else if (!S_ISREG(about.st_mode)) {
+        sandbox_add(paths, path, SANDBOX_WRITE); // a folder, a pipe, a device
+    } else {
+        // An older picture is replaced if it says that it is ours; of a link, what it leads to.
+        char *target = realpath(path, NULL);
+        sandbox_add(paths, path, SANDBOX_READ);
+        if (target)
+            add_folder_of(paths, target, SANDBOX_WRITE);
+        free(target);
+    }
+}
+
+// A list of paths separated by `separator`.
+static void add_list(struct sandbox_paths *paths, const char *list, char separator)
+{
+    for (const char *at = list; at && *at;) {
+        const char *end = strchrnul(at, separator);
+        char *path = strndup(at, (size_t)(end - at));
+        paths->failed |= !path;
+        if (path && *path)
+            sandbox_add(paths, path, SANDBOX_READ);
+        free(path);
+        at = *end ? end + 1 : end;
+    }
+}
+
+// What the program itself opens: libraries when they are needed, fonts, the number of processors, and the seed of tables of
+// keys (Jansson).
+static void add_system(struct sandbox_paths *paths)
+{
+    static const char *const folders[] = {
+        "/lib",
+        "/lib64",
+        "/usr/lib",
+        "/usr/lib64",
+        "/usr/local/lib",
+        "/etc/ld.so.cache",
+        "/nix/store",
+        "/gnu/store",
+        "/usr/share/fonts",
+        "/usr/local/share/fonts",
+        "/sys/devices/system/cpu",
+        "/dev/urandom",
+    };
+    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++)
+        sandbox_add(paths, folders[i], SANDBOX_READ);
+    add_list(paths, getenv("LD_LIBRARY_PATH"), ':');
+    add_list(paths, getenv("LAMBENT_FONT"), 0);
+    // The module of Draco, where the library looks for it (src/base/dynamic_library.c).
+    static const char *const modules[] = {"", "../", "lambent/", "../" LAMBENT_LIBDIR "/lambent/"};
+    char own[PATH_MAX], path[PATH_MAX + 100];
+    ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
+    own[length > 0 ? length : 0] = 0;
+    char *slash = strrchr(own, '/');
+    for (size_t i = 0; slash && i < sizeof modules / sizeof *modules; i++) {
+        snprintf(path, sizeof path, "%.*s%slambent-draco.so", (int)(slash + 1 - own), own, modules[i]);
+        sandbox_add(paths, path, SANDBOX_READ);
+    }
+}
+
+static void add_options(struct sandbox_paths *paths, const struct options *o)
+{
+    for (int i = 0; i < o->allow_paths.count; i++)
+        sandbox_add(paths, o->allow_paths.items[i], SANDBOX_READ | SANDBOX_WRITE);
+    if (o->environment)
+        add_list(paths, o->environment, ',');
+    if (o->font)
+        sandbox_add(paths, o->font, SANDBOX_READ);
+    if (o->save_scene)
+        sandbox_add_output(paths, o->save_scene);
+}
+
+static bool uses_opengl(const struct options *o)
+{
+    return o->device == DEVICE_GL || o->device == DEVICE_GLES || (o->device == DEVICE_AUTO && o->gl_device);
+}
+
+static bool check_required(const struct options *o, lam_error *error)
+{
+    if (o->sandbox != SANDBOX_REQUIRE || (active.landlock && active.filter))
+        return true;
+    return complain(error, LAM_UNSUPPORTED, "option '--sandbox require': the sandbox is not complete: %s",
+                    active.reason);
+}
+
+bool sandbox_start(const struct options *o, struct sandbox_paths *paths, lam_error *error)
+{
+    bool ok = true, everything = paths->scene_files && !o->files_inside && !o->allow_paths.count;
+    if (o->sandbox == SANDBOX_OFF) {
+        active.reason = "--sandbox off";
+    } else if (uses_opengl(o)) {
+        active.reason = "OpenGL's driver needs what a sandbox takes away";
+        ok = check_required(o, error);
+    } else if (o->sandbox == SANDBOX_REQUIRE && sandbox_offered().reason) {
+        active = (struct sandbox_state){.reason = sandbox_offered().reason};
+        ok = check_required(o, error);
+    } else {
+        limits_memory(o); // reads the system's files, which then are out of reach
+        add_system(paths);
+        add_options(paths, o);
+        if (everything)
+            sandbox_add(paths, "/", SANDBOX_READ);
+        ok = sandbox_enter(paths, &active, error) && check_required(o, error);
+        active.reads_everything = everything;
+    }
+    sandbox_paths_free(paths);
+    return ok;
+}

@@ -1,0 +1,33 @@
+// sandbox_start.h: the sandbox of a command that reads strangers' files: --sandbox and --allow-path.
+//
+//     struct sandbox_paths paths = {0};
+//     sandbox_add_input(&paths, model);
+//     sandbox_add_output(&paths, picture);
+//     if (!sandbox_start(options, &paths, error)) …
+#ifndef SANDBOX_START_H
+#define SANDBOX_START_H
+
+#include "options.h"
+#include "sandbox.h"
+
+// Lets a model be read, and what lies in its folder and below it. "-" and names of shapes need nothing.
+void sandbox_add_input(struct sandbox_paths *paths, const char *model);
+
+// Lets a picture be read, alone: an input of `diff`, an environment.
+void sandbox_add_file(struct sandbox_paths *paths, const char *file);
+
+// Lets a file be made or replaced in its folder, which need not exist yet; or files in a folder. "-" needs nothing.
+void sandbox_add_output(struct sandbox_paths *paths, const char *path);
+
+// Enters the sandbox that the options ask for, with the given paths, those of the options and those of the system's
+// libraries and fonts. Frees `paths` in any case. Call it before threads start. False: LAM_UNSUPPORTED where
+// --sandbox require cannot be had, LAM_LIMIT.
+bool sandbox_start(const struct options *options, struct sandbox_paths *paths, lam_error *error);
+
+// What holds in this process. Before sandbox_start: nothing.
+const struct sandbox_state *sandbox_active(void);
+
+// What to add to the error about a file that the sandbox may have kept from being read; "": nothing.
+const char *sandbox_advice(const lam_error *error);
+
+#endif

@@ -120,7 +120,7 @@ typedef struct lam_shader {
 // caller frees the result. NULL on failure:
 //   LAM_BAD_ARGUMENT  as lam_draw; blocks or textures in GLSL 120; objects with one and with two sides, or with and
 //                     without tangents, which one pair of shaders cannot serve: choose one by `object`
-//   LAM_UNSUPPORTED   the output is not light
+//   LAM_UNSUPPORTED   the output is not light; there are no triangles (lines and points have no shader)
 //   LAM_LIMIT         memory
 LAM_API lam_shader *lam_shader_make(const lam_scene *scene, const lam_camera *camera, const lam_draw_params *draw,
                                     int width, int height, int object, const lam_shader_params *params,

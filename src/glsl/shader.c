@@ -66,6 +66,27 @@ static bool merge_maps(struct glsl_choices *all, const struct glsl_choices *own)
     return same;
 }
 
+// No range is selected: the sentence about it.
+static bool fail_nothing_selected(const struct build *m, int object, lam_error *error)
+{
+    bool strokes = false;
+    for (int i = 0; i < m->frame.range_count; i++) {
+        const struct frame_draw *draw = &m->frame.draws[m->frame.ranges[i].draw];
+        strokes |= draw->strokes && (object < 0 || draw->object == object);
+    }
+    if (object < 0)
+        return fail(error, LAM_UNSUPPORTED,
+                    strokes ? "the model has only lines and points, which have no shader: they are drawn as rectangles "
+                              "that are made anew for each camera; expected a model with triangles"
+                            : "the model has no triangles, so there is nothing that a shader could draw");
+    if (strokes)
+        return fail(error, LAM_UNSUPPORTED,
+                    "object %d has only lines and points, which have no shader; expected an object with triangles",
+                    object);
+    return fail(error, LAM_BAD_ARGUMENT, "object is %d, expected an object with triangles, 0 to %d", object,
+                lam_scene_object_count(m->scene) - 1);
+}
+
 // Merges the choices of all ranges, for one pair of sources. Vertex colours, back materials and the environment may be
 // used by some ranges only; the number of sides and the presence of tangents must be the same in all.
 static bool merge_choices(struct build *m, lam_stage stage, int object, lam_error *error)
@@ -115,10 +136,7 @@ static bool merge_choices(struct build *m, lam_stage stage, int object, lam_erro
         m->choices.environment_light |= own.environment_light;
         m->choices.layers |= own.layers;
     }
-    if (first < 0)
-        return fail(error, LAM_BAD_ARGUMENT, "object is %d, expected an object with triangles, 0 to %d", object,
-                    lam_scene_object_count(m->scene) - 1);
-    return true;
+    return first >= 0 || fail_nothing_selected(m, object, error);
 }
 
 static bool choose(struct build *m, const lam_draw_params *draw, int object, const lam_shader_params *params,

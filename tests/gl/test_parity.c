@@ -30,26 +30,26 @@ static const struct {
     double floats;
     // Surfaces are closer to each other than the precision of depth values: only the bound for 99.9 % of the pixels applies.
     bool ambiguous;
+    // A triangle seen almost from its edge: its corners snapped to 1/256 pixel are another triangle, over which OpenGL
+    // interpolates; the CPU device interpolates over the one that is not snapped. A pixel may differ by as much as the CPU
+    // device's own value changes when the eye moves by such a step.
+    bool snapped;
 } loose[] = {
     // A square of 40 000 units: floats have a precision of 0.002 there, and the light is at a distance of 4. A ball
     // touches it, where depth values have a step of 0.0004 with a near plane of 0.01.
-    {"ground", 2e-3, true},
+    {"ground", .floats = 2e-3, .ambiguous = true},
     // Panels 100 times as bright as their neighbourhood, with edges of one texel, amplify rounding errors of directions.
-    {"mirror-studio", 2e-3, false},
+    {"mirror-studio", .floats = 2e-3},
     // Ambient occlusion is found from differences of distances, and multiplies their rounding.
-    {"planes", 1e-3, false},
-    {"translucent", 1e-3, false},
-    {"lines", 2e-3, false},
-    {"environment-light", 1e-3, false},
-    // Blended leaves on a sphere: next to its rim a triangle is seen almost from its edge, and the differences that the level of
-    // detail is made of cancel. One pixel, off by 1.1e-3.
-    {"masked", 2e-3, false},
-    // At the pole of the brushed ball rounding decides the direction of its marks. Highlights are as bright as 3.
-    {"layers", 2e-3, false},
-    // Next to a ball's rim what glass lets through falls steeply with n.v, where a triangle is seen almost from its edge.
-    {"layers-transmission", 2e-2, false},
-    {"layers-gouraud", 2e-3, false},
-    {"layers-environment", 5e-2, true},
+    {"planes", .floats = 1e-3},
+    {"translucent", .floats = 1e-3},
+    {"lines", .floats = 2e-3},
+    {"environment-light", .floats = 1e-3},
+    {"masked", .floats = 5e-4, .snapped = true},
+    {"layers", .floats = 5e-4, .snapped = true},
+    {"layers-transmission", .floats = 5e-4, .snapped = true},
+    {"layers-gouraud", .floats = 5e-4, .snapped = true},
+    {"layers-environment", .floats = 5e-4, .snapped = true},
 };
 
 static bool depth_is_ambiguous(const char *name)
@@ -57,6 +57,14 @@ static bool depth_is_ambiguous(const char *name)
     for (size_t i = 0; i < sizeof loose / sizeof *loose; i++)
         if (strcmp(name, loose[i].name) == 0)
             return loose[i].ambiguous;
+    return false;
+}
+
+static bool is_snapped(const char *name)
+{
+    for (size_t i = 0; i < sizeof loose / sizeof *loose; i++)
+        if (strcmp(name, loose[i].name) == 0)
+            return loose[i].snapped;
     return false;
 }
 
@@ -182,21 +190,30 @@ static int byte_difference(const uint8_t *a, const uint8_t *b)
     return max;
 }
 
-// Masks the pixels that change when the eye moves by 1/256 pixel, along any diagonal of the picture. Where two surfaces
-// intersect behind a translucent one, snapping decides which of them is nearer.
-static void mask_unstable(struct mask *mask, const struct demo *demo, double pixel)
+// A scene whose eye is moved by 1/256 pixel, along one of the picture's four half diagonals.
+static struct demo moved_eye(const struct demo *demo, double pixel, int way)
 {
     struct demo moved = *demo;
     moved.params.samples = 1;
-    lam_image still, image;
-    draw(cpu, demo, &moved.params, LAM_RGBA8, &still);
     lam_vec3 z = v3_sub(demo->camera.target, demo->camera.eye), right = v3_unit(v3_cross(z, demo->camera.up));
     lam_vec3 up = v3_unit(v3_cross(right, z));
+    double step = pixel / 256;
+    lam_vec3 by = v3_add(v3_scale(right, way & 1 ? step : -step), v3_scale(up, way & 2 ? step : -step));
+    moved.camera.eye = v3_add(demo->camera.eye, by);
+    moved.camera.target = v3_add(demo->camera.target, by);
+    return moved;
+}
+
+// Masks the pixels that change when the eye moves so. Where two surfaces intersect behind a translucent one, snapping
+// decides which of them is nearer.
+static void mask_unstable(struct mask *mask, const struct demo *demo, double pixel)
+{
+    lam_image still, image;
+    struct demo moved = *demo;
+    moved.params.samples = 1;
+    draw(cpu, demo, &moved.params, LAM_RGBA8, &still);
     for (int i = 0; i < 4; i++) {
-        double step = pixel / 256;
-        lam_vec3 by = v3_add(v3_scale(right, i & 1 ? step : -step), v3_scale(up, i & 2 ? step : -step));
-        moved.camera.eye = v3_add(demo->camera.eye, by);
-        moved.camera.target = v3_add(demo->camera.target, by);
+        moved = moved_eye(demo, pixel, i);
         draw(cpu, &moved, &moved.params, LAM_RGBA8, &image);
         for (size_t n = 0; n < (size_t)mask->width * (size_t)mask->height; n++)
             mask->out[n] |=
@@ -244,7 +261,7 @@ static struct mask mask_of(const struct demo *demo)
 // --- the comparison
 
 struct outcome {
-    uint64_t pixels, covered, masked, over_1, over_2_outside;
+    uint64_t pixels, covered, masked, over_1, over_2_outside, snapped;
     double worst_outside, worst_float;
 };
 
@@ -266,11 +283,28 @@ static double float_difference(const float *a, const float *b)
 struct reference {
     struct mask mask;
     lam_image bytes, floats, ids;
+    lam_image moved[4]; // by a step of the eye; empty where none is allowed for
 };
+
+// How much the CPU device's own value of a pixel changes by a step of the eye.
+static double own_change(const struct reference *r, uint64_t pixel)
+{
+    double max = 0;
+    for (int i = 0; i < 4 && r->moved[i].pixels; i++) {
+        const float *a = (const float *)r->moved[i].pixels + 4 * pixel,
+                    *b = (const float *)r->floats.pixels + 4 * pixel;
+        double change = float_difference(a, b);
+        max = change > max ? change : max;
+    }
+    return max;
+}
+
+// Pixels that the snapping of corners explains: a few at most.
+static const uint64_t max_snapped = 4;
 
 static bool is_good(const struct outcome *o, const char *name)
 {
-    return o->over_2_outside == 0 && (double)o->over_1 <= 0.001 * (double)o->pixels &&
+    return o->over_2_outside == 0 && o->snapped <= max_snapped && (double)o->over_1 <= 0.001 * (double)o->pixels &&
            o->worst_float <= float_limit(name);
 }
 
@@ -301,6 +335,10 @@ static struct outcome compare(lam_device *device, const struct demo *demo, const
         o.over_1 += apart > 1;
         if (masked || (apart > 2 && depth_is_ambiguous(name)))
             continue;
+        if (far > 5e-4 && far <= own_change(reference, i)) {
+            o.snapped++;
+            continue;
+        }
         o.over_2_outside += apart > 2;
         o.worst_outside = apart > o.worst_outside ? apart : o.worst_outside;
         o.worst_float = far > o.worst_float ? far : o.worst_float;
@@ -376,6 +414,14 @@ static void check_scene(void **state)
     struct reference drawn = {.mask = mask_of(&demo), .ids = draw_output(&demo, LAM_OUTPUT_IDS, 0)};
     draw(cpu, &demo, &params, LAM_RGBA8, &drawn.bytes);
     draw(cpu, &demo, &params, LAM_RGBA32F, &drawn.floats);
+    if (is_snapped(row->name)) {
+        lam_image depth = draw_output(&demo, LAM_OUTPUT_DEPTH, 0);
+        for (int i = 0; i < 4; i++) {
+            struct demo moved = moved_eye(&demo, pixel_size(&demo, &depth), i);
+            draw(cpu, &moved, &moved.params, LAM_RGBA32F, &drawn.moved[i]);
+        }
+        lam_image_free(&depth);
+    }
     bool good = true;
     for (int i = 0; i < 2; i++) {
         if (!gl[i])
@@ -393,6 +439,8 @@ static void check_scene(void **state)
     lam_image_free(&drawn.bytes);
     lam_image_free(&drawn.floats);
     lam_image_free(&drawn.ids);
+    for (int i = 0; i < 4; i++)
+        lam_image_free(&drawn.moved[i]);
     free(drawn.mask.out);
     lam_scene_free(demo.scene);
     assert_true(good);

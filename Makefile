@@ -3,9 +3,10 @@
 build   ?= build
 prefix  ?= /usr/local
 DESTDIR ?=
+time    ?= 60
 MAKEFLAGS += --no-print-directory
 
-.PHONY: all demo test test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall clean help
+.PHONY: all demo test fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall clean help
 
 all: $(build)/lambent
 
@@ -15,6 +16,7 @@ help:
 	@echo 'make test       builds and runs the whole test suite, both compilers, with sanitizers'
 	@echo 'make test-gl    the tests of OpenGL alone; names the driver that they ran on'
 	@echo 'make test-debian13  make demo and make test on a fresh Debian 13 root, in build-debian13/ (needs root)'
+	@echo 'make fuzz       fuzzes every reader and the drawing, a minute each (time=1200 targets="obj ply")'
 	@echo 'make bench      measures against other programs, into bench/results and docs/speed.md (BENCH=full: everything)'
 	@echo 'make bench-check         counts instructions, beside the recorded ones (part of make test)'
 	@echo 'make bench-check-record  records them anew, where they were meant to change'
@@ -46,6 +48,11 @@ test:
 test-gl:
 	@scripts/setup.sh build test
 	@python3 tests/run.py gl
+
+# Needs clang; builds in build-fuzz/, where the inputs found so far are kept (docs/fuzzing.md).
+fuzz:
+	@scripts/setup.sh build test
+	@python3 tests/fuzz/fuzz.py time=$(time) $(targets)
 
 test-debian13:
 	@scripts/test_debian13.sh

@@ -71,6 +71,7 @@ static void stay_silent(exr_const_context_t context, exr_result_t code, const ch
 struct sink {
     uint8_t *bytes;
     size_t size, capacity;
+    bool full; // memory is out
 };
 
 static int64_t write_sink(exr_const_context_t context, void *user, const void *from, uint64_t size, uint64_t offset,
@@ -84,6 +85,7 @@ static int64_t write_sink(exr_const_context_t context, void *user, const void *f
     if (end > sink->capacity) {
         size_t capacity = (size_t)end > 2 * sink->capacity ? (size_t)end : 2 * sink->capacity;
         uint8_t *larger = realloc(sink->bytes, capacity);
+        sink->full = !larger;
         if (!larger)
             return -1;
         sink->bytes = larger;
@@ -224,8 +226,11 @@ static bool write_layers(const lam_layer *layers, int count, lam_bytes *out, lam
     result = result == EXR_ERR_SUCCESS ? closed : result;
     free(channels);
     bool ok = result == EXR_ERR_SUCCESS;
+    // Numbers can always be packed: a chunk that the core calls corrupt is one for which zlib found no memory.
     if (ok)
         *out = (lam_bytes){sink.bytes, sink.size};
+    else if (sink.full || result == EXR_ERR_OUT_OF_MEMORY || result == EXR_ERR_CORRUPT_CHUNK)
+        fail_memory(error, 16 * (size_t)width * (size_t)height);
     else
         fail(error, LAM_LIMIT, "EXR: the picture could not be encoded: %s", core.exr_get_default_error_message(result));
     if (!ok)
@@ -393,7 +398,9 @@ static bool exr_read(const struct picture_file *picture, lam_image *image, lam_e
     exr_context_t file = NULL;
     exr_result_t result = core.exr_start_read(&file, picture->name, &start);
     bool ok = result == EXR_ERR_SUCCESS;
-    if (!ok)
+    if (result == EXR_ERR_OUT_OF_MEMORY)
+        fail_memory(error, 0);
+    else if (!ok)
         fail(error, LAM_CANNOT_READ, "%s: the EXR header cannot be read: %s", picture->name,
              core.exr_get_default_error_message(result));
     ok = ok && read_part(&core, file, picture, image, error);

@@ -26,6 +26,7 @@ struct writer {
     int quality;
     unsigned char *bytes; // from malloc
     unsigned long size;
+    bool has_bytes; // jpeg_mem_dest has returned: without memory it leaves its own members unset
     uint8_t *row;
 };
 
@@ -42,6 +43,7 @@ static bool encode(struct writer *writer, lam_error *error)
     const lam_image *image = writer->image;
     jpeg_create_compress(jpeg);
     jpeg_mem_dest(jpeg, &writer->bytes, &writer->size);
+    writer->has_bytes = true;
     jpeg->image_width = (JDIMENSION)image->width;
     jpeg->image_height = (JDIMENSION)image->height;
     jpeg->input_components = 3;
@@ -98,7 +100,7 @@ bool jpeg_write(const lam_image *image, const lam_save_params *params, struct po
     compose_start(&writer->compose, params);
     call_start(&writer->call, params->control);
     bool ok = encode_or_jump(writer, error);
-    if (!ok && writer->jpeg.dest)
+    if (!ok && writer->has_bytes)
         writer->jpeg.dest->term_destination(&writer->jpeg); // stores where the memory is now
     jpeg_destroy_compress(&writer->jpeg);
     if (ok)

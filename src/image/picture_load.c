@@ -4,9 +4,24 @@
 #include "file.h"
 #include "float_state.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #define KNOWN "PNG, JPEG, WebP, BMP, TGA, PPM (P6), PFM, EXR or Radiance"
+
+// Libraries of pictures call a file damaged when they find no memory, and one that cannot be loaded for want of it is not there.
+// So a file that cannot be read is blamed only while memory can be had.
+static bool blame_memory(lam_error *error)
+{
+    enum { SOME = 1 << 20 }; // more than the small requests of such a library
+    if (error->code != LAM_CANNOT_READ && error->code != LAM_UNSUPPORTED)
+        return false;
+    void *volatile some = malloc(SOME); // volatile: it is asked for, though nobody uses it
+    if (!some)
+        return fail_memory(error, SOME);
+    free(some);
+    return false;
+}
 
 // With all of the file's bits where `wide` is not NULL (read_wide).
 static bool decode(const struct picture_file *file, bool *wide, lam_image *image, lam_error *error)
@@ -19,10 +34,12 @@ static bool decode(const struct picture_file *file, bool *wide, lam_image *image
         return fail(error, LAM_CANNOT_READ, "%s: is empty, expected a " KNOWN " picture", file->name);
     if (!codec)
         return fail(error, LAM_CANNOT_READ, "%s: byte 0: not the start of a " KNOWN " picture", file->name);
+    lam_error own = {0};
+    error = error ? error : &own;
     uint64_t state = float_state_enter();
     bool ok = wide && codec->read_wide ? codec->read_wide(file, image, wide, error) : codec->read(file, image, error);
     float_state_leave(state);
-    return ok;
+    return ok || blame_memory(error);
 }
 
 bool picture_decode_wide(const struct picture_file *file, bool *wide, lam_image *image, lam_error *error)

@@ -88,6 +88,17 @@ static bool decode(const struct library *webp, const struct picture_file *file, 
     return runs && (status == VP8_STATUS_OK || fail_status(file, status, error));
 }
 
+// libwebp 1.2 may follow a null pointer where it finds no memory. All that it takes, and its tables, is asked for first.
+static bool has_memory(size_t own, lam_error *error)
+{
+    const size_t bytes = own + (4 << 20);
+    void *volatile memory = malloc(bytes); // volatile: it is asked for, though nobody uses it
+    if (!memory)
+        return fail_memory(error, bytes);
+    free(memory);
+    return true;
+}
+
 static bool read_with(const struct library *webp, const struct picture_file *file, lam_image *image, lam_error *error)
 {
     WebPBitstreamFeatures features;
@@ -108,7 +119,7 @@ static bool read_with(const struct library *webp, const struct picture_file *fil
     size_t own = features.format == LOSSLESS ? 4 * pixels : features.has_alpha ? 2 * pixels : 0;
     bool ok = !file->call || call_charge(file->call, own) || call_memory_error(file->call, own, error);
     if (ok) {
-        ok = decode(webp, file, image, error);
+        ok = has_memory(own, error) && decode(webp, file, image, error);
         if (file->call)
             call_refund(file->call, own);
     }

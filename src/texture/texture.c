@@ -171,9 +171,11 @@ struct lam_texture *texture_decode(const void *bytes, size_t size, const char *n
     bool wide = false;
     uint64_t state = float_state_enter();
     bool ok = picture_decode_wide(&file, &wide, &image, error);
-    if (ok && wide && values == LAM_TEXTURE_COLOR)
+    if (ok && wide && values == LAM_TEXTURE_COLOR) {
         ok = decode_wide(&image, error);
-    else if (ok && !wide && image.format == LAM_RGBA32F)
+        if (!ok)
+            picture_free(call, &image);
+    } else if (ok && !wide && image.format == LAM_RGBA32F)
         unpremultiply(&image);
     struct lam_texture *texture = ok ? texture_of_image(&image, values, name, call, error) : NULL;
     float_state_leave(state);

@@ -1,7 +1,8 @@
 // replay.c: plays a corpus through a fuzz target in the normal test run, without libFuzzer.
 //
 // The target gets every file of the folder CORPUS unchanged, truncated after each of its bytes, and in CHANGES
-// mutations, the same in every run. An input that crashes the program is saved in the current folder as "fuzz-failure".
+// mutations, the same in every run; a target that has a mutator of its own (mutate.h) makes half of them. An input that
+// crashes the program is saved in the current folder as "fuzz-failure".
 #include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -11,14 +12,22 @@
 #include <string.h>
 #include <unistd.h>
 
+#ifndef CORPUS // by hand, from the root of the sources
+#define CORPUS "tests/fuzz/corpus/obj"
+#endif
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t capacity);
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t capacity, unsigned seed) __attribute__((weak));
 void __sanitizer_set_death_callback(void (*callback)(void)) __attribute__((weak));
 
 enum {
     SEEDS_MAX = 64,
     SEED_BYTES = 16384,
-    CUTS_MAX = 1500, // truncations of a longer file
-    CHANGES = 2000,  // mutations of each file
+#ifndef CHANGES     // fewer for targets that take long
+    CHANGES = 2000, // mutations of each file
+#endif
+    CUTS_MAX = CHANGES / 4 * 3, // truncations of a longer file
 };
 
 static struct seed {
@@ -111,6 +120,22 @@ static void change(struct seed *seed, uint64_t *random)
     }
 }
 
+// The change that a target's own mutator makes to a part of a file.
+static uint64_t part_random = 2;
+
+size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t capacity)
+{
+    static struct seed part;
+    part.size = size < SEED_BYTES ? size : SEED_BYTES;
+    if (part.size)
+        memcpy(part.bytes, data, part.size);
+    change(&part, &part_random);
+    size = part.size < capacity ? part.size : capacity;
+    if (size)
+        memcpy(data, part.bytes, size);
+    return size;
+}
+
 static int by_name(const struct dirent **a, const struct dirent **b) { return strcmp((*a)->d_name, (*b)->d_name); }
 
 int main(void)
@@ -159,8 +184,13 @@ int main(void)
         for (int c = 0; c < CHANGES; c++, runs++) {
             static struct seed changed;
             changed = *seed;
-            for (uint32_t n = 1 + below(&random, 4); n > 0; n--)
-                change(&changed, &random);
+            for (uint32_t n = 1 + below(&random, 4); n > 0; n--) {
+                if (LLVMFuzzerCustomMutator && c % 2)
+                    changed.size =
+                        LLVMFuzzerCustomMutator(changed.bytes, changed.size, SEED_BYTES, below(&random, 1u << 31));
+                else
+                    change(&changed, &random);
+            }
             run(changed.bytes, changed.size);
         }
     }

@@ -3,21 +3,31 @@
 #define TARGET_CODEC_H
 
 #include "codec.h"
+#include "pixels.h"
 #include "target.h"
 
-// Invariant for every input: a picture, or an error with a sentence and no picture. Memory and time are limited.
+// Invariant for every input: a picture, or an error with a sentence and no picture. Memory and time are limited. A format that
+// keeps more than 8 bits is read both ways.
 static inline void read_picture(const struct codec *codec, const uint8_t *data, size_t size, const char *name)
 {
-    struct call_control call;
-    call_start(&call, &(lam_control){.memory_limit_bytes = 256 << 20, .time_limit_s = 20});
-    lam_image image = {0};
-    lam_error error = {0};
-    if (codec->read(&(struct picture_file){data, size, name, &call}, &image, &error) ? !image.pixels
-                                                                                     : image.pixels || !error.text[0])
-        abort();
-    picture_free(&call, &image);
-    if (call.memory_used != 0)
-        abort();
+    for (int wide = 0; wide <= (codec->read_wide != NULL); wide++) {
+        struct call_control call;
+        call_start(&call, &(lam_control){.memory_limit_bytes = 256 << 20, .time_limit_s = 20});
+        const struct picture_file file = {data, size, name, &call};
+        lam_image image = {0};
+        lam_error error = {0};
+        bool is_wide = false;
+        bool ok = wide ? codec->read_wide(&file, &image, &is_wide, &error) : codec->read(&file, &image, &error);
+        if (ok ? !image.pixels || is_wide != (wide && image.format == LAM_RGBA32F) : image.pixels || !error.text[0])
+            abort();
+        const size_t count = (size_t)image.width * (size_t)image.height;
+        if (ok) // its last byte is there
+            (void)((const volatile uint8_t *)image.pixels)[pixel_bytes(image.format) * count - 1];
+        note_sentence(ok ? "" : error.text);
+        picture_free(&call, &image);
+        if (call.memory_used != 0)
+            abort();
+    }
 }
 
 #endif

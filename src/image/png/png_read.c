@@ -75,7 +75,7 @@ static bool decode_rows(spng_ctx *spng, const struct picture_file *file, char *p
     }
     if (code == SPNG_EOI)
         code = spng_decode_chunks(spng); // to the file's end, so that a file cut off after the pixels is an error too
-    if (code == SPNG_EMEM)
+    if (code == SPNG_EMEM || code == SPNG_EZLIB_INIT) // zlib begins with nothing but an allocation
         return fail_memory(error, row_bytes);
     return !code || fail(error, LAM_CANNOT_READ, "%s: PNG pixels: %s", file->name, spng_strerror(code));
 }

@@ -16,6 +16,9 @@
 // --- morph targets
 
 struct addition {
+    struct gltf *gltf;
+    const struct place *place; // of the target's accessor
+    bool required;             // sums that are not finite are an error, else 0
     const float *base, *target;
     float *out; // may be `base`
     int base_width, width;
@@ -25,14 +28,20 @@ struct addition {
 
 static bool add_piece(void *user, size_t index, lam_error *error)
 {
-    (void)error;
     const struct addition *a = user;
     size_t first, last, wide = (size_t)a->base_width, narrow = (size_t)a->width;
     parallel_rows_range(a->count, index, &first, &last);
     for (size_t i = first; i < last; i++)
         for (size_t c = 0; c < wide; c++) {
             float more = c < narrow ? (float)(a->weight * (double)a->target[narrow * i + c]) : 0.0f;
-            a->out[wide * i + c] = a->base[wide * i + c] + more;
+            float sum = a->base[wide * i + c] + more;
+            bool finite = sum - sum == 0;
+            if (!finite && a->required)
+                return error &&
+                       json_fail(&a->gltf->json, a->place,
+                                 "element %zu: with its weight of %g the vertex is out of the range of numbers", i,
+                                 a->weight);
+            a->out[wide * i + c] = finite ? sum : 0;
         }
     return true;
 }
@@ -52,7 +61,10 @@ static bool add_target(struct gltf *gltf, const struct place *place, const json_
         accessor->count != count)
         return json_fail(&gltf->json, here, "found %zu elements of %s, expected %zu of VEC%d of FLOAT", accessor->count,
                          gltf_accessor_words(accessor, words), count, width);
-    struct addition addition = {.base = *values,
+    struct addition addition = {.gltf = gltf,
+                                .place = here,
+                                .required = strcmp(name, "POSITION") == 0,
+                                .base = *values,
                                 .target = gltf_floats(gltf, here, accessor, GLTF_REQUIRED),
                                 .out = (float *)(uintptr_t)*values,
                                 .base_width = base_width,
@@ -163,11 +175,23 @@ static lam_vec3 vector_at(const float *values, size_t i, size_t width)
     return v3((double)at[0], (double)at[1], (double)at[2]);
 }
 
-static void store(float *out, lam_vec3 v)
+// False: a number is out of range, and nothing is stored.
+static bool store(float *out, lam_vec3 v)
 {
-    out[0] = (float)v.x;
-    out[1] = (float)v.y;
-    out[2] = (float)v.z;
+    const float x = (float)v.x, y = (float)v.y, z = (float)v.z;
+    if (!(x - x == 0 && y - y == 0 && z - z == 0))
+        return false;
+    out[0] = x;
+    out[1] = y;
+    out[2] = z;
+    return true;
+}
+
+// A direction that is out of range becomes 0: none.
+static void store_direction(float *out, lam_vec3 v)
+{
+    if (!store(out, v3_unit(v)))
+        store(out, v3(0, 0, 0));
 }
 
 static bool skin_piece(void *user, size_t index, lam_error *error)
@@ -179,18 +203,20 @@ static bool skin_piece(void *user, size_t index, lam_error *error)
         lam_mat4 m;
         if (!blend(s, i, &m, error))
             return false;
-        store(s->positions + 3 * i, mat4_point(&m, vector_at(s->mesh->positions, i, 3)));
+        if (!store(s->positions + 3 * i, mat4_point(&m, vector_at(s->mesh->positions, i, 3))))
+            return error && json_fail(&s->gltf->json, KEY_OF(s->place, "POSITION"),
+                                      "element %zu: its joints take the vertex out of the range of numbers", i);
         if (s->normals) { // by the inverse transpose
             double cofactors[3][3], sign = mat4_determinant3(&m) < 0 ? -1 : 1;
             mat4_normal_matrix(&m, cofactors);
             lam_vec3 n = vector_at(s->mesh->normals, i, 3);
             const double *c = &cofactors[0][0];
-            store(s->normals + 3 * i, v3_unit(v3(sign * (c[0] * n.x + c[1] * n.y + c[2] * n.z),
-                                                 sign * (c[3] * n.x + c[4] * n.y + c[5] * n.z),
-                                                 sign * (c[6] * n.x + c[7] * n.y + c[8] * n.z))));
+            store_direction(s->normals + 3 * i, v3(sign * (c[0] * n.x + c[1] * n.y + c[2] * n.z),
+                                                   sign * (c[3] * n.x + c[4] * n.y + c[5] * n.z),
+                                                   sign * (c[6] * n.x + c[7] * n.y + c[8] * n.z)));
         }
         if (s->tangents) {
-            store(s->tangents + 4 * i, v3_unit(mat4_vector(&m, vector_at(s->mesh->tangents, i, 4))));
+            store_direction(s->tangents + 4 * i, mat4_vector(&m, vector_at(s->mesh->tangents, i, 4)));
             s->tangents[4 * i + 3] = s->mesh->tangents[4 * i + 3];
         }
     }

@@ -4,6 +4,7 @@
 #include <draco/compression/decode.h>
 
 #include <cstdio>
+#include <exception>
 #include <memory>
 #include <new>
 
@@ -20,6 +21,10 @@ int damaged(char *reason, const char *text)
 
 int decode(const uint8_t *bytes, size_t size, void **mesh, uint32_t *vertices, uint32_t *triangles, char *reason)
 {
+    // A thread's data of the C++ runtime are made by its first exception; without memory for them the C library ends the
+    // program. Here they are made while there still is some.
+    volatile int pending = std::uncaught_exceptions(); // volatile: it is called, whoever needs the number
+    (void)pending;
     try {
         draco::DecoderBuffer buffer;
         buffer.Init(reinterpret_cast<const char *>(bytes), size);

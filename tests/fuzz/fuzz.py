@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+"""fuzz.py [time=SECONDS] [runs=N] [jobs=N] [TARGET …]: builds the fuzz targets with libFuzzer and sanitizers, and runs them one
+after the other, a minute each unless told otherwise.
+
+Inputs that reach something new are kept in build-fuzz/corpus/TARGET, so that the next run goes on from there; those that end
+badly are written to build-fuzz/finds, and their names are printed. One line for each target: executions, coverage at the
+beginning and at the end, finds. Exit code 1: there is one.
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+OUT = os.path.join(ROOT, "build-fuzz")
+MODELS = os.path.join(ROOT, "..", "shared", "models")
+
+# Where a target's inputs begin, besides its corpus: folders and the endings of files in them. Those below `MODELS` are used
+# where they are there.
+SEEDS = {
+    "obj": [("tests/models", ".obj"), ("MODELS/obj", ".obj")], "mtl": [("tests/models", ".mtl"), ("MODELS/obj", ".mtl")],
+    "ply": [("tests/models", ".ply"), ("MODELS/ply", ".ply")], "stl": [("tests/models", ".stl"), ("MODELS/stl", ".stl")],
+    "gltf": [("MODELS/gltf-tests", ".gltf"), ("MODELS/gltf", ".gltf")],
+    "glb": [("MODELS/glb", ".glb"), ("MODELS/gltf-tests", ".glb")],
+    "scene": [("tests/models", ".json"), ("tools/help", ".json"), ("examples", ".json")],
+    "png": [("tests/pictures/png", ".png")], "jpeg": [("tests/pictures/jpeg", ".jpg")],
+    "webp": [("tests/pictures/webp", ".webp")], "tga": [("tests/pictures/tga", ".tga")], "bmp": [("tests/pictures/bmp", ".bmp")],
+}
+SEED_BYTES = 16384
+
+# Words of a format are the string literals of the files that read it; other dictionaries lie in dictionaries/.
+WORDS = {
+    "obj": ["src/import/obj"], "mtl": ["src/import/obj/mtl.c", "src/import/obj/mtl_maps.c"], "ply": ["src/import/ply"],
+    "stl": ["src/import/stl"], "gltf": ["src/import/gltf"], "glb": ["src/import/gltf"],
+    "scene": ["src/scene_file", "src/scene", "src/words"],
+    "render": ["src/import/obj", "src/import/ply", "src/import/gltf"],
+}
+NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "scene", "render")
+
+# A slow input is a find too: SECONDS on a busy machine, under sanitizers, for an input of at most 16 KB.
+LIMITS = ["-timeout=10", "-rss_limit_mb=1200", "-malloc_limit_mb=600", "-max_len=%d" % SEED_BYTES, "-report_slow_units=5"]
+ENVIRONMENT = {
+    "ASAN_OPTIONS": "detect_leaks=1:allocator_may_return_null=1:intercept_tls_get_addr=0:max_allocation_size_mb=2000",
+    "LSAN_OPTIONS": "suppressions=%s:print_suppressions=0" % os.path.join(ROOT, "tests", "leaks.supp"),
+    "UBSAN_OPTIONS": "halt_on_error=1:print_stacktrace=1",
+}
+
+
+def build(jobs):
+    if not os.path.exists(os.path.join(OUT, "build.ninja")):
+        subprocess.run(["meson", "setup", OUT, ROOT, "-Dfuzz=true", "-Dtests=false", "-Doptimization=1", "-Ddebug=true",
+                        "-Db_sanitize=address,undefined", "-Db_lundef=false", "-Dc_args=-fsanitize=fuzzer-no-link"],
+                       check=True, env={**os.environ, "CC": "clang"}, stdout=subprocess.DEVNULL)
+    listed = subprocess.run(["ninja", "-C", OUT, "-t", "targets", "all"], check=True, capture_output=True, text=True).stdout
+    names = re.findall(r"^tests/fuzz/fuzz-([a-z]+): ", listed, re.M)
+    draco = ["lambent-draco.so"] if "\nlambent-draco.so: " in listed else []
+    subprocess.run(["ninja", "-C", OUT, "-j", str(jobs)] + ["tests/fuzz/fuzz-" + name for name in names] + draco, check=True,
+                   stdout=subprocess.DEVNULL)
+    # The module is looked for beside the program and one folder above.
+    link = os.path.join(OUT, "tests", "lambent-draco.so")
+    if draco and not os.path.lexists(link):
+        os.symlink("../lambent-draco.so", link)
+    return names
+
+
+def dictionary(target):
+    """Writes the target's dictionary; returns its path."""
+    lines = []
+    for place in WORDS.get(target, []):
+        path = os.path.join(ROOT, place)
+        sources = [path] if os.path.isfile(path) else [os.path.join(path, name) for name in sorted(os.listdir(path))
+                                                       if name.endswith(".c")]
+        for source in sources:
+            for line in open(source):
+                if not line.startswith(("#", "//")):
+                    lines += re.findall(r'"[A-Za-z0-9_ .:/#?=-]{1,40}"', line)
+    for name in [target] + ["numbers"] * (target in NUMBERS):
+        path = os.path.join(HERE, "dictionaries", name + ".dict")
+        if os.path.exists(path):
+            lines += [line.rstrip("\n") for line in open(path) if line.startswith('"')]
+    path = os.path.join(OUT, "dictionaries", target + ".dict")
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w") as file:
+        file.write("\n".join(dict.fromkeys(lines)) + "\n")
+    return path
+
+
+def seeds(target):
+    """Copies a target's first inputs into one folder; returns it."""
+    folder = os.path.join(OUT, "seeds", target)
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    places = [(os.path.join("tests/fuzz/corpus", target), "")] + SEEDS.get(target, [])
+    if target == "render": # every model and scene file, behind options: zeros, and others
+        places += [(os.path.join("tests/fuzz/corpus", name), "") for name in ("obj", "ply", "stl", "gltf", "glb", "scene")]
+    count = 0
+    for place, ending in places:
+        top = os.path.join(MODELS, place[len("MODELS/"):]) if place.startswith("MODELS/") else os.path.join(ROOT, place)
+        for parent, folders, names in os.walk(top):
+            folders.sort()
+            for name in sorted(names):
+                path = os.path.join(parent, name)
+                if name.endswith(ending) and os.path.getsize(path) <= SEED_BYTES:
+                    data = open(path, "rb").read()
+                    if target == "render" and not place.endswith("render"):
+                        data = bytes(24) + data
+                    with open(os.path.join(folder, "%04d-%s" % (count, name)), "wb") as file:
+                        file.write(data)
+                    count += 1
+    return folder
+
+
+def fuzz(target, seconds, runs):
+    """Runs one target. Returns executions, coverage first and last, features last, and the names of finds."""
+    corpus, finds = os.path.join(OUT, "corpus", target), os.path.join(OUT, "finds")
+    os.makedirs(corpus, exist_ok=True)
+    os.makedirs(finds, exist_ok=True)
+    before = set(os.listdir(finds))
+    log = os.path.join(OUT, target + ".log")
+    command = [os.path.join(OUT, "tests", "fuzz", "fuzz-" + target), corpus, seeds(target), "-dict=" + dictionary(target),
+               "-artifact_prefix=%s/%s-" % (finds, target), "-max_total_time=%d" % seconds, "-print_final_stats=1"] + LIMITS
+    with open(log, "w") as file:
+        code = subprocess.run(command + (["-runs=%d" % runs] if runs else []), stdout=file, stderr=file,
+                              env={**os.environ, **ENVIRONMENT}).returncode
+    text = open(log, errors="replace").read()
+    coverage = [int(number) for number in re.findall(r"^#\d+\t(?:INITED|NEW|REDUCE|pulse|RELOAD|DONE) +cov: (\d+)", text, re.M)]
+    features = re.findall(r" ft: (\d+)", text)
+    executions = re.findall(r"stat::number_of_executed_units: (\d+)", text) or re.findall(r"^#(\d+)\t", text, re.M)
+    new = sorted(set(os.listdir(finds)) - before)
+    if code and not new:
+        new = ["no input, see %s" % log]
+    return (int(executions[-1]) if executions else 0, coverage[0] if coverage else 0, coverage[-1] if coverage else 0,
+            int(features[-1]) if features else 0, new)
+
+
+def main():
+    seconds, runs, jobs, wanted = 60, 0, os.cpu_count(), []
+    for word in " ".join(sys.argv[1:]).split():
+        key, equals, value = word.partition("=")
+        if equals and key == "time":
+            seconds = int(value)
+        elif equals and key == "runs":
+            runs = int(value)
+        elif equals and key == "jobs":
+            jobs = int(value)
+        elif equals:
+            sys.exit("fuzz.py: %s is not known; expected time=SECONDS, runs=N, jobs=N, or names of targets" % word)
+        else:
+            wanted.append(word)
+    names = build(jobs)
+    unknown = sorted(set(wanted) - set(names))
+    if unknown:
+        sys.exit("fuzz.py: there is no target %s; there are %s" % (", ".join(unknown), " ".join(names)))
+    failed = False
+    print("%-8s %12s %10s %10s %10s" % ("target", "executions", "edges 0", "edges", "features"), flush=True)
+    for name in wanted or names:
+        executions, first, last, features, finds = fuzz(name, seconds, runs)
+        print("%-8s %12d %10d %10d %10d  %s" % (name, executions, first, last, features, " ".join(finds)), flush=True)
+        failed |= bool([find for find in finds if "-slow-unit-" not in find])
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

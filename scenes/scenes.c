@@ -621,6 +621,23 @@ static bool shadows_gouraud(struct demo *d, lam_error *error)
     return shadowed(d, 0, error);
 }
 
+static bool on_ground(struct demo *d, lam_ground kind, lam_error *error)
+{
+    bool ok = one_shape(d, "torus-knot", 80, 10, error);
+    d->params.ground = kind;
+    return ok;
+}
+
+static bool ground_shadow(struct demo *d, lam_error *error) { return on_ground(d, LAM_GROUND_SHADOW, error); }
+static bool ground_checker(struct demo *d, lam_error *error)
+{
+    lam_scene_set_up(d->scene, LAM_UP_Z);
+    bool ok = on_ground(d, LAM_GROUND_CHECKER, error);
+    lam_view view = {.orthographic = true};
+    d->camera = lam_camera_fit(d->scene, d->width, d->height, &view);
+    return ok;
+}
+
 const struct demo_row demos[] = {
     {"teapot", "the Utah teapot in the studio light", teapot},
     {"gyroid", "an implicit surface with normals from the gradient", gyroid},
@@ -673,6 +690,8 @@ const struct demo_row demos[] = {
     {"shadows-leaves", "the leaves again: light falls through holes, and in part through glass", textured_shadows},
     {"shadows-gouraud", "the same, lit at the vertices", shadows_gouraud},
     {"occlusion-rays", "the things of the shadows under light from all around, occluded by rays", occlusion_rays},
+    {"ground-shadow", "a ground that catches a soft shadow and occlusion, over nothing", ground_shadow},
+    {"ground-checker", "a lit ground, orthographic, z up", ground_checker},
     {"layers", "index 2.4, blue f0, coat, sheen; brushed metal, films on metal and plastic, all layers at once",
      layers_uniform},
     {"layers-environment", "the same in a studio", layers_environment},

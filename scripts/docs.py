@@ -97,6 +97,9 @@ def settings(program, _):
     yield "| key | default | values | |"
     yield "|---|---|---|---|"
     for key, value in schema.items():
+        if key == "ground_color": # a part of the option --ground
+            yield "| `%s` | none | a colour | %s |" % (key, value["description"])
+            continue
         if key == "up" or "default" not in value or "`--%s" % key.replace("_", "-") not in manual:
             continue
         values = ", ".join("`%s`" % word for word in value["enum"]) if "enum" in value else \

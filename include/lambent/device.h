@@ -197,6 +197,25 @@ typedef enum lam_occlusion {
 // The name of a kind of occlusion: "auto", "screen". A static string; NULL out of range.
 LAM_API const char *lam_occlusion_name(lam_occlusion occlusion);
 
+// The ground: a plane at the scene's lowest point, across its up axis (lam_scene_set_up), on which the scene's lights cast
+// shadows as if lam_draw_params.shadows were set (docs/lighting/ground.md). It is whole up to 3 radii of the scene's sphere
+// around its middle, and fades out up to 6. Seen from below there is none. It casts no shadows itself, and the camera's fit
+// and everything else that goes by the scene's size leave it out. It needs Phong shading.
+typedef enum lam_ground {
+    LAM_GROUND_NONE = 0,
+    // It holds black, and as its alpha the share of the light that the scene takes away from a white, matt ground: shadows and
+    // occlusion for any background. Pictures of the numbers of surfaces, except ambient occlusion, leave it out.
+    LAM_GROUND_SHADOW,
+    // Squares, whose side is the largest of 1, 2 and 5 times a power of ten that is at most half of the radius. They begin at
+    // multiples of it in world space.
+    LAM_GROUND_CHECKER,
+    LAM_GROUND_COLOR, // a matt surface
+    LAM_GROUND_COUNT
+} lam_ground;
+
+// The name of a kind of ground: "off", "shadow". A static string; NULL out of range.
+LAM_API const char *lam_ground_name(lam_ground ground);
+
 // How a frame is drawn. All zero is the default.
 typedef struct lam_draw_params {
     int samples; // per pixel: 1, 2, 4, 8 or 16; 0: lam_default_samples
@@ -249,7 +268,10 @@ typedef struct lam_draw_params {
     // How far away surfaces occlude, as a share of half the diagonal of the scene's box, above 0 … 10. 0: 0.1.
     float occlusion_radius;
     int occlusion_samples; // with LAM_OCCLUSION_RAYS: rays from each lit point, 1..1024; 0: 64
-    LAM_RESERVED(24);
+    lam_ground ground;     // CPU device alone; others refuse it (LAM_UNSUPPORTED)
+    // Linear; of COLOR, and of the bright squares of CHECKER, whose others have 0.45 of it. CHECKER: all zero is 0.6.
+    lam_rgb ground_color;
+    LAM_RESERVED(22);
 } lam_draw_params;
 
 // The times of a frame in milliseconds, and counts.
@@ -281,7 +303,10 @@ typedef struct lam_frame_report {
     // Building the bounding volume hierarchy, in milliseconds; 0: it was not needed, or the last frame's still held.
     double hierarchy_ms;
     uint64_t rays; // from lit points: to lights, and of ambient occlusion
-    LAM_RESERVED(11);
+    bool ground;   // the camera sees a ground
+    // With one: its height along the scene's up axis, and the side of a checker's squares, model units. Else 0.
+    double ground_height, ground_square;
+    LAM_RESERVED(8);
 } lam_frame_report;
 
 // Draws the scene as the camera sees it into `image`, which the caller made with the size and pixel format

@@ -151,7 +151,7 @@ typedef struct lam_explained_values {
 
 // A triangle that the pixel shows.
 typedef struct lam_explained_fragment {
-    // Indices in the scene; `part` is −1 for a mesh without parts.
+    // Indices in the scene; `part` is −1 for a mesh without parts, and all three for the ground.
     int object, mesh, part;
     // Their names; NULL: unnamed.
     const char *object_name, *mesh_name, *part_name;
@@ -183,8 +183,12 @@ typedef struct lam_explained_fragment {
     const lam_explained_map *maps;
     // What they make of the material; NULL: Gouraud and flat shading.
     const lam_explained_values *values;
-    int map_count; // elements of `maps`
-    LAM_RESERVED(9);
+    int map_count;     // elements of `maps`
+    lam_ground ground; // the kind of the ground, where the triangle is its; NONE: it is the scene's
+    // LAM_GROUND_SHADOW: the luminance that the point sends to the eye, and that it would send with nothing in the way of light.
+    // What is missing is its opacity: 1 − received / unobstructed, times that to which it has faded out.
+    float received, unobstructed;
+    LAM_RESERVED(8);
 } lam_explained_fragment;
 
 // One pixel of a picture.

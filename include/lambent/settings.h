@@ -15,6 +15,7 @@ typedef enum lam_setting_type {
     LAM_SETTING_NOT_FLAG, // a bool that is false where the setting is true, which is the default
     LAM_SETTING_WHOLE,    // an int
     LAM_SETTING_NUMBER,   // a float
+    LAM_SETTING_RGB,      // a lam_rgb
 } lam_setting_type;
 
 // A setting of lam_draw_params. A member of 0 stands for the default.

@@ -3,6 +3,7 @@
 
 #include "fail.h"
 #include "float_state.h"
+#include "linear.h"
 #include "pixels.h"
 
 #include <string.h>
@@ -33,7 +34,7 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
     uint64_t state = float_state_enter();
     bool ok = frame_build(&device->frame, scene, camera, &drawn, image->width, image->height, &call, error);
     device->report.frame_ms = (double)(now_ns() - call.start_ns) * 1e-6;
-    device->report.triangles = device->frame.triangle_count;
+    device->report.triangles = frame_scene_triangles(&device->frame);
     device->report.depth_near = (double)device->frame.depth_near;
     device->report.depth_far = (double)device->frame.depth_far;
     if (ok && device->frame.makes_normals && !device->type->makes_normals)
@@ -43,6 +44,14 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
                   "lam_scene_make_normals does");
     if (ok && device->frame.shadows && !device->type->casts_shadows)
         ok = fail(error, LAM_UNSUPPORTED, "the device '%s' draws no shadows, the CPU device does", device->name);
+    const struct frame_ground *ground = &device->frame.ground;
+    if (ok && params->ground && !device->type->draws_ground)
+        ok = fail(error, LAM_UNSUPPORTED, "the device '%s' draws no ground, the CPU device does", device->name);
+    if (ok && ground->kind) {
+        device->report.ground = true;
+        device->report.ground_height = v3_dot(ground->middle, ground->up);
+        device->report.ground_square = ground->kind == LAM_GROUND_CHECKER ? ground->square : 0;
+    }
     ok = ok && device->type->draw(device, &device->frame, &target, &call, error);
     device->report.total_ms = (double)(now_ns() - call.start_ns) * 1e-6;
     device->report.memory_bytes = device->type->memory(device) + device->frame.storage.capacity;

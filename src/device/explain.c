@@ -95,14 +95,27 @@ static void complete_map(lam_explained_map *map, const lam_texture_map *given)
 }
 
 // Adds values that follow from the recorded ones.
-static void complete(struct recorder *recorder, const lam_scene *scene, const lam_camera *camera)
+static const lam_mat4 identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+
+static void complete_angles(lam_explained_point *point)
+{
+    for (int n = 0; n < point->light_count; n++) {
+        lam_explained_light *light = (lam_explained_light *)(uintptr_t)&point->lights[n];
+        light->theta_rad = angle_between(point->n, light->l);
+        light->phi_rad = angle_between(light->r, point->v);
+        light->psi_rad = angle_between(point->n, light->h);
+    }
+}
+
+static void complete(struct recorder *recorder, const lam_scene *scene, const lam_camera *camera,
+                     const struct frame *frame)
 {
     for (int i = 0; i < recorder->out->fragment_count; i++) {
         lam_explained_fragment *fragment = &recorder->fragments[i];
-        const lam_object *object = lam_scene_object(scene, fragment->object);
-        const lam_mesh *mesh = lam_scene_mesh(scene, object->mesh);
-        fragment->object_name = object->name;
-        fragment->mesh = object->mesh;
+        const lam_object *object = fragment->ground ? NULL : lam_scene_object(scene, fragment->object);
+        const lam_mesh *mesh = object ? lam_scene_mesh(scene, object->mesh) : &frame->ground.mesh;
+        fragment->object_name = object ? object->name : NULL;
+        fragment->mesh = object ? object->mesh : -1;
         for (int k = 0; k < fragment->map_count; k++) {
             lam_explained_map *map = (lam_explained_map *)(uintptr_t)&fragment->maps[k];
             complete_map(map, fragment->surface.maps[map->map]);
@@ -117,14 +130,9 @@ static void complete(struct recorder *recorder, const lam_scene *scene, const la
             } else {
                 point->mesh_position =
                     v3_add(v3(mesh->origin[0], mesh->origin[1], mesh->origin[2]), point->mesh_position);
-                point->world_position = mat4_point(&object->transform, point->mesh_position);
+                point->world_position = mat4_point(object ? &object->transform : &identity, point->mesh_position);
             }
-            for (int n = 0; n < point->light_count; n++) {
-                lam_explained_light *light = (lam_explained_light *)(uintptr_t)&point->lights[n];
-                light->theta_rad = angle_between(point->n, light->l);
-                light->phi_rad = angle_between(light->r, point->v);
-                light->psi_rad = angle_between(point->n, light->h);
-            }
+            complete_angles(point);
         }
     }
 }
@@ -201,7 +209,7 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
     }
     take_frame(out, &device->frame);
     out->stops = params ? params->exposure : 0;
-    complete(&recorder, scene, camera);
+    complete(&recorder, scene, camera, &device->frame);
     return out;
 }
 

@@ -59,6 +59,8 @@ bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const lam_came
     drawn.samples = 1;
     drawn.output = LAM_OUTPUT_PICTURE;
     drawn.light_cutoff = -1;
+    drawn.ground = LAM_GROUND_NONE;
+    drawn.shadows |= params && params->ground; // as a ground has them
     int longer = width > height ? width : height;
     if (longer > SIDE_MAX) {
         width = (int)((int64_t)width * SIDE_MAX / longer);

@@ -5,6 +5,7 @@
 #include "environment_samples.h"
 #include "fail.h"
 #include "fields.h"
+#include "frame_ground.h"
 #include "frame_strokes.h"
 #include "linear.h"
 #include "view_extents.h"
@@ -67,23 +68,20 @@ static lam_mat4 to_pixels(const lam_mat4 *projection, int width, int height)
     return m;
 }
 
-static void build_draw(struct frame_draw *draw, const lam_scene *scene, int object_index, uint32_t first_id,
+// Places a mesh under the transform of an object.
+static void build_draw(struct frame_draw *draw, const lam_mesh *mesh, const lam_object *object, uint32_t first_id,
                        const lam_mat4 *view, const lam_mat4 *pixel)
 {
-    const lam_object *object = scene_object(scene, object_index);
-    const lam_mesh *mesh = scene_mesh(scene, object->mesh);
     lam_mat4 origin = mat4_translate(mesh->origin[0], mesh->origin[1], mesh->origin[2]);
     lam_mat4 world = mat4_mul(&object->transform, &origin);
     lam_mat4 eye = mat4_mul(view, &world);
     lam_mat4 to_pixel = mat4_mul(pixel, &eye);
     double determinant = mat4_determinant3(&object->transform);
     *draw = (struct frame_draw){.mesh = mesh,
-                                .object = object_index,
                                 .first_id = first_id,
                                 .mirrored = determinant < 0,
                                 .one_sided = object->one_sided,
-                                .cull = object->cull,
-                                .crease_rad = mesh->normals ? 0 : scene->deferred_crease_rad};
+                                .cull = object->cull};
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
             draw->pixel[i][j] = rounded(to_pixel.m[i][j]);
@@ -322,17 +320,65 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
     }
 }
 
+// Adds the ground as the frame's last triangles, lit like the scene: under an environment that lights physical materials it is
+// one of them, else it is matt.
+static bool add_ground(struct frame *frame, const lam_draw_params *params, uint64_t next, bool physical,
+                       const lam_mat4 *view, const lam_mat4 *pixel, struct call_control *call, lam_error *error)
+{
+    struct frame_ground *ground = &frame->ground;
+    if (!frame_ground_make(frame, call, error))
+        return false;
+    if (next + ground->mesh.triangle_count > TRIANGLES_MAX)
+        return fail(error, LAM_LIMIT, "the scene has more than %u triangles", TRIANGLES_MAX);
+    const lam_object object = {.transform = lam_mat4_identity(), .one_sided = true, .cull = LAM_CULL_BACK};
+    struct frame_draw *draw = &frame->draws[frame->draw_count];
+    build_draw(draw, &ground->mesh, &object, (uint32_t)next, view, pixel);
+    draw->object = -1;
+    draw->ground = true;
+    ground->first_id = (uint32_t)next;
+    bool by_environment = physical && frame->environment;
+    lam_rgb color = params->ground_color;
+    if (ground->kind == LAM_GROUND_SHADOW)
+        color = (lam_rgb){1, 1, 1};
+    else if (ground->kind == LAM_GROUND_CHECKER && color.r == 0 && color.g == 0 && color.b == 0)
+        color = (lam_rgb){0.6f, 0.6f, 0.6f};
+    lam_material *material = &ground->material;
+    *material = lam_material_default();
+    material->name = "ground";
+    material->ambient = color;
+    material->diffuse = (lam_rgba){color.r, color.g, color.b, 1};
+    material->specular = material->emission = material->reflectivity = (lam_rgb){0, 0, 0};
+    material->physical = by_environment;
+    material->roughness = 1;
+    material->alpha_mode = LAM_ALPHA_BLEND;
+    frame->materials[frame->material_count] = material;
+    bool blended = !output_is_value(frame->output);
+    frame->translucent |= blended;
+    frame->ranges[frame->range_count++] =
+        (struct frame_draw_range){ground->first_id,
+                                  ground->mesh.triangle_count,
+                                  frame->draw_count++,
+                                  frame->material_count,
+                                  frame->material_count,
+                                  blended,
+                                  by_environment ? LAM_REFLECTION_GGX : LAM_REFLECTION_LAMBERT,
+                                  false};
+    frame->material_count++;
+    frame->triangle_count = (uint32_t)(next + ground->mesh.triangle_count);
+    return true;
+}
+
 // Reserves storage for the frame's arrays, and divides it among them.
 static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct call_control *call, lam_error *error)
 {
-    size_t objects = (size_t)scene->objects.count, ranges = 0, strokes = 0,
-           lights = (size_t)scene->lights.count + LAM_RIG_LIGHTS_MAX;
-    for (size_t i = 0; i < objects; i++) {
-        const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, (int)i)->mesh);
+    size_t objects = (size_t)scene->objects.count + 1, ranges = 1, strokes = 0, // with the ground
+        lights = (size_t)scene->lights.count + LAM_RIG_LIGHTS_MAX;
+    for (int i = 0; i < scene->objects.count; i++) {
+        const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
         ranges += mesh->part_count ? mesh->part_count : 1;
         strokes += mesh_is_strokes(mesh);
     }
-    size_t materials = 3 * ((size_t)scene->materials.count + 1), turned = frame_materials_turned(frame, scene);
+    size_t materials = 3 * ((size_t)scene->materials.count + 1) + 1, turned = frame_materials_turned(frame, scene);
     size_t bytes = objects * sizeof *frame->draws + ranges * sizeof *frame->ranges + lights * sizeof *frame->lights +
                    lights * sizeof *frame->hemispheres + materials * sizeof *frame->materials +
                    turned * sizeof *frame->turned + strokes * sizeof *frame->stroke_meshes + 64;
@@ -396,7 +442,8 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, const lam
         wanted |= frame->rig[i].occluded > 0;
     bool lit = false; // what has none all the same
     for (int i = 0; i < frame->range_count; i++)
-        lit |= frame->ranges[i].reflection != LAM_REFLECTION_NONE && !frame->ranges[i].translucent;
+        lit |= frame->ranges[i].reflection != LAM_REFLECTION_NONE &&
+               (!frame->ranges[i].translucent || frame->draws[frame->ranges[i].draw].ground);
     wanted &= lit;
     bool shown = lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_CLIPPED;
     frame->occlusion = params->occlusion                               ? params->occlusion
@@ -456,6 +503,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame_materials_build(frame, scene);
 
     lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up);
+    frame_ground_place(frame, scene, camera, params, &view);
     double near_plane = camera->near_plane, far_plane = camera->far_plane, aspect = (double)width / height;
     struct stroke_view stroke_view = {
         .view = &view,
@@ -464,6 +512,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         .point_size = params->point_size > 0 ? (double)params->point_size : STROKE_POINT_SIZE};
     if (near_plane == 0 && far_plane == 0) {
         fit_planes(scene, &view, frame->orthographic, &near_plane, &far_plane);
+        if (frame->ground.kind)
+            frame_ground_planes(&frame->ground, &view, frame->orthographic, &near_plane, &far_plane);
         frame_strokes_near(scene, camera, &stroke_view, height, &near_plane);
     }
     frame->near_plane = rounded(near_plane);
@@ -497,7 +547,9 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         if (!call_check_triangles(call, "the scene", next + triangles, "triangles", error))
             return false;
         struct frame_draw *draw = &frame->draws[frame->draw_count];
-        build_draw(draw, scene, i, (uint32_t)next, &view, &pixel);
+        build_draw(draw, mesh, scene_object(scene, i), (uint32_t)next, &view, &pixel);
+        draw->object = i;
+        draw->crease_rad = mesh->normals ? 0 : scene->deferred_crease_rad;
         if (mesh_is_strokes(mesh))
             frame_strokes_build(frame, draw, &scene_object(scene, i)->transform, &stroke_view);
         frame->makes_normals |= draw->crease_rad > 0;
@@ -508,6 +560,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     bool physical = false;
     for (int i = 0; i < frame->range_count; i++)
         physical |= frame_is_physical(frame->ranges[i].reflection);
+    if (frame->ground.kind && !add_ground(frame, params, next, physical, &view, &pixel, call, error))
+        return false;
     frame->tone = params->tone                                 ? params->tone
                   : physical && params->color != LAM_COLOR_RAW ? LAM_TONE_KHRONOS_NEUTRAL
                                                                : LAM_TONE_NONE;
@@ -524,7 +578,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     if (!build_lights(frame, scene, by_rig ? LAM_RIG_STUDIO : params->rig,
                       output_is_one_light(frame->output) ? params->output_light : -1, &view, error))
         return false;
-    frame->shadows = params->shadows && (lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_CLIPPED);
+    frame->shadows = (params->shadows || params->ground) &&
+                     (lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_CLIPPED);
     frame->flat_terminator = params->flat_terminator;
     frame->shadow_samples = params->shadow_samples ? params->shadow_samples : 16;
     frame->pixel_size =
@@ -539,4 +594,5 @@ void frame_free(struct frame *frame)
 {
     buffer_free(&frame->storage);
     buffer_free(&frame->strokes);
+    buffer_free(&frame->ground.memory);
 }

@@ -28,6 +28,8 @@ struct frame_draw {
     // The mesh consists of the rectangles of lines or points (frame_strokes.h): made for this frame, in eye space. They are no
     // surface: flat shading takes the normals of their vertices, and they cast no shadows.
     bool strokes;
+    // The mesh is the ground's, made for this frame in world space (frame_ground.h): its object is −1. It casts no shadows.
+    bool ground;
     lam_cull cull;
     // > 0: the mesh has no normals; the device computes those that it needs, with this crease angle.
     double crease_rad;
@@ -72,6 +74,20 @@ struct frame_hemisphere {
     float sky[3], ground[3];
     int light; // as in frame_light
     const lam_light *source;
+};
+
+// The ground under the scene (frame_ground.h).
+struct frame_ground {
+    lam_ground kind; // NONE: there is none, or its under side is seen
+    // World space: the place under the middle of the scene, and unit vectors.
+    lam_vec3 middle, right, up, front;
+    double whole, end; // distances from the middle up to which it is whole, and where it has faded out
+    double square;     // the side of a square
+    float eye_middle[3], eye_up[3], eye_height; // eye space: the plane's points p have p·eye_up = eye_height
+    lam_mesh mesh;
+    lam_material material;
+    uint32_t first_id; // of its triangles, the frame's last
+    struct buffer memory;
 };
 
 struct frame {
@@ -139,6 +155,7 @@ struct frame {
     lam_light rig[LAM_RIG_LIGHTS_MAX];
     int rig_count;
     lam_material default_material;
+    struct frame_ground ground;
     struct buffer storage; // of the arrays
     struct buffer strokes; // of the arrays of stroke_meshes
     size_t strokes_used;   // bytes
@@ -159,6 +176,15 @@ static inline bool frame_has_rays(const struct frame *frame)
 
 // Fills in what rays need of draws and lights, once those are built, and whether any light casts shadows.
 void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view);
+
+// Whether shadow rays meet a draw's triangles.
+static inline bool frame_draw_casts(const struct frame_draw *draw) { return !draw->strokes && !draw->ground; }
+
+// The triangles of the scene, without the ground's.
+static inline uint32_t frame_scene_triangles(const struct frame *frame)
+{
+    return frame->ground.kind ? frame->ground.first_id : frame->triangle_count;
+}
 
 // A position of a draw's mesh in world space.
 static inline void frame_to_world(const struct frame_draw *draw, const float from[3], double to[3])

@@ -66,6 +66,18 @@ bool frame_params_check(const lam_draw_params *params, lam_error *error)
         return fail(error, LAM_BAD_ARGUMENT,
                     "ambient occlusion is found for pixels: it goes with Phong shading, not with %s",
                     params->shading == LAM_SHADING_FLAT ? "flat" : "Gouraud");
+    if ((unsigned)params->ground >= LAM_GROUND_COUNT)
+        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: ground %d is not one of lam_ground",
+                    (int)params->ground);
+    const float *ground = &params->ground_color.r;
+    for (int i = 0; i < 3; i++)
+        if (!(ground[i] >= 0 && ground[i] <= 3e38f))
+            return fail(error, LAM_BAD_ARGUMENT, "ground_color: a channel is %g, expected a number of at least 0",
+                        (double)ground[i]);
+    if (params->ground && params->shading != LAM_SHADING_PHONG)
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "shadows on a ground are found for pixels: a ground goes with Phong shading, not with %s",
+                    params->shading == LAM_SHADING_FLAT ? "flat" : "Gouraud");
     if (params->anisotropy < 0 || params->anisotropy > 16)
         return fail(error, LAM_BAD_ARGUMENT, "anisotropy is %d, expected 0 to 16", params->anisotropy);
     int n = params->reference;

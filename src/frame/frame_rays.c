@@ -7,10 +7,11 @@
 
 static void place_draw(struct frame_draw *draw, const lam_scene *scene, const lam_mat4 *eye_to_world)
 {
-    const lam_object *object = scene_object(scene, draw->object);
     const double *origin = draw->mesh->origin;
     lam_mat4 from = mat4_translate(origin[0], origin[1], origin[2]);
-    lam_mat4 world = draw->strokes ? *eye_to_world : mat4_mul(&object->transform, &from);
+    lam_mat4 world = draw->strokes  ? *eye_to_world
+                     : draw->ground ? from
+                                    : mat4_mul(&scene_object(scene, draw->object)->transform, &from);
     double cofactors[3][3], largest = 0;
     mat4_normal_matrix(&world, cofactors);
     for (int i = 0; i < 9; i++) {

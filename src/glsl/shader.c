@@ -481,7 +481,10 @@ static bool make(struct build *m, const lam_camera *camera, const lam_draw_param
 {
     struct call_control call;
     call_start(&call, NULL);
-    if (!frame_build(&m->frame, m->scene, camera, draw, m->width, m->height, &call, error) ||
+    lam_draw_params without = draw ? *draw : (lam_draw_params){0};
+    without.shadows |= without.ground != LAM_GROUND_NONE; // as a ground has them, which is no draw of the scene
+    without.ground = LAM_GROUND_NONE;
+    if (!frame_build(&m->frame, m->scene, camera, &without, m->width, m->height, &call, error) ||
         !choose(m, draw, object, params, error) || !glsl_make(&m->choices, &m->shader->text, error))
         return false;
     static const lam_shader_lights storages[] = {[GLSL_ARRAY] = LAM_SHADER_LIGHTS_ARRAY,

@@ -59,7 +59,7 @@ static void place_task(void *user, size_t index, int thread)
         ray_corners(&frame->draws[draw], i - frame->draws[draw].first_id, t->p);
         t->number = t->twin = i;
         // No ray meets it. Rectangles of lines and points face the eye: they are no things that could cast a shadow.
-        if (frame->draws[draw].strokes || !finite_corners(t->p)) {
+        if (!frame_draw_casts(&frame->draws[draw]) || !finite_corners(t->p)) {
             t->twin = LEFT_OUT;
             continue;
         }

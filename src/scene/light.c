@@ -87,7 +87,8 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
 //
 //   0.52·1.5 (key) + 0.22·cos 79° (fill, at the key's maximum) + 0.17 (sky, there) = 0.99
 //
-// so that even a white material keeps its shading and does not clip. The rim light brightens the upper edges, so that a
+// so that even a white material keeps its shading and does not clip. Where shadows are cast (--shadows, --ground), the key alone
+// casts them, soft ones: the fill stands for large surfaces, whose shadows are ambient occlusion. The rim light brightens the upper edges, so that a
 // model stands out from a dark page.
 static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
@@ -99,9 +100,12 @@ static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
     lights[0].diffuse = (lam_rgb){0.52f, 0.52f, 0.52f};
     lights[0].specular = (lam_rgb){0.8f, 0.8f, 0.8f};
     lights[0].occluded = 0.5f;
+    lights[0].radius = 0.4f;
     lights[1] = camera_light("fill", v3(0.95, 0.10, 0.55), 0.22f, 0.15f);
     lights[1].occluded = 1;
+    lights[1].no_shadows = true;
     lights[2] = camera_light("rim", v3(0.25, 0.70, -0.80), 0.28f, 0.30f);
+    lights[2].no_shadows = true;
     lights[3] = lam_light_default(LAM_LIGHT_HEMISPHERE);
     lights[3].name = "sky";
     lights[3].sky = (lam_rgb){0.20f, 0.20f, 0.20f};

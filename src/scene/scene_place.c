@@ -150,6 +150,7 @@ static void place_rig_light(const lam_scene *scene, lam_light *light)
     if (radius == 0)
         radius = 1;
     light->position = v3_add(centre, v3_scale(light->position, radius));
+    light->radius = (float)((double)light->radius * radius);
     light->attenuation.linear = (float)((double)light->attenuation.linear / radius);
     light->attenuation.quadratic = (float)((double)light->attenuation.quadratic / (radius * radius));
 }

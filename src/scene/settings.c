@@ -41,6 +41,12 @@ static const char *occlusion_word(int index, int *value)
     return index < LAM_OCCLUSION_COUNT ? lam_occlusion_name((lam_occlusion)index) : NULL;
 }
 
+static const char *ground_word(int index, int *value)
+{
+    *value = index;
+    return lam_ground_name((lam_ground)index);
+}
+
 #define MEMBER(kind, member) .type = LAM_SETTING_##kind, .offset = offsetof(lam_draw_params, member)
 
 static const lam_setting rows[] = {
@@ -63,6 +69,11 @@ static const lam_setting rows[] = {
      .summary = "Shadows follow the curved surface that the vertices' normals stand for."},
     {"shadow_samples", MEMBER(WHOLE, shadow_samples), .min = 1, .max = 256, .standard = 16,
      .summary = "Points of a light with a radius that each lit point is tested with."},
+    {"ground", MEMBER(WORD, ground), .word = ground_word,
+     .summary =
+         "A ground at the lowest point: shadow is clear but for shadows and occlusion; color is that of ground_color."},
+    {"ground_color", MEMBER(RGB, ground_color),
+     .summary = "Of the ground color, and of the bright squares of checker. Default: black, and of checker 0.6."},
     {"anisotropy", MEMBER(WHOLE, anisotropy), .min = 1, .max = 16, .standard = 1,
      .summary = "Probes of a texture along the longer axis of a pixel's footprint."},
     {"reference", MEMBER(WHOLE, reference), .min = 16, .max = 1 << 20, .zero = true,
@@ -101,6 +112,8 @@ static size_t member_size(const lam_setting *setting)
         return sizeof(bool);
     case LAM_SETTING_NUMBER:
         return sizeof(float);
+    case LAM_SETTING_RGB:
+        return sizeof(lam_rgb);
     case LAM_SETTING_WORD:
     case LAM_SETTING_WHOLE:
         break;
@@ -110,7 +123,7 @@ static size_t member_size(const lam_setting *setting)
 
 bool lam_setting_is_default(const lam_setting *setting, const lam_draw_params *params)
 {
-    static const char zero[sizeof(int)];
+    static const char zero[sizeof(lam_rgb)];
     return memcmp((const char *)params + setting->offset, zero, member_size(setting)) == 0;
 }
 

@@ -135,6 +135,8 @@ static bool read_setting(struct scene_reader *r, const json_t *root, const lam_s
     }
     case LAM_SETTING_FLAG:
         return take_bool(r, NULL, root, setting->key, member);
+    case LAM_SETTING_RGB:
+        return take_rgb(r, NULL, root, setting->key, member);
     case LAM_SETTING_NOT_FLAG: {
         bool on = true;
         if (!take_bool(r, NULL, root, setting->key, &on))

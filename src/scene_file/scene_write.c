@@ -540,6 +540,8 @@ static void put_setting(struct scene_writer *w, json_t *root, const lam_setting 
         value = json_boolean(setting->type == LAM_SETTING_FLAG);
     else if (setting->type == LAM_SETTING_WHOLE)
         value = json_integer(*(const int *)member);
+    else if (setting->type == LAM_SETTING_RGB)
+        value = color(w, member, 3);
     else
         value = number_float(*(const float *)member > 0 ? *(const float *)member : 0);
     put(w, root, setting->key, value);

@@ -203,7 +203,7 @@ CONTEXT = {
     "anisotropy": (["floor.obj"], "8"), "line-width": (["lines.obj"], "3"), "point-size": (["lines.obj"], "5"), "viewer": ([], "infinite"), "normals": ([], "facet"),
     "shadow-terminator": (["--shadows", "--light", "point:position=2r/3r/1r"], "off"),
     "shadow-samples": (["--shadows", "--light", "point:position=2r/3r/1r,radius=0.5"], "3"),
-    "ao": ([], "off"), "ao-radius": ([], "0.3"), "ao-samples": (["--ao", "rays"], "16"),
+    "ground": ([], "checker"), "ao": ([], "off"), "ao-radius": ([], "0.3"), "ao-samples": (["--ao", "rays"], "16"),
     "environment-rotation": (["--environment", "studio", "--reflectivity", "0.5"], "90"),
 }
 

@@ -62,6 +62,37 @@ class Shadows(Case):
         picture = self.png(lit, "--show", "ambient")
         self.assertEqual(pixel(picture, *SHADOW), pixel(picture, *LIT))
 
+    def test_ground(self):
+        # Alone, or before a model, it catches shadows; a word or a colour that follows is its value.
+        caught = self.png("cube", "-s", "64", "--ground", "--rig", "lecture")
+        self.assertEqual(self.png("--ground", "cube", "-s", "64", "--rig", "lecture"), caught)
+        self.assertEqual(self.png("cube", "-s", "64", "--ground=shadow", "--rig", "lecture"), caught)
+        alphas = {pixel(caught, x, 60)[3] for x in range(64)}
+        self.assertTrue(any(0 < a < 255 for a in alphas), alphas)
+        self.assertEqual(self.png("cube", "-s", "64", "--ground", "off"), self.png("cube", "-s", "64"))
+        red = self.png("cube", "-s", "64", "--ground", "red", "--rig", "headlight")
+        r, g, b, a = pixel(red, 2, 60)
+        self.assertTrue(r > 100 and g == b == 0 and a == 255)
+        # A scene file, saved and drawn again.
+        self.given.add("a.png")
+        name = self.scene("ground.json", ground="color", ground_color=[0, 0.5, 0], objects=[{"name": "box", "shape": "cube"}])
+        self.assertEqual(self.png(name), self.png(self.scene("other.json", objects=[{"name": "box", "shape": "cube"}]), "--ground", "0/0.5/0"))
+        self.good(name, "--ground", "checker", "-q", "-o", "a.png", "--save-scene", "saved.json")
+        self.given.add("saved.json")
+        self.assertEqual(json.loads((self.folder / "saved.json").read_text())["ground"], "checker")
+        report = json.loads(self.good("cube", "--ground", "checker", "-s", "16", "-o", "a.png", "--json").stdout)["image"]
+        self.assertAlmostEqual(report["ground_height"], -1, 3)
+        self.assertEqual(report["ground_square"], 0.5)
+        text = self.good("explain", "cube", "2,60", "--ground", "-s", "64").stdout.decode()
+        self.assertIn("the ground (shadow), its triangle", text)
+        self.assertIn("taken away", text)
+        told = json.loads(self.good("explain", "cube", "2,60", "--ground", "-s", "64", "--json").stdout)["triangles"][0]
+        self.assertEqual((told["ground"], told["object"], told["mesh"]), ("shadow", None, None))
+        self.assertGreaterEqual(told["unobstructed"], told["received"])
+        self.bad(1, "cube", "--ground", "--shading", "flat", says="Phong")
+        self.bad(1, "cube", "--ground=chequer", says="expected off, shadow, checker or a colour")
+        self.bad(2, self.scene("bad.json", ground="chequer"), says="ground")
+
     def test_what_is_refused(self):
         self.bad(1, self.scene(), "--shadow-samples", "0", says="1 to 256")
         self.bad(1, self.scene(), "--shadow-terminator", "maybe", says="on")

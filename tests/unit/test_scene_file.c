@@ -448,6 +448,8 @@ static void test_writing(void **unused)
                                .shadows = true,
                                .flat_terminator = true,
                                .shadow_samples = 5,
+                               .ground = LAM_GROUND_COLOR,
+                               .ground_color = {0.1f, 1.0f / 3, 0},
                                .occlusion = LAM_OCCLUSION_RAYS,
                                .occlusion_radius = 0.3f,
                                .occlusion_samples = 9,
@@ -494,6 +496,8 @@ static void test_writing(void **unused)
                 t.draw.viewer == s.draw.viewer && t.draw.flat_normal == s.draw.flat_normal && t.draw.gl1 &&
                 t.draw.match_highlights && t.draw.single_scattering && t.draw.rig == LAM_RIG_NONE &&
                 t.draw.light_cutoff < 0 && t.draw.reference == 64);
+    assert_true(t.draw.ground == LAM_GROUND_COLOR);
+    assert_memory_equal(&t.draw.ground_color, &s.draw.ground_color, sizeof s.draw.ground_color);
     assert_true(t.draw.shadows && t.draw.flat_terminator && t.draw.shadow_samples == 5);
     assert_true(t.draw.occlusion == LAM_OCCLUSION_RAYS && t.draw.occlusion_radius == 0.3f &&
                 t.draw.occlusion_samples == 9);

@@ -246,9 +246,9 @@ static void write_fragment(struct json *json, const lam_explained_fragment *f)
 {
     const lam_material *m = &f->surface;
     json_open(json, NULL, '{');
-    json_count(json, "object", (uint64_t)f->object);
+    index_of(json, "object", f->object);
     json_text(json, "object_name", f->object_name);
-    json_count(json, "mesh", (uint64_t)f->mesh);
+    index_of(json, "mesh", f->mesh);
     json_text(json, "mesh_name", f->mesh_name);
     index_of(json, "part", f->part);
     json_text(json, "part_name", f->part_name);
@@ -284,6 +284,12 @@ static void write_fragment(struct json *json, const lam_explained_fragment *f)
     for (int i = 0; i < f->point_count; i++)
         write_point(json, &f->points[i]);
     json_close(json, ']');
+    if (f->ground)
+        json_text(json, "ground", lam_ground_name(f->ground));
+    if (f->ground == LAM_GROUND_SHADOW) {
+        real(json, "received", f->received);
+        real(json, "unobstructed", f->unobstructed);
+    }
     color4(json, "color", f->color);
     real(json, "weight", f->weight);
     json_close(json, '}');

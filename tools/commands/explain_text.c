@@ -331,11 +331,14 @@ static void print_number(const lam_explained_fragment *f, const lam_field *field
 static void print_material(const lam_explanation *e, const lam_explained_fragment *f)
 {
     const lam_material *m = &f->surface;
-    if (f->material >= 0)
+    if (f->ground)
+        printf("\n  its material");
+    else if (f->material >= 0)
         printf("\n  material %d", f->material);
     else
         printf("\n  the default material");
-    named(m->name);
+    if (!f->ground)
+        named(m->name);
     printf("\n");
     heading(4, "matrix", "");
     for (int i = 0; lam_material_field(i); i++)
@@ -400,7 +403,11 @@ static void print_values(const lam_explained_fragment *f)
 static void print_fragment(const lam_explanation *e, const lam_explained_fragment *f)
 {
     char name[32];
-    if (f->corners == 3)
+    if (f->ground)
+        printf("\nthe ground (%s), its ", lam_ground_name(f->ground));
+    if (f->corners == 3 && f->ground)
+        printf("triangle %u", f->triangle);
+    else if (f->corners == 3)
         printf("\ntriangle %u, its %s, of ", f->triangle, f->back ? "back" : "front");
     else
         printf("\n%s, of ", item_of(f, name));
@@ -409,10 +416,12 @@ static void print_fragment(const lam_explanation *e, const lam_explained_fragmen
         named(f->part_name);
         printf(" of ");
     }
-    printf("mesh %d", f->mesh);
-    named(f->mesh_name);
-    printf(", object %d", f->object);
-    named(f->object_name);
+    if (!f->ground) {
+        printf("mesh %d", f->mesh);
+        named(f->mesh_name);
+        printf(", object %d", f->object);
+        named(f->object_name);
+    }
     printf(": %d of %d sample%s\n", f->samples, e->samples, e->samples == 1 ? "" : "s");
     label(2, "taken at");
     printf("%13.7g %13.7g   ", f->picture_x, f->picture_y);
@@ -428,13 +437,23 @@ static void print_fragment(const lam_explanation *e, const lam_explained_fragmen
         print_point(e, f, &f->points[i]);
     if (f->point_count == 3)
         printf("\n");
+    if (f->ground == LAM_GROUND_SHADOW) {
+        number(2, "light received", (double)f->received, "luminance of the sum: 0.2126 r + 0.7152 g + 0.0722 b");
+        number(2, "unobstructed", (double)f->unobstructed, "that without shadows and occlusion");
+        number(2, "taken away", f->unobstructed > f->received ? 1 - (double)f->received / (double)f->unobstructed : 0,
+               "1 − received / unobstructed");
+    }
     lam_rgb c = {f->color.r, f->color.g, f->color.b};
     color(2, "colour", c,
-          f->point_count == 3              ? "c0 + weight1 · (c1 − c0) + weight2 · (c2 − c0), the corners' sums"
+          f->ground == LAM_GROUND_SHADOW   ? "black: the ground holds what is taken away as its alpha"
+          : f->point_count == 3            ? "c0 + weight1 · (c1 − c0) + weight2 · (c2 − c0), the corners' sums"
           : e->shading == LAM_SHADING_FLAT ? "the sum, constant over the triangle"
                                            : "the sum");
     if (f->color.a != 1)
-        number(2, "alpha", (double)f->color.a, "opacity · the vertex colour's alpha");
+        number(2, "alpha", (double)f->color.a,
+               f->ground == LAM_GROUND_SHADOW ? "taken away · the share to which the ground has not faded out"
+               : f->ground                    ? "the share to which the ground has not faded out"
+                                              : "opacity · the vertex colour's alpha");
     bool veiled = false;
     for (int s = 0; s < e->samples; s++)
         veiled |= (f->sample_mask >> s & 1) && f->transmittance[s] < 1;

@@ -103,6 +103,9 @@ static void print_settings(void)
         case LAM_SETTING_NOT_FLAG:
             printf("\"type\": \"boolean\", \"default\": %s", setting->type == LAM_SETTING_FLAG ? "false" : "true");
             break;
+        case LAM_SETTING_RGB:
+            printf("\"$ref\": \"#/$defs/color3\"");
+            break;
         case LAM_SETTING_WHOLE:
         case LAM_SETTING_NUMBER:
             printf("\"type\": \"%s\", \"minimum\": %.10g, \"maximum\": %.10g, \"default\": %.10g",

@@ -251,5 +251,9 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
     draw.color = (lam_color_mode)o->color_mode;
     draw.exposure = o->exposure_kind == EXPOSURE_LITERAL ? o->exposure : 0;
     draw.rig = rig;
+    lam_rgba ground;
+    lam_error unused; // the colour was checked with the command line
+    if (o->ground_color && lam_color_parse(o->ground_color, (lam_color_mode)o->color_mode, &ground, &unused))
+        draw.ground_color = (lam_rgb){ground.r, ground.g, ground.b};
     return draw;
 }

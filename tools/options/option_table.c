@@ -90,6 +90,12 @@ static const struct word show_words[] = {
     {"all", LAM_OUTPUT_PICTURE, "the picture, every term and every light, as layers of a .exr"},
     {NULL, 0, NULL}};
 
+static const struct word ground_words[] = {
+    {"off", LAM_GROUND_NONE, "none"},
+    {"shadow", LAM_GROUND_SHADOW, "clear: it holds the shadows and the occlusion, black with their share as alpha"},
+    {"checker", LAM_GROUND_CHECKER, "squares, whose side is 1, 2 or 5 times a power of ten in the model's units"},
+    {NULL, 0, NULL}};
+
 static const struct word occlusion_words[] = {
     {"auto", LAM_OCCLUSION_AUTO, "screen with the studio's lights and with environment light, else off"},
     {"off", LAM_OCCLUSION_OFF, "all light from around arrives everywhere"},
@@ -512,6 +518,15 @@ const struct option option_table[] = {
      "and the environment cast none. A light with a `radius` has soft shadows. `docs/lighting/shadows.md` describes "
      "what decides, and the mistakes that shadows are known for.",
      .store = store_switch, .others = "shadow cast-shadows raytrace shadow-map", FIELD(draw.shadows)},
+    {"ground", 0, GROUP_SHADING, "WHAT", "off",
+     "A ground at the model's lowest point: shadow (where nothing follows), checker, a colour or off.",
+     "Lights cast shadows then, on the ground and on the model. A `shadow` ground is clear but for them, over any "
+     "background or "
+     "none; the others are lit. It lies across the up axis (`--up`), fades out at a distance, is not seen from below "
+     "and "
+     "does not count for the camera's fit. It needs Phong shading. `docs/lighting/ground.md` has pictures.",
+     ground_words, .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow",
+     .others = "floor plane shadow-catcher base grid", FIELD(draw.ground)},
     {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", "on",
      "Whether shadows follow the curved surface that the normals stand for: on or off.", NULL, terminator_words,
      .store = store_word_flag, .others = "terminator shadow-bias", FIELD(draw.flat_terminator)},

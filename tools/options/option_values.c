@@ -73,6 +73,20 @@ bool store_word_flag(const struct option *option, const char *value, struct opti
     return true;
 }
 
+bool store_ground(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    lam_rgba color;
+    options->ground_color = NULL;
+    for (const struct word *w = option->words; w->name; w++)
+        if (strcmp(w->name, value) == 0)
+            return store_word(option, value, options, error);
+    if (!lam_color_parse(value, LAM_COLOR_SRGB, &color, error) || color.a != 1)
+        return wrong(error, value, "off, shadow, checker or a colour without alpha");
+    options->draw.ground = LAM_GROUND_COLOR;
+    options->ground_color = value;
+    return true;
+}
+
 bool store_words(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     int *field = field_of(options, option->field), all = 0;

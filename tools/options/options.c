@@ -142,6 +142,14 @@ static bool apply(const struct option *option, const char *value, unsigned group
     return complain(error, LAM_BAD_ARGUMENT, "option '--%s': %.400s", option->name, reason.text);
 }
 
+// Whether the next word is the value of an option that may stand without one: a value of its own, that is.
+static bool follows(const struct option *option, const char *word, const struct options *options)
+{
+    struct options copy = *options;
+    lam_error unused;
+    return option->store(option, word, &copy, &unused);
+}
+
 // The word after an option that takes a value; NULL with the error if it is missing.
 static const char *next_value(const struct option *option, int count, char **words, int *at, lam_error *error)
 {
@@ -164,6 +172,9 @@ static bool read_long(int count, char **words, int *at, unsigned groups, struct 
     const char *value = name[length] ? name + length + 1 : NULL;
     if (!option->value && value)
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' takes no value; found '%s'", option->name, value);
+    bool alone = option->alone && (*at + 1 == count || !follows(option, words[*at + 1], options));
+    if (option->value && !value && alone)
+        value = option->alone;
     if (option->value && !value && !(value = next_value(option, count, words, at, error)))
         return false;
     return apply(option, value, groups, options, error);

@@ -63,6 +63,7 @@ struct options {
 
     // Shading
     bool has_shading;
+    const char *ground_color; // of LAM_GROUND_COLOR, as written; NULL: draw.ground_color
     bool two_sided, one_sided, show_lights;
     int cull; // lam_cull
     bool has_cull;
@@ -226,6 +227,7 @@ struct option {
     const char *brief;       // for -h: a few words; NULL: not shown there
     size_t letter_field;     // a bool to set as well where the option is given by its letter; 0: none
     const char *others;      // other names that people try, separated by spaces, for suggestions; NULL: none
+    const char *alone;       // its value where the word after it is none of its own; NULL: it needs one
     const char *former; // the option that had this name before: a value that is one of its words means it; NULL: none
 };
 
@@ -273,6 +275,7 @@ bool store_size(const struct option *, const char *, struct options *, lam_error
 bool store_segments(const struct option *, const char *, struct options *, lam_error *);     // slices, stacks
 bool store_bytes(const struct option *, const char *, struct options *, lam_error *);        // uint64_t
 bool store_color(const struct option *, const char *, struct options *, lam_error *);        // const char *, checked
+bool store_ground(const struct option *, const char *, struct options *, lam_error *);       // ground, checked
 bool store_show(const struct option *, const char *, struct options *, lam_error *);         // const char *, checked
 bool store_reflectivity(const struct option *, const char *, struct options *, lam_error *); // lam_rgb
 bool store_camera(const struct option *, const char *, struct options *,

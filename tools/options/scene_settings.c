@@ -19,6 +19,8 @@ static bool setting_given(const struct options *o, const lam_setting *setting)
 {
     char name[64];
     snprintf(name, sizeof name, "%s", setting->key);
+    if (setting->offset == offsetof(lam_draw_params, ground_color))
+        return option_given(o, "ground");
     for (char *c = name; *c; c++)
         *c = *c == '_' ? '-' : *c;
     return option_given(o, name);

@@ -81,6 +81,10 @@ void report_table(const struct job *job)
         say_plain("exposure %.10g stops, found for this picture\n", job->draw.exposure);
     if (job->draw.output == LAM_OUTPUT_DEPTH)
         say_plain("depth    %.7g to %.7g\n", frame->depth_near, frame->depth_far);
+    if (frame->ground)
+        say_plain("ground   at height %.7g\n", frame->ground_height);
+    if (frame->ground_square > 0)
+        say_plain("         squares of %.7g\n", frame->ground_square);
     time_row("read", job->times.read);
     time_row("prepare", job->times.prepare);
     time_row("camera", job->times.camera);
@@ -162,6 +166,11 @@ static void json_image(struct json *json, const struct job *job)
     if (job->draw.output == LAM_OUTPUT_DEPTH) {
         json_number(json, "depth_near", job->times.frame.depth_near);
         json_number(json, "depth_far", job->times.frame.depth_far);
+    }
+    if (job->times.frame.ground) {
+        json_number(json, "ground_height", job->times.frame.ground_height);
+        if (job->times.frame.ground_square > 0)
+            json_number(json, "ground_square", job->times.frame.ground_square);
     }
     json_close(json, '}');
 }

@@ -1,0 +1,162 @@
+// frame_ground.c: where the ground of a frame lies, and its mesh: squares that fade out around the model (lam_ground).
+#include "frame_ground.h"
+
+#include "linear.h"
+#include "up_axis.h"
+#include "view_extents.h"
+
+static const char *const names[LAM_GROUND_COUNT] = {"off", "shadow", "checker", "color"};
+
+const char *lam_ground_name(lam_ground ground) { return (unsigned)ground < LAM_GROUND_COUNT ? names[ground] : NULL; }
+
+// In radii of the scene's sphere: up to where the ground is whole, and where it ends.
+#define WHOLE 3.0
+#define END   6.0
+// How far below the lowest point it lies, in radii: a flat underside would else have the very depth of the ground.
+#define DROP 0x1p-14
+// The side of a square without a pattern, in shares of the ground's radius.
+#define PLAIN_SQUARE 0.0625
+// What the dark squares of a checker are to the bright ones.
+#define DARK_SQUARE 0.45f
+
+// The largest of 1, 2 and 5 times a power of ten that is at most x.
+static double round_number(double x)
+{
+    double power = 1;
+    for (; power > x && power > 1e-300; power /= 10)
+        ;
+    for (; power * 10 <= x; power *= 10)
+        ;
+    return power * 5 <= x ? power * 5 : power * 2 <= x ? power * 2 : power;
+}
+
+// The height of the scene's lowest vertex along `up`, from `centre`.
+static double lowest(const lam_scene *scene, lam_vec3 right, lam_vec3 front, lam_vec3 up, lam_vec3 centre)
+{
+    struct view_axes axes = {.right = right, .above = front, .back = v3_scale(up, -1), .centre = centre};
+    struct view_points points = {.scene = scene, .axes = &axes, .axes_count = 1};
+    struct view_extents extents = {.kx = 0};
+    view_extents_find(&points, &extents);
+    return -extents.value[EXTENT_FRONT];
+}
+
+void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_camera *camera,
+                        const lam_draw_params *params, const lam_mat4 *view)
+{
+    struct frame_ground *ground = &frame->ground;
+    ground->kind = LAM_GROUND_NONE;
+    lam_vec3 centre;
+    double radius;
+    // A catcher is no surface of the model: of the numbers of surfaces it has ambient occlusion alone.
+    bool number = !lam_output_is_light(params->output) && params->output != LAM_OUTPUT_CLIPPED &&
+                  params->output != LAM_OUTPUT_AMBIENT_OCCLUSION;
+    if (!params->ground || (params->ground == LAM_GROUND_SHADOW && number) ||
+        !lam_scene_sphere(scene, -1, &centre, &radius) || !(radius > 0))
+        return;
+    ground->right = from_y_up(scene->up, v3(1, 0, 0));
+    ground->up = from_y_up(scene->up, v3(0, 1, 0));
+    ground->front = from_y_up(scene->up, v3(0, 0, 1));
+    double height = lowest(scene, ground->right, ground->front, ground->up, centre) - DROP * radius;
+    ground->middle = v3_add(centre, v3_scale(ground->up, height));
+    // A plane has one height for the eye, and an orthographic view one direction: all of the upper side is seen, or none.
+    bool above = camera->ortho_half_height > 0
+                     ? v3_dot(v3_sub(camera->target, camera->eye), ground->up) < 0
+                     : v3_dot(v3_sub(camera->eye, ground->middle), ground->up) > 1e-6 * radius;
+    if (!above)
+        return;
+    ground->kind = params->ground;
+    ground->whole = WHOLE * radius;
+    ground->end = END * radius;
+    ground->square = params->ground == LAM_GROUND_CHECKER ? round_number(0.5 * radius) : PLAIN_SQUARE * ground->end;
+    lam_vec3 middle = mat4_point(view, ground->middle), up = mat4_vector(view, ground->up);
+    ground->eye_up[0] = (float)up.x;
+    ground->eye_up[1] = (float)up.y;
+    ground->eye_up[2] = (float)up.z;
+    ground->eye_middle[0] = (float)middle.x;
+    ground->eye_middle[1] = (float)middle.y;
+    ground->eye_middle[2] = (float)middle.z;
+    ground->eye_height = (float)v3_dot(middle, up);
+}
+
+void frame_ground_planes(const struct frame_ground *ground, const lam_mat4 *view, bool orthographic, double *near_plane,
+                         double *far_plane)
+{
+    // The circle's distances in front of the eye: the middle's, and the radius times the sine of the view's angle to `up`.
+    lam_vec3 middle = mat4_point(view, ground->middle), up = mat4_vector(view, ground->up);
+    double reach = 1.01 * (ground->end + 2 * ground->square) * math_sqrt(up.z * up.z < 1 ? 1 - up.z * up.z : 0);
+    double nearest = -middle.z - reach, farthest = -middle.z + reach;
+    *far_plane = farthest > *far_plane ? farthest : *far_plane;
+    *near_plane = nearest < *near_plane ? nearest : *near_plane;
+    if (!orthographic && *near_plane < *far_plane * 1e-4)
+        *near_plane = *far_plane * 1e-4;
+}
+
+// The opacity at a distance from the middle.
+static float fade(const struct frame_ground *ground, double x, double y)
+{
+    double distance = math_sqrt(x * x + y * y), t = (ground->end - distance) / (ground->end - ground->whole);
+    t = t < 0 ? 0 : t > 1 ? 1 : t;
+    return (float)(t * t * (3 - 2 * t));
+}
+
+static int64_t whole_number(double x)
+{
+    if (!(x > -1e15 && x < 1e15))
+        return 0; // squares that far from zero cannot be told apart
+    int64_t n = (int64_t)x;
+    return n - ((double)n > x);
+}
+
+bool frame_ground_make(struct frame *frame, struct call_control *call, lam_error *error)
+{
+    struct frame_ground *ground = &frame->ground;
+    // A checker's squares begin at multiples of their side in world space, so that a model that turns has the same ground.
+    bool checker = ground->kind == LAM_GROUND_CHECKER;
+    double at_x = v3_dot(ground->middle, ground->right), at_y = v3_dot(ground->middle, ground->front);
+    int64_t first_x = checker ? whole_number(at_x / ground->square) : 0;
+    int64_t first_y = checker ? whole_number(at_y / ground->square) : 0;
+    double shift_x = checker ? (double)first_x * ground->square - at_x : 0;
+    double shift_y = checker ? (double)first_y * ground->square - at_y : 0;
+    if (shift_x < -ground->square || shift_x > 0 || shift_y < -ground->square || shift_y > 0)
+        shift_x = shift_y = 0; // too far from zero for whole squares
+    int half = (int)(ground->end / ground->square) + 2, side = 2 * half;
+    size_t corners = 4 * (size_t)side * (size_t)side;
+    size_t bytes = corners * (3 + 4) * sizeof(float) + corners / 4 * 6 * sizeof(uint32_t);
+    if (!buffer_reserve(&ground->memory, bytes, call, error))
+        return false;
+    float *positions = ground->memory.data, *colors = positions + 3 * corners;
+    uint32_t *indices = (uint32_t *)(colors + 4 * corners), vertices = 0, triangles = 0;
+    for (int j = -half; j < half; j++)
+        for (int i = -half; i < half; i++) {
+            bool dark = checker && ((first_x + i + first_y + j) & 1);
+            float any = 0, *p = positions + 3 * (size_t)vertices, *c = colors + 4 * (size_t)vertices;
+            for (int k = 0; k < 4; k++) { // counter-clockwise, seen from above
+                double x = (i + (k == 2 || k == 3)) * ground->square + shift_x;
+                double y = (j + (k == 1 || k == 2)) * ground->square + shift_y;
+                lam_vec3 at = v3_add(v3_scale(ground->right, x), v3_scale(ground->front, y));
+                p[3 * k] = (float)at.x;
+                p[3 * k + 1] = (float)at.y;
+                p[3 * k + 2] = (float)at.z;
+                c[4 * k] = c[4 * k + 1] = c[4 * k + 2] = dark ? DARK_SQUARE : 1;
+                c[4 * k + 3] = fade(ground, x, y);
+                any = c[4 * k + 3] > any ? c[4 * k + 3] : any;
+            }
+            if (any == 0)
+                continue;
+            static const uint32_t order[6] = {0, 1, 2, 0, 2, 3};
+            for (int k = 0; k < 6; k++)
+                indices[3 * (size_t)triangles + (size_t)k] = vertices + order[k];
+            vertices += 4;
+            triangles += 2;
+        }
+    ground->mesh = (lam_mesh){.name = "ground",
+                              .origin = {ground->middle.x, ground->middle.y, ground->middle.z},
+                              .positions = positions,
+                              .vertex_count = vertices,
+                              .indices = indices,
+                              .triangle_count = triangles,
+                              .colors = colors,
+                              .color_count = vertices,
+                              .colors_format = LAM_COLORS_LINEAR_F32};
+    return true;
+}

@@ -68,7 +68,10 @@ typedef struct lam_save_params {
     // 1 to 100: how close a lossy picture is to its original; ignored for other formats. JPEG: 0 is 90, and below 90 colours
     // have half the resolution (4:2:0). WebP: 0 and 100 are lossless.
     int64_t quality;
-    LAM_RESERVED(7);
+    // lam_image_save returns when the file and its name are on the disk (fsync of both), so that a loss of power leaves the
+    // old file or the new one. false: the system writes them when it likes, within seconds.
+    bool durable;
+    LAM_RESERVED(6);
 } lam_save_params;
 
 // A block of bytes that the caller frees with lam_bytes_free.
@@ -82,6 +85,8 @@ LAM_API void lam_bytes_free(lam_bytes *bytes);
 
 // Writes a file whole or not at all, as lam_image_save does. Errors: LAM_BAD_ARGUMENT, LAM_CANNOT_WRITE.
 LAM_API bool lam_bytes_save(const lam_bytes *bytes, const char *path, lam_error *error);
+// The same, and it is on the disk when the call returns, as with lam_save_params.durable.
+LAM_API bool lam_bytes_save_durably(const lam_bytes *bytes, const char *path, lam_error *error);
 
 // Encodes a picture. `format` is "png", "ppm", "jpg" ("jpeg") or "webp" (from formats of 8 bits), "pfm" (from floats; RGB,
 // linear, bottom row first) or "exr" (from floats of 32 bits). "webp" and "exr" are LAM_UNSUPPORTED without libwebp and

@@ -55,13 +55,15 @@ void file_release(struct file_bytes *bytes);
 
 // Writes a file whole or not at all, and leaves nothing else in its folder, even if a signal ends the process meanwhile
 // (file_write.c). Keeps the mode of an existing file; a symbolic link is kept, and its target replaced. A path that is not
-// a regular file (/dev/stdout, a pipe) is written directly. `call` may be NULL. Errors: LAM_CANNOT_WRITE, and those of
-// `call`: LAM_CANCELLED, LAM_LIMIT.
-bool file_write(const char *path, const void *data, size_t size, struct call_control *call, lam_error *error);
+// a regular file (/dev/stdout, a pipe) is written directly. `durable`: it is on the disk when the call returns, and its
+// folder too, so that a loss of power leaves the old file or the new one. `call` may be NULL. Errors: LAM_CANNOT_WRITE,
+// and those of `call`: LAM_CANCELLED, LAM_LIMIT.
+bool file_write(const char *path, const void *data, size_t size, bool durable, struct call_control *call,
+                lam_error *error);
 
 // The same in a given way, for tests: FILE_NAMED is what file systems without unnamed files get.
-enum file_way { FILE_UNNAMED, FILE_NAMED };
-bool file_write_by(enum file_way way, const char *path, const void *data, size_t size, struct call_control *call,
+enum file_way { FILE_UNNAMED = 0, FILE_NAMED = 1, FILE_DURABLE = 2 }; // the last one is a bit
+bool file_write_by(unsigned way, const char *path, const void *data, size_t size, struct call_control *call,
                    lam_error *error);
 
 // The last component of a path, and that component's ending after its last '.' ("" if none).

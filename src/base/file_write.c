@@ -79,6 +79,7 @@ struct writing {
     const struct stat *existing; // NULL: the target does not exist
     const void *data;
     size_t size;
+    bool durable;
     struct call_control *call;
 };
 
@@ -105,13 +106,20 @@ static bool write_all(int file, const struct writing *w, const sigset_t *before)
     return true;
 }
 
+// To the disk. Some file systems and devices have nothing to do (EINVAL).
+static bool sync_file(int file) { return fsync(file) == 0 || errno == EINVAL || errno == ENOSYS; }
+
 static bool fill(int file, const struct writing *w, const sigset_t *before)
 {
     if (!write_all(file, w, before))
         return false;
+    if (w->existing && fchmod(file, w->existing->st_mode & 07777) != 0)
+        return false;
+    if (w->durable && !sync_file(file))
+        return false;
     // Closing a copy reports what a file system reports only then, while the file can still be given up.
     int copy = dup(file);
-    return (!w->existing || fchmod(file, w->existing->st_mode & 07777) == 0) && (copy < 0 || close(copy) == 0);
+    return copy < 0 || close(copy) == 0;
 }
 
 // The folder of a path, from malloc.
@@ -130,6 +138,20 @@ static char *name_beside(const char *target)
                    0
                ? NULL
                : name;
+}
+
+// A file's name is on the disk once its folder is.
+static bool sync_folder(const char *target)
+{
+    char *name = folder_of(target);
+    int folder = name ? open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    bool ok = folder >= 0 && sync_file(folder);
+    int reason = name ? errno : ENOMEM;
+    if (folder >= 0)
+        close(folder);
+    free(name);
+    errno = reason;
+    return ok;
 }
 
 // --- a file without a name
@@ -247,12 +269,13 @@ static bool write_direct(const char *path, const struct writing *w, lam_error *e
     return ok || fail_writing(error, path, "write");
 }
 
-bool file_write_by(enum file_way way, const char *path, const void *data, size_t size, struct call_control *call,
+bool file_write_by(unsigned way, const char *path, const void *data, size_t size, struct call_control *call,
                    lam_error *error)
 {
     struct stat about;
     bool exists = stat(path, &about) == 0;
-    struct writing w = {.existing = exists ? &about : NULL, .data = data, .size = size, .call = call};
+    struct writing w = {
+        .existing = exists ? &about : NULL, .data = data, .size = size, .durable = way & FILE_DURABLE, .call = call};
     if (exists && S_ISDIR(about.st_mode))
         return fail(error, LAM_CANNOT_WRITE, "%s: is a directory, expected a file name", path);
     if (exists && !S_ISREG(about.st_mode))
@@ -262,9 +285,10 @@ bool file_write_by(enum file_way way, const char *path, const void *data, size_t
     char *target = exists ? realpath(path, NULL) : strdup(path);
     bool writable = target && (!exists || access(target, W_OK) == 0), possible = false;
     w.target = target;
-    bool ok = writable && way == FILE_UNNAMED && write_unnamed(&w, &possible);
+    bool ok = writable && !(way & FILE_NAMED) && write_unnamed(&w, &possible);
     if (writable && !possible)
         ok = write_named(&w);
+    ok = ok && (!w.durable || sync_folder(target));
     if (!ok && errno == ECANCELED && !call_should_continue(call))
         call_error(call, error);
     else if (!ok)
@@ -273,7 +297,8 @@ bool file_write_by(enum file_way way, const char *path, const void *data, size_t
     return ok;
 }
 
-bool file_write(const char *path, const void *data, size_t size, struct call_control *call, lam_error *error)
+bool file_write(const char *path, const void *data, size_t size, bool durable, struct call_control *call,
+                lam_error *error)
 {
-    return file_write_by(FILE_UNNAMED, path, data, size, call, error);
+    return file_write_by(durable ? FILE_UNNAMED | FILE_DURABLE : FILE_UNNAMED, path, data, size, call, error);
 }

@@ -126,8 +126,9 @@ bool lam_image_save(const lam_image *image, const char *path, const lam_save_par
     // The last moment at which nothing has been written.
     struct call_control call;
     call_start(&call, params ? params->control : NULL);
-    bool ok =
-        call_should_continue(&call) ? file_write(path, bytes.data, bytes.size, &call, error) : call_error(&call, error);
+    bool ok = call_should_continue(&call)
+                  ? file_write(path, bytes.data, bytes.size, params && params->durable, &call, error)
+                  : call_error(&call, error);
     lam_bytes_free(&bytes);
     return ok;
 }
@@ -139,16 +140,26 @@ bool lam_image_save_layers(const lam_layer *layers, int count, const char *path,
     lam_bytes bytes;
     if (!lam_image_encode_layers(layers, count, &bytes, error))
         return false;
-    bool ok = file_write(path, bytes.data, bytes.size, NULL, error);
+    bool ok = file_write(path, bytes.data, bytes.size, false, NULL, error);
     lam_bytes_free(&bytes);
     return ok;
 }
 
-bool lam_bytes_save(const lam_bytes *bytes, const char *path, lam_error *error)
+static bool save_bytes(const lam_bytes *bytes, const char *path, bool durable, lam_error *error)
 {
     if (!bytes || !path || !*path)
         return fail(error, LAM_BAD_ARGUMENT, "save: %s needed", bytes ? "a path is" : "bytes are");
-    return file_write(path, bytes->data, bytes->size, NULL, error);
+    return file_write(path, bytes->data, bytes->size, durable, NULL, error);
+}
+
+bool lam_bytes_save(const lam_bytes *bytes, const char *path, lam_error *error)
+{
+    return save_bytes(bytes, path, false, error);
+}
+
+bool lam_bytes_save_durably(const lam_bytes *bytes, const char *path, lam_error *error)
+{
+    return save_bytes(bytes, path, true, error);
 }
 
 bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error)

@@ -595,7 +595,7 @@ static bool save(struct scene_writer *w, const lam_picture_settings *settings, c
     put_lights(w, root, settings->draw.rig);
     lam_bytes bytes = {0};
     ok = memory_or(w, ok) && scene_print(root, &bytes, w->error) &&
-         file_write(path, bytes.data, bytes.size, NULL, w->error);
+         file_write(path, bytes.data, bytes.size, false, NULL, w->error);
     lam_bytes_free(&bytes);
     json_decref(root);
     return ok;

@@ -241,6 +241,33 @@ class Outputs(Case):
         self.assertEqual(done.stdout.strip(), b"10")
         self.assertEqual(self.new_files(), set())
 
+    def test_full_file_system(self):
+        """A real one, of 64 kB: a sentence, exit 5, the old picture as it was, nothing else left; durable or not."""
+        place = self.folder / "small"
+        place.mkdir()
+        self.given.add("small")
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", place], stderr=subprocess.DEVNULL).returncode:
+            self.skipTest("this user may not mount a file system")
+        self.addCleanup(subprocess.run, ["umount", place])
+        self.good("cube.obj", "-s", 16, "-o", "small/x.png")
+        before = (place / "x.png").read_bytes()
+        for more in ([], ["--durable"], ["--sandbox", "off"]):
+            self.bad(5, "teapot", "-s", 800, "-o", "small/x.png", *more, says=["small/x.png", "No space left"])
+            self.bad(5, "teapot", "-s", 800, "-o", "small/new.png", *more, says=["small/new.png", "No space left"])
+            self.assertEqual(os.listdir(place), ["x.png"])
+            self.assertEqual((place / "x.png").read_bytes(), before)
+
+    def test_durable(self):
+        for words in (["cube.obj", "-s", 16, "-o", "a.png"], ["compare", "cube.obj", "--sheet", "stages", "-s", 40, "-o", "b.png"], ["materials", "-s", 60, "-o", "c.png"]):
+            without = self.good(*words, "--no-captions").stdout if words[0] != "cube.obj" else self.good(*words).stdout
+            name = words[-1]
+            before = (self.folder / name).read_bytes()
+            self.good(*words, *(["--no-captions"] if words[0] != "cube.obj" else []), "--durable")
+            self.assertEqual((self.folder / name).read_bytes(), before, without)
+        with open("/dev/full", "wb") as full:
+            self.assertEqual(self.run_program("cube.obj", "-s", 16, "-o", "-", "--durable", stdout=full).returncode, 5)
+        self.bad(5, "cube.obj", "-s", 16, "-o", "/dev/full", "--durable", says="/dev/full", leaves={"a.png", "b.png", "c.png"})
+
     def test_pipe_as_output(self):
         os.mkfifo(self.folder / "pipe.png")
         self.given.add("pipe.png")

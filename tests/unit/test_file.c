@@ -289,8 +289,8 @@ static void test_beneath(void **state)
     bool outside = true;
     size_t length = 0;
     assert_int_equal(mkdir(in_folder("in"), 0777), 0);
-    assert_true(file_write(in_folder("in/a"), "inside", 6, NULL, &error));
-    assert_true(file_write(in_folder("secret"), "outside", 7, NULL, &error));
+    assert_true(file_write(in_folder("in/a"), "inside", 6, false, NULL, &error));
+    assert_true(file_write(in_folder("secret"), "outside", 7, false, NULL, &error));
     char in[100], path[200];
     snprintf(in, sizeof in, "%s/in", folder);
     char *real = path_within(in_folder("in/a"), in, &outside, &length);
@@ -321,6 +321,80 @@ static void test_beneath(void **state)
     unlink(in_folder("secret"));
 }
 
+// --- durable: the linker leads the calls of file_write.c here
+
+static char calls[200];
+static int failing; // errno of the next fsync(); 0: none
+
+static void note(const char *name)
+{
+    size_t used = strlen(calls);
+    snprintf(calls + used, sizeof calls - used, "%s%s", used ? " " : "", name);
+}
+
+int __real_fsync(int file);
+int __wrap_fsync(int file);
+int __wrap_fsync(int file)
+{
+    struct stat about;
+    assert_int_equal(fstat(file, &about), 0);
+    note(S_ISDIR(about.st_mode) ? "folder" : "file");
+    errno = failing;
+    return failing ? -1 : __real_fsync(file);
+}
+
+int __real_rename(const char *from, const char *to);
+int __wrap_rename(const char *from, const char *to);
+int __wrap_rename(const char *from, const char *to)
+{
+    note("rename");
+    return __real_rename(from, to);
+}
+
+int __real_linkat(int from_folder, const char *from, int to_folder, const char *to, int flags);
+int __wrap_linkat(int from_folder, const char *from, int to_folder, const char *to, int flags);
+int __wrap_linkat(int from_folder, const char *from, int to_folder, const char *to, int flags)
+{
+    note("link");
+    return __real_linkat(from_folder, from, to_folder, to, flags);
+}
+
+// The file is on the disk before its name leads to it, and the name before the call returns; where the disk fails, the
+// old file stays.
+static void test_durable(void **state)
+{
+    (void)state;
+    lam_error error;
+    for (unsigned way = FILE_UNNAMED; way <= FILE_NAMED; way++) {
+        static const char *const made[] = {"file link folder", "file rename folder"};
+        static const char *const replaced[] = {"file link rename folder", "file rename folder"};
+        calls[0] = 0;
+        assert_true(file_write_by(way | FILE_DURABLE, in_folder("d"), bytes, 5, NULL, &error));
+        if (way == FILE_UNNAMED && strstr(calls, "link") == NULL) { // the file system has no unnamed files
+            empty_folder(5, "durable");
+            continue;
+        }
+        assert_string_equal(calls, made[way]);
+        calls[0] = 0;
+        assert_true(file_write_by(way | FILE_DURABLE, in_folder("d"), bytes, LARGE, NULL, &error));
+        assert_string_equal(calls, replaced[way]);
+        for (failing = EIO; failing; failing = failing == EIO ? ENOSPC : 0) {
+            assert_false(file_write_by(way | FILE_DURABLE, in_folder("d"), bytes, 7, NULL, &error));
+            assert_int_equal(error.code, LAM_CANNOT_WRITE);
+            assert_non_null(strstr(error.text, failing == EIO ? "Input/output error" : "No space left"));
+            assert_holds("d", bytes, LARGE, 0644);
+        }
+        failing = EINVAL; // a file system that has nothing to do
+        assert_true(file_write_by(way | FILE_DURABLE, in_folder("d"), bytes, 5, NULL, &error));
+        failing = 0;
+        assert_int_equal(empty_folder(5, "durable"), 1);
+        calls[0] = 0;
+        assert_true(file_write_by(way, in_folder("d"), bytes, 5, NULL, &error));
+        assert_null(strstr(calls, "f")); // neither file nor folder
+        assert_int_equal(empty_folder(5, "not durable"), 1);
+    }
+}
+
 int main(void)
 {
     umask(022);
@@ -332,6 +406,7 @@ int main(void)
         cmocka_unit_test(test_file_size_limit),
         cmocka_unit_test(test_handlers_run),
         cmocka_unit_test(test_beneath),
+        cmocka_unit_test(test_durable),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -379,6 +379,7 @@ int run_compare(int operand_count, char **operands, const struct options *option
         progress_end(&c.progress);
         c.drawing.compress = (lam_compress)options->compress;
         c.drawing.quality = options->quality;
+        c.drawing.durable = options->durable;
         ok = ok && drawing_write(&c.drawing, path, &error);
         if (ok && !options->quiet)
             say_plain("%s  %dx%d  %d pictures\n", strcmp(path, "-") == 0 ? "standard output" : path, c.drawing.width,

@@ -207,7 +207,8 @@ static bool write_sheet(const struct options *o, const lam_image *image, const c
     lam_save_params params = {.background = {under.r, under.g, under.b},
                               .raw = o->color_mode == LAM_COLOR_RAW,
                               .compress = (lam_compress)o->compress,
-                              .quality = o->quality};
+                              .quality = o->quality,
+                              .durable = o->durable};
     uint64_t size;
     return output_save(image, path, &params, &size, error);
 }

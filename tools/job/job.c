@@ -327,6 +327,7 @@ static bool write_output(struct job *job, lam_error *error)
                               .control = &control,
                               .compress = (lam_compress)o->compress,
                               .quality = o->quality,
+                              .durable = o->durable,
                               .raw = o->color_mode == LAM_COLOR_RAW || !is_color(show_option_what(o->show))};
     bool ok;
     if (show_is_all(o)) {

@@ -63,6 +63,17 @@ static bool draw_all(struct layers *layers, struct job *job, const lam_light *li
     return ok;
 }
 
+static bool save_layers(const struct layers *layers, const struct job *job, lam_error *error)
+{
+    lam_bytes bytes = {0};
+    if (!job->options->durable)
+        return lam_image_save_layers(layers->list, layers->count, job->output, error);
+    bool ok = lam_image_encode_layers(layers->list, layers->count, &bytes, error) &&
+              lam_bytes_save_durably(&bytes, job->output, error);
+    lam_bytes_free(&bytes);
+    return ok;
+}
+
 bool show_all_write(struct job *job, const lam_control *control, lam_error *error)
 {
     int light_count = lam_draw_lights(job->scene, job->draw.rig, NULL, 0);
@@ -76,8 +87,7 @@ bool show_all_write(struct job *job, const lam_control *control, lam_error *erro
         complain(error, LAM_LIMIT, "out of memory");
     if (ok) {
         lam_draw_lights(job->scene, job->draw.rig, lights, light_count);
-        ok = draw_all(&layers, job, lights, light_count, control, error) &&
-             lam_image_save_layers(layers.list, layers.count, job->output, error);
+        ok = draw_all(&layers, job, lights, light_count, control, error) && save_layers(&layers, job, error);
     }
     for (size_t i = 0; layers.images && i < room; i++)
         lam_image_free(&layers.images[i]);

@@ -296,6 +296,10 @@ const struct option option_table[] = {
      "90 on, and those of every four below. WebP is lossless without the option and with 100. Other formats ignore "
      "it. The bytes depend on the version of the library that makes them, libjpeg-turbo or libwebp.",
      .store = store_integer, .others = "jpeg-quality webp-quality jpg lossy", FIELD(quality), .min = 1, .max = 100},
+    {"durable", 0, GROUP_PICTURE, NULL, NULL, "Go on only when a picture and its name are on the disk (fsync).",
+     "After a loss of power the old picture is there or the new one, whole. Without the option the system writes them "
+     "within seconds, and the same holds on most file systems.",
+     .store = store_switch, .others = "fsync sync", FIELD(durable)},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0; auto for the lights of a glTF file",
      "Make the picture brighter or darker: 1 doubles its light, -1 halves it; or auto.",
      "The light of the model is multiplied by 2 to the power of STOPS before the tone curve and encoding, also with "

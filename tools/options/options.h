@@ -26,9 +26,10 @@ struct options {
     int color_mode;         // lam_color_mode
     int compress;           // lam_compress
     int quality;            // 0: the format's own
-    double exposure;        // stops, where the next is literal
-    int exposure_kind;      // enum exposure_kind
-    const char *show;       // as written (show_option.h); NULL: the picture
+    bool durable;
+    double exposure;   // stops, where the next is literal
+    int exposure_kind; // enum exposure_kind
+    const char *show;  // as written (show_option.h); NULL: the picture
 
     const char *save_scene; // the scene file to write; NULL: none
 

@@ -150,7 +150,7 @@ static bool add_path(int rules, const struct sandbox_path *path, uint64_t handle
     if (path->access & SANDBOX_READ)
         allowed |= READ_FILE | READ_DIR;
     if (path->access & SANDBOX_WRITE)
-        allowed |= WRITE_FILE | TRUNCATE | MAKE_REG | MAKE_DIR | REMOVE_FILE;
+        allowed |= WRITE_FILE | TRUNCATE | MAKE_REG | MAKE_DIR | REMOVE_FILE | READ_DIR; // fsync() of a folder opens it
     bool ok = fstat(file, &about) == 0;
     if (ok && !S_ISDIR(about.st_mode))
         allowed &= OF_FILES;

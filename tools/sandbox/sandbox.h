@@ -9,8 +9,9 @@
 enum sandbox_mode { SANDBOX_AUTO, SANDBOX_REQUIRE, SANDBOX_OFF };
 
 enum {
-    SANDBOX_READ = 1,  // a file, or all files of a folder and below it
-    SANDBOX_WRITE = 2, // a file, or making, replacing and removing files and making folders in a folder and below it
+    SANDBOX_READ = 1, // a file, or all files of a folder and below it
+    SANDBOX_WRITE =
+        2, // a file, or making, replacing, removing and listing files and making folders in a folder and below it
 };
 
 struct sandbox_path {

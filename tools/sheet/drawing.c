@@ -279,7 +279,7 @@ void draw_image(struct drawing *d, const lam_image *image, int left, int top)
 
 bool drawing_write(struct drawing *d, const char *path, lam_error *error)
 {
-    lam_save_params params = {.compress = d->compress, .quality = d->quality};
+    lam_save_params params = {.compress = d->compress, .quality = d->quality, .durable = d->durable};
     uint64_t size;
     if (d->svg) {
         fprintf(d->svg, "</svg>\n");

@@ -17,6 +17,7 @@ struct drawing {
     bool words;            // false: no text is drawn
     lam_compress compress; // of a PNG
     int quality;           // of a JPEG or WebP; 0: the format's own
+    bool durable;
 };
 
 struct point {

@@ -13,6 +13,51 @@ def difference(a, b):
     return max(abs(x - y) for x, y in zip(a[2], b[2]))
 
 
+class Looks(Case):
+    def test_built_in(self):
+        listed = [line.split()[0] for line in self.good("looks").stdout.decode().splitlines()]
+        self.assertEqual(listed, ["studio", "classic", "catalog"])
+        default = self.png("teapot", "-s", "48")
+        self.assertEqual(self.png("teapot", "-s", "48", "--look", "studio"), default)
+        pictures = {self.png("teapot", "-s", "48", "--look", name) for name in listed}
+        self.assertEqual(len(pictures), 3)
+        # A printed look is the file of one.
+        for name in listed:
+            (self.folder / "copy.look").write_bytes(self.good("looks", name).stdout)
+            self.given.add("copy.look")
+            self.assertEqual(self.png("teapot", "-s", "48", "--look", "copy.look"), self.png("teapot", "-s", "48", "--look", name), name)
+
+    def test_command_line_overrides(self):
+        head = self.png("teapot", "-s", "48", "--rig", "headlight", "--ao", "off")
+        for words in (["--look", "classic", "--rig", "headlight"], ["--rig", "headlight", "--look", "classic"]):
+            self.assertEqual(self.png("teapot", "-s", "48", *words), head, words)
+        light = ["--light", "directional:direction=-1/-1/-1"]
+        own = self.png("teapot", "-s", "48", *light, "--ao", "off")
+        self.assertEqual(self.png("teapot", "-s", "48", "--look", "classic", *light), own)
+        self.assertEqual(self.png("teapot", "-s", "48", *light, "--look", "classic"), own)
+        more = ["--light", "+directional:direction=-1/-1/-1"]
+        self.assertNotIn(self.png("teapot", "-s", "48", "--look", "classic", *more), (own, self.png("teapot", "-s", "48", "--look", "classic")))
+        self.assertEqual(self.png("teapot", "-s", "48", "--ground", "off", "--look", "catalog"), self.png("teapot", "-s", "48"))
+        self.assertEqual(self.png("teapot", "-s", "48", "--look", "catalog", "--ground", "off"), self.png("teapot", "-s", "48"))
+
+    def test_files(self):
+        def look(text):
+            (self.folder / "my.look").write_text(text)
+            self.given.add("my.look")
+            return "my.look"
+        drawn = self.png("teapot", "-s", "48", "--background", "#203040", "--ground", "--shading", "phong")
+        self.assertEqual(self.png("teapot", "-s", "48", "--look", look("# mine\n\n  --background #203040 \n--ground\nshading=phong\n")), drawn)
+        self.bad(1, "teapot", "--look", look("--ao off\n--output a.png\n"), says="my.look:2: found 'output'")
+        self.bad(1, "teapot", "--look", look("--ao maybe\n"), says="my.look:1: --ao: found 'maybe'")
+        self.bad(1, "teapot", "--look", look("--rig\n"), says="--rig needs a value")
+        self.bad(1, "teapot", "--look", look("--shadows yes\n"), says="takes no value")
+        self.bad(1, "teapot", "--look", look("--ao off\0\n"), says="not a look")
+        self.bad(1, "teapot", "--look", look("#" * 70000), says="64 KiB")
+        self.bad(1, "teapot", "--look", "clasic", says="did you mean 'classic'?")
+        self.bad(1, "teapot", "--look", "classic", "--look", "studio", says="given twice")
+        self.bad(1, "looks", "new", says="expected studio")
+
+
 class Pictures(Case):
     def picture(self, *words, model="sphere", size=64):
         return self.png(model, "-s", size, *words)

@@ -64,6 +64,8 @@ const struct command command_table[] = {
     [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, .min_operands = 0, .max_operands = 0},
     [COMMAND_formats] = {"formats", NULL, "List the formats of models and pictures.", ABOUT, .min_operands = 0,
                          .max_operands = 0},
+    [COMMAND_looks] = {"looks", "[NAME]", "List the looks that are built in (--look), or print the file of one.", ABOUT,
+                       .min_operands = 0, .max_operands = 1},
     [COMMAND_materials] = {"materials", NULL,
                            "List the named materials with their numbers; -o FILE also draws a sheet of them.",
                            ABOUT | 1u << GROUP_PICTURE | 1u << GROUP_CAPTIONS | TAKES_JSON, .min_operands = 0,

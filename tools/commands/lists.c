@@ -1,7 +1,11 @@
-// lists.c: the commands `shapes` and `formats`.
+// lists.c: the commands `shapes`, `formats` and `looks`.
 #include "command.h"
 
 #include <stdio.h>
+
+#include "console.h"
+#include "exit_codes.h"
+#include "look_option.h"
 
 int run_shapes(int operand_count, char **operands, const struct options *options)
 {
@@ -9,6 +13,25 @@ int run_shapes(int operand_count, char **operands, const struct options *options
     for (int i = 0; i < lam_shape_count(); i++)
         printf("%-12s %s\n", lam_shape_name(i), lam_shape_summary(i));
     return 0;
+}
+
+int run_looks(int operand_count, char **operands, const struct options *options)
+{
+    (void)options;
+    char summary[200];
+    for (int i = 0; look_name(i) && !operand_count; i++) {
+        look_summary(look_text(i), summary, sizeof summary);
+        printf("%-12s %s\n", look_name(i), summary);
+    }
+    const char *text = operand_count ? look_find(operands[0]) : NULL;
+    if (text)
+        fputs(text, stdout);
+    if (text || !operand_count)
+        return 0;
+    lam_error error;
+    complain(&error, LAM_BAD_ARGUMENT, "looks: found '%.100s', expected studio, classic or catalog", operands[0]);
+    say_error(error.text);
+    return exit_code_of(error.code)->code;
 }
 
 int run_formats(int operand_count, char **operands, const struct options *options)

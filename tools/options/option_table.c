@@ -163,6 +163,12 @@ static const struct word tone_words[] = {
     {"khronos-neutral", LAM_TONE_KHRONOS_NEUTRAL, "colours as they are, highlights compressed"},
     {NULL, 0, NULL}};
 
+static const struct word look_words[] = {
+    {"studio", 0, "the default"},
+    {"classic", 1, "the former studio: directional lights, no occlusion"},
+    {"catalog", 2, "the studio over a ground that catches a soft shadow, for a page"},
+    {NULL, 0, NULL}};
+
 static const struct word rig_words[] = {
     {"auto", LAM_RIG_AUTO, "the model's own lights; if it has none the studio, for glTF the studio environment"},
     {"none", RIG_DARK, "no light but the ambient"},
@@ -416,12 +422,18 @@ const struct option option_table[] = {
      "The table of the fields of lights lists all keys.",
      .kind = VALUE_LIGHT, .brief = "point, spot, directional ... in place of the studio", .store = store_light,
      .others = "lamp sun spot point directional lighting", FIELD(lights)},
+    {"look", 0, GROUP_LIGHTS, "NAME|FILE", "studio",
+     "A named set of options: studio, classic, catalog, or a file of your own.",
+     "A look is a file of options, one in a line. Options on the command line override its own; a rig or lights there "
+     "replace its "
+     "rig and lights. `lambent looks` lists those that are built in, and `lambent looks catalog` prints one to start "
+     "from.",
+     look_words, .kind = VALUE_FILE, .store = store_look, .others = "preset style theme", FIELD(look)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A predefined set of lights: studio, headlight, three-point, lecture, file, none or auto.",
      "A named rig replaces the model's own lights. `docs/lighting/lights.md` lists the numbers.", rig_words,
      .brief = "a set of lights: studio, headlight, three-point ...", .store = store_word,
-     .others = "preset lights light-setup studio headlight", FIELD(rig),
-     .has_field = offsetof(struct options, has_rig)},
+     .others = "lights light-setup studio headlight", FIELD(rig), .has_field = offsetof(struct options, has_rig)},
     {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Ambient light: #rrggbb, r/g/b, a name or one number.", NULL,
      .kind = VALUE_COLOR, .store = store_opaque_color, .others = "ambient-light", FIELD(ambient)},
     {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,

@@ -84,6 +84,13 @@ bool option_given(const struct options *options, const char *name)
     return option && options->given[option - option_table];
 }
 
+void option_mark(struct options *options, const struct option *option, const char *value, bool by_look)
+{
+    options->given[option - option_table] = true;
+    options->values[option - option_table] = value;
+    options->by_look[option - option_table] = by_look;
+}
+
 static bool unknown_long(const char *name, size_t length, unsigned groups, lam_error *error)
 {
     char typed[64];
@@ -134,9 +141,11 @@ static bool apply(const struct option *option, const char *value, unsigned group
     if (!option_is_taken(option, groups))
         return does_not_apply(option, error);
     lam_error reason = {0};
+    bool replaces = option->store == store_light ? value[0] != '+' : strcmp(option->name, "rig") == 0;
+    if (replaces && options->look)
+        look_drop_lights(options);
     if (option->store(option, value, options, &reason)) {
-        options->given[option - option_table] = true;
-        options->values[option - option_table] = value;
+        option_mark(options, option, value, false);
         return true;
     }
     return complain(error, LAM_BAD_ARGUMENT, "option '--%s': %.400s", option->name, reason.text);

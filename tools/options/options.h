@@ -48,8 +48,10 @@ struct options {
     const char *camera; // as written; NULL: fitted
 
     // Lights
-    struct texts lights; // as written, checked
-    int rig;             // lam_rig, or RIG_DARK
+    struct texts lights;         // as written, checked
+    const char *look;            // as written; NULL: none
+    int look_first, look_lights; // the lights above that are the look's
+    int rig;                     // lam_rig, or RIG_DARK
     bool has_rig;
     const char *ambient; // as written; NULL: none
     double light_scale;
@@ -133,6 +135,7 @@ struct options {
     bool brief_help; // -h, not --help
 
     bool given[OPTIONS_MAX];         // for each row of the table: the option is on the command line
+    bool by_look[OPTIONS_MAX];       // and it is there by --look
     const char *values[OPTIONS_MAX]; // its last value there; NULL: it takes none
 };
 
@@ -252,6 +255,12 @@ bool option_given(const struct options *options, const char *name);
 // True if a command accepts an option: `groups` has bit g set for each group accepted as a whole, and TAKES_… bits.
 bool option_is_taken(const struct option *option, unsigned groups);
 
+// Notes that an option is given, on the command line or by a look.
+void option_mark(struct options *options, const struct option *option, const char *value, bool by_look);
+
+// Takes the lights and the rig of a look away again: others of the command line replace them.
+void look_drop_lights(struct options *options);
+
 // Parses the words of a command line (without the program's and the command's name). `groups` as above. Moves the
 // operands to the front of `words` and returns their number; −1: LAM_BAD_ARGUMENT.
 int options_parse(int count, char **words, unsigned groups, struct options *options, lam_error *error);
@@ -276,6 +285,7 @@ bool store_size(const struct option *, const char *, struct options *, lam_error
 bool store_segments(const struct option *, const char *, struct options *, lam_error *);     // slices, stacks
 bool store_bytes(const struct option *, const char *, struct options *, lam_error *);        // uint64_t
 bool store_color(const struct option *, const char *, struct options *, lam_error *);        // const char *, checked
+bool store_look(const struct option *, const char *, struct options *, lam_error *);         // look, and what it has
 bool store_ground(const struct option *, const char *, struct options *, lam_error *);       // ground, checked
 bool store_show(const struct option *, const char *, struct options *, lam_error *);         // const char *, checked
 bool store_reflectivity(const struct option *, const char *, struct options *, lam_error *); // lam_rgb

@@ -1,0 +1,17 @@
+// look_option.h: --look: files of options, those that are built in and those of users.
+#ifndef LOOK_OPTION_H
+#define LOOK_OPTION_H
+
+#include "options.h"
+
+// The looks that are built in, from 0: the name, and the file. NULL out of range.
+const char *look_name(int look);
+const char *look_text(int look);
+
+// A look that is built in by its name; NULL: there is none.
+const char *look_find(const char *name);
+
+// Writes what a look is for, the first line of its file, to `out`.
+void look_summary(const char *text, char *out, size_t size);
+
+#endif

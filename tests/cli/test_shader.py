@@ -108,6 +108,7 @@ class Shader(Case):
         (self.folder / "lines.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\n")
         self.bad(3, "shader", "lines.obj", says="has only lines and points", leaves=["lines.obj"])
         self.bad(3, "shader", "lines.obj", "--object", "0", says="object 0 has only lines and points", leaves=["lines.obj"])
+        (self.folder / "lines.obj").unlink()
         self.bad(1, "shader", "cube.obj", "cube.stl", says="unexpected argument")
         self.bad(2, "shader", "nothing.obj", says="nothing.obj")
         self.bad(5, "shader", "cube.obj", "-o", "no/such/name", says="no/such")

@@ -308,6 +308,7 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
         frame->transmits |= passes && !output_is_value(frame->output);
         frame->translucent |= translucent;
         frame->passes_rays |= passes_rays;
+        frame->tints_rays |= passes;
         frame->masked |= translucent && masks;
         frame->ranges[frame->range_count++] = (struct frame_draw_range){draw->first_id + part->first_triangle,
                                                                         part->triangle_count,
@@ -498,7 +499,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
                                                       : 0;
     frame->draw_count = frame->range_count = frame->light_count = frame->hemisphere_count = 0;
     frame->triangle_count = 0;
-    frame->translucent = frame->passes_rays = frame->masked = frame->transmits = frame->makes_normals = false;
+    frame->translucent = frame->passes_rays = frame->tints_rays = frame->masked = frame->transmits =
+        frame->makes_normals = false;
 
     frame_materials_build(frame, scene);
 

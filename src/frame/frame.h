@@ -121,6 +121,7 @@ struct frame {
     bool translucent;        // any range is
     bool passes_rays;        // any range does
     bool masked;             // and one has a material of LAM_ALPHA_MASK
+    bool tints_rays;         // any range transmits, whatever the output: light is coloured on its way through
     bool transmits;          // and one has LAYER_TRANSMISSION: layers let each channel through by a share of its own
     bool makes_normals;      // a draw has a crease_rad, and the output needs its normals
     // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.

@@ -1,6 +1,9 @@
-// opacity.c: the opacity of a point of a triangle, from its material, its vertices' alphas and its maps.
+// opacity.c: the opacity of a point of a triangle and the light that it lets through, from its material, its vertices'
+// colours and its maps.
 #include "opacity.h"
 
+#include "layer_kinds.h"
+#include "srgb.h"
 #include "texture_map.h"
 
 static uint32_t element_of(const uint32_t *own, const uint32_t *shared, uint32_t corner)
@@ -15,19 +18,23 @@ static float at_weights(const float v[3], float b1, float b2)
 
 static float saturated(float x) { return x > 0 ? x < 1 ? x : 1 : 0; }
 
-static float vertex_alpha(const lam_mesh *mesh, uint32_t triangle, float b1, float b2)
+// A channel of the colours of a triangle's vertices.
+static float vertex_color(const lam_mesh *mesh, uint32_t triangle, int channel, float b1, float b2)
 {
-    float alpha[3];
+    float value[3];
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t element = mesh->colors_rate == LAM_PER_TRIANGLE
                                ? triangle
                                : element_of(mesh->color_indices, mesh->indices, 3 * triangle + k);
-        size_t at = 4 * (size_t)element + 3;
-        alpha[k] = mesh->colors_format == LAM_COLORS_LINEAR_F32
-                       ? ((const float *)mesh->colors)[at]
-                       : (float)((double)((const uint8_t *)mesh->colors)[at] / 255.0);
+        size_t at = 4 * (size_t)element + (size_t)channel;
+        if (mesh->colors_format == LAM_COLORS_LINEAR_F32) {
+            value[k] = ((const float *)mesh->colors)[at];
+        } else {
+            double encoded = (double)((const uint8_t *)mesh->colors)[at] / 255.0;
+            value[k] = (float)(channel < 3 ? srgb_linear(encoded) : encoded);
+        }
     }
-    return at_weights(alpha, b1, b2);
+    return at_weights(value, b1, b2);
 }
 
 // A channel of a map at level 0; 1 where the mesh has no texture coordinates for it.
@@ -57,11 +64,43 @@ float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b
         return 1;
     uint32_t triangle = number - draw->first_id;
     float alpha =
-        saturated(material->diffuse.a * (draw->mesh->colors ? vertex_alpha(draw->mesh, triangle, b1, b2) : 1));
+        saturated(material->diffuse.a * (draw->mesh->colors ? vertex_color(draw->mesh, triangle, 3, b1, b2) : 1));
     const lam_texture_map *diffuse = material->maps[LAM_MAP_DIFFUSE], *opacity = material->maps[LAM_MAP_OPACITY];
     if (diffuse && diffuse->texture)
         alpha = saturated(alpha * map_value(draw->mesh, diffuse, 3, triangle, b1, b2));
     if (opacity && opacity->texture)
         alpha = saturated(alpha * map_value(draw->mesh, opacity, opacity->channel, triangle, b1, b2));
     return material->alpha_mode == LAM_ALPHA_MASK ? alpha >= material->alpha_cutoff : alpha;
+}
+
+void ray_transmittance(const struct frame *frame, uint32_t number, bool back, float b1, float b2, float out[3])
+{
+    const struct frame_draw_range *range = &frame->ranges[frame_range_of(frame, number)];
+    const struct frame_draw *draw = &frame->draws[range->draw];
+    const lam_material *material = frame->materials[back && !draw->one_sided ? range->back : range->front];
+    float opacity = ray_opacity(frame, number, back, b1, b2);
+    out[0] = out[1] = out[2] = 1 - opacity;
+    if (!frame_is_physical(range->reflection) || !(frame_layers(frame, material) & LAYER_TRANSMISSION) ||
+        material->alpha_mode == LAM_ALPHA_MASK)
+        return;
+    if (back && material->thickness > 0) {
+        out[0] = out[1] = out[2] = 1;
+        return;
+    }
+    uint32_t triangle = number - draw->first_id;
+    const lam_texture_map *const *maps = material->maps;
+    const lam_texture_map *metallic = maps[LAM_MAP_METALLIC], *transmission = maps[LAM_MAP_TRANSMISSION];
+    float through = opacity * material->transmission, metal = material->metallic;
+    if (transmission && transmission->texture)
+        through *= saturated(map_value(draw->mesh, transmission, transmission->channel, triangle, b1, b2));
+    if (metallic && metallic->texture)
+        metal *= saturated(map_value(draw->mesh, metallic, metallic->channel, triangle, b1, b2));
+    through *= 1 - metal;
+    const float base[3] = {material->diffuse.r, material->diffuse.g, material->diffuse.b};
+    for (int c = 0; c < 3; c++) {
+        float color = base[c] * (draw->mesh->colors ? vertex_color(draw->mesh, triangle, c, b1, b2) : 1);
+        if (maps[LAM_MAP_DIFFUSE] && maps[LAM_MAP_DIFFUSE]->texture)
+            color *= map_value(draw->mesh, maps[LAM_MAP_DIFFUSE], c, triangle, b1, b2);
+        out[c] += through * saturated(color);
+    }
 }

@@ -55,6 +55,37 @@ class Shadows(Case):
         self.assertIn("nothing is in the way", self.good("explain", self.scene(), "%d,%d" % LIT).stdout.decode())
         self.assertNotIn("in the way", self.good("explain", self.scene(shadows=False), "%d,%d" % LIT).stdout.decode())
 
+    def test_glass_colours_its_shadow(self):
+        """What transmits lets its base colour through: a pane once, two panes the product, a volume where light enters it."""
+        def passed(material, shape="plane", floor=None, *words):
+            pane = {"name": "pane", "shape": shape, "transform": [["translate", 0.3, 1, 0], ["scale", 0.5, 0.5 if shape == "cube" else 1, 0.5]], "material": "pane"}
+            objects = [{**SCENE["objects"][0], "material": "floor"}, pane]
+            if "two" in words:
+                objects.append({**pane, "name": "other", "transform": [["translate", 0, 1.5, 0], ["scale", 0.5, 1, 0.5]]})
+            scene = self.scene("glass.json", objects=objects,
+                               materials={"floor": floor or {"diffuse": [0.8, 0.8, 0.8]}, "pane": {"physical": True, "metallic": 0, "roughness": 0.4, **material}})
+            told = json.loads(self.good("explain", scene, "%d,%d" % SHADOW, "--json").stdout)
+            light = told["triangles"][-1]["points"][0]["lights"][0]
+            for a, b in zip(light["diffuse_term"], light["passed"]):
+                self.assertAlmostEqual(a, light["diffuse_term"][0] * b / light["passed"][0] if light["passed"][0] else 0, 6)
+            self.assertEqual(self.png(scene, "--isa", "scalar", "--threads", "1"), self.png(scene, "--threads", "3"))
+            return light["passed"]
+
+        def near(a, b):
+            for x, y in zip(a, b):
+                self.assertAlmostEqual(x, y, 6)
+
+        red = {"diffuse": [0.9, 0.2, 0.1], "transmission": 1}
+        near(passed(red), [0.9, 0.2, 0.1])
+        near(passed(red, "plane", {"physical": True, "diffuse": [0.8, 0.8, 0.8], "metallic": 0, "roughness": 0.9}), [0.9, 0.2, 0.1])
+        near(passed({**red, "transmission": 0.5}), [0.45, 0.1, 0.05])
+        near(passed({**red, "metallic": 0.5}), [0.45, 0.1, 0.05])
+        near(passed({**red, "diffuse": [0.9, 0.2, 0.1, 0.5]}), [0.95, 0.6, 0.55])
+        near(passed(red, "plane", None, "two"), [0.81, 0.04, 0.01])
+        near(passed(red, "cube"), [0.81, 0.04, 0.01])
+        near(passed({**red, "thickness": 0.5}, "cube"), [0.9, 0.2, 0.1])
+        near(passed({"diffuse": [0.9, 0.2, 0.1]}), [0, 0, 0])
+
     def test_show(self):
         for term in ("diffuse", "specular", "light:sun"):
             self.assertEqual(pixel(self.png(self.scene(), "--show", term), *SHADOW)[:3], (0, 0, 0), term)

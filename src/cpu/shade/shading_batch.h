@@ -75,7 +75,7 @@ struct shadow_rows {
 struct shadow_layers {
     struct shadow_layer {
         uint32_t lane, number; // the ray, and the triangle in the frame
-        float passed;          // share of the light
+        float passed[3];       // share of the light; where nothing tints it, the first
     } *list;                   // grows; freed with the thread's state
     int count, capacity;
     bool failed; // out of memory

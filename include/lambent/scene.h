@@ -271,6 +271,13 @@ LAM_API uint64_t lam_scene_memory(const lam_scene *scene);
 // of range.
 LAM_API const char *lam_scene_warning(const lam_scene *scene, int index);
 
+// The paths of the files that loading the scene looked for, from 0: first the model's own, then those that it names (material
+// libraries, buffers, pictures, the models of a scene file), each once, in alphabetical order; also those that were not found,
+// since a load may give another scene once they are there. A path is the model's folder with the name in the file after it, as
+// it was opened; for files that lam_load_params.open opened, the name given to it. Scenes made by hand have none, models from
+// memory and from standard input none of their own. Valid until the scene is freed; NULL out of range.
+LAM_API const char *lam_scene_file(const lam_scene *scene, int index);
+
 // Adds a warning, which is copied. After the 64th none is kept.
 LAM_API void lam_scene_add_warning(lam_scene *scene, const char *text);
 

@@ -2,6 +2,7 @@
 #include "companion.h"
 
 #include "fail.h"
+#include "file_list.h"
 #include "shown_name.h"
 
 #include <errno.h>
@@ -76,6 +77,7 @@ static bool open_by_caller(const struct import_source *source, const char *name,
     out->shown = arena_string(arena, shown_name(path, shown));
     if (!out->real || !out->shown)
         return call_memory_error(source->call, (size_t)length + sizeof shown, error);
+    file_list_add(companions->files, path);
     lam_bytes bytes = {0};
     if (!companions->open(companions->user, path, &bytes, error))
         return false;
@@ -102,12 +104,14 @@ static char *join(struct arena *arena, const char *folder, const char *name)
 static bool open_beside(const struct import_source *source, const char *name, bool confined, const char *advice,
                         struct arena *arena, struct companion *out, lam_error *error)
 {
-    const char *root = ((const struct companions *)source->open_state)->folder, *folder = name[0] == '/' ? "" : root;
+    const struct companions *companions = source->open_state;
+    const char *root = companions->folder, *folder = name[0] == '/' ? "" : root;
     char shown[SHOWN_NAME_SIZE];
     out->path = join(arena, folder, name);
     out->shown = join(arena, folder, shown_name(name, shown));
     if (!out->path || !out->shown)
         return call_memory_error(source->call, strlen(folder) + strlen(name), error);
+    file_list_add(companions->files, out->path);
     bool outside;
     size_t length = 0;
     char *real = path_within(out->path, confined ? root : "/", &outside, &length);

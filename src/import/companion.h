@@ -5,12 +5,14 @@
 #include "importer.h"
 
 // The state of import_source.open and .open_of_scene: where files are sought.
+struct file_list;
 struct companions {
     const char *folder; // of the file that names them, with its '/' (""; the current one); NULL: it has none on disk
     const char *inside; // put before names for `open`: the folder of a model within a scene, with its '/'; "": none
     lam_open_fn *open;  // the caller's function; NULL: files are opened in `folder`
     lam_release_fn *release;
     void *user;
+    struct file_list *files; // every path that is looked for is added; NULL: to none
 };
 
 // A file that was opened. The caller releases `file`.

@@ -2,6 +2,7 @@
 #include "clear_models.h"
 #include "companion.h"
 #include "fail.h"
+#include "file_list.h"
 #include "float_state.h"
 #include "formats.h"
 
@@ -128,8 +129,14 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     call_start(&call, control);
     // The folder of the path as it is given, with its '/'.
     char *folder = path ? strndup(path, (size_t)(path_name(path) - path)) : NULL;
-    struct companions companions = {
-        .folder = folder, .inside = "", .open = params->open, .release = params->release, .user = params->user};
+    struct file_list files;
+    file_list_start(&files);
+    struct companions companions = {.folder = folder,
+                                    .inside = "",
+                                    .open = params->open,
+                                    .release = params->release,
+                                    .user = params->user,
+                                    .files = &files};
     struct import_source source = {
         .name = name,
         .path = path && strcmp(path, "-") != 0 ? path : NULL,
@@ -160,13 +167,14 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
         scene = importer ? start_scene(&source, importer, error) : NULL;
         ok = scene && importer->load(&source, scene, error);
     }
-    ok = ok && finish(scene, &source, importer, start_ns, error);
+    ok = ok && finish(scene, &source, importer, start_ns, error) && file_list_give(&files, source.path, scene, error);
     if (ok)
         scene_built(scene);
     else
         lam_scene_free(scene);
     file_release(&file);
     pool_free(source.pool);
+    file_list_end(&files);
     free(folder);
     float_state_leave(state);
     return ok ? scene : NULL;

@@ -313,6 +313,12 @@ const char *lam_scene_warning(const lam_scene *scene, int index)
     return text ? *text : NULL;
 }
 
+const char *lam_scene_file(const lam_scene *scene, int index)
+{
+    const char *const *path = scene ? item(&scene->files, index, sizeof(char *)) : NULL;
+    return path ? *path : NULL;
+}
+
 void lam_scene_add_warning(lam_scene *scene, const char *text)
 {
     if (scene && text)

@@ -72,6 +72,7 @@ struct lam_scene {
     struct scene_list cameras;   // struct scene_camera
     struct scene_list textures;  // lam_texture *: one reference each
     struct scene_list warnings;  // const char *
+    struct scene_list files;     // const char *: paths
     struct scene_list origins;   // struct scene_origin, in the order of their meshes
     // Materials of MTL files that are fully transparent, and a sentence about the first one, with its place; NULL: none.
     int clear_materials;

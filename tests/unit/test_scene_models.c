@@ -288,6 +288,42 @@ static int remove_folder(void **state)
     return system(command);
 }
 
+// The files that a load looks for: the model, what it names, and what a scene file's models name; also missing ones.
+static void test_files(void **unused)
+{
+    (void)unused;
+    write_bytes("in/m.obj", "mtllib sub/m.mtl\nmtllib none.mtl\n" TRIANGLE "usemtl a\nf 1 2 3\n");
+    write_bytes("in/sub/m.mtl", "newmtl a\nmap_Kd ./sub/../m.ppm\nmap_Kd sky.ppm\n");
+    write_bytes("in/s.json", "{\"lambent\": 1, \"objects\": [{\"file\": \"m.obj\"}, {\"file\": \"m.obj\"}], "
+                             "\"environment\": {\"equirectangular\": \"sub/sky.ppm\"}}");
+    static const char *const models[] = {"in/m.obj", "in/s.json"};
+    static const char *const expected[2][6] = {
+        {"in/m.obj", "in/none.mtl", "in/sky.ppm", "in/sub/m.mtl", NULL},
+        {"in/s.json", "in/m.obj", "in/none.mtl", "in/sky.ppm", "in/sub/m.mtl", "in/sub/sky.ppm"}};
+    for (int i = 0; i < 2; i++) {
+        lam_error error;
+        lam_scene *scene = lam_scene_load(in_folder(models[i]), NULL, NULL, &error);
+        if (!scene)
+            fail_msg("%s: %s", models[i], error.text);
+        for (int k = 0; k < 6; k++) {
+            const char *found = lam_scene_file(scene, k);
+            if (!expected[i][k])
+                assert_null(found);
+            else
+                assert_string_equal(found, in_folder(expected[i][k]));
+        }
+        assert_null(lam_scene_file(scene, 6));
+        assert_null(lam_scene_file(scene, -1));
+        lam_scene_free(scene);
+    }
+    assert_null(lam_scene_file(NULL, 0));
+    struct counts counts;
+    lam_scene *scene = load_objects(A, &counts);
+    assert_string_equal(lam_scene_file(scene, 0), "a.mtl"); // the names that the function was given
+    assert_string_equal(lam_scene_file(scene, 1), "a.obj");
+    lam_scene_free(scene);
+}
+
 // A scene file's own folder is the root of what it names, models and pictures; models_anywhere lifts that.
 static void test_root(void **unused)
 {
@@ -389,7 +425,7 @@ int main(void)
         cmocka_unit_test(test_shared),   cmocka_unit_test(test_changes),
         cmocka_unit_test(test_clear),    cmocka_unit_test(test_written),
         cmocka_unit_test(test_memory),   cmocka_unit_test_setup_teardown(test_root, make_folder, remove_folder),
-        cmocka_unit_test(test_function),
+        cmocka_unit_test(test_function), cmocka_unit_test_setup_teardown(test_files, make_folder, remove_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

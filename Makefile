@@ -6,7 +6,7 @@ DESTDIR ?=
 time    ?= 60
 MAKEFLAGS += --no-print-directory
 
-.PHONY: all demo test fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall clean help
+.PHONY: all demo test test-long fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall clean help
 
 all: $(build)/lambent
 
@@ -14,6 +14,7 @@ help:
 	@echo 'make            builds $(build)/lambent (missing Debian packages are installed first)'
 	@echo 'make demo       builds and renders the Utah teapot to out/demo.png'
 	@echo 'make test       builds and runs the whole test suite, both compilers, with sanitizers'
+	@echo 'make test-long  what takes too long for make test: runs that are killed fifty times'
 	@echo 'make test-gl    the tests of OpenGL alone; names the driver that they ran on'
 	@echo 'make test-debian13  make demo and make test on a fresh Debian 13 root, in build-debian13/ (needs root)'
 	@echo 'make fuzz       fuzzes every reader and the drawing, a minute each (time=1200 targets="obj ply")'
@@ -44,6 +45,10 @@ demo: $(build)/lambent
 test:
 	@scripts/setup.sh build test
 	@python3 tests/run.py
+
+test-long:
+	@scripts/setup.sh build test
+	@python3 tests/run.py long
 
 test-gl:
 	@scripts/setup.sh build test

@@ -87,6 +87,8 @@ def beside(row):
         text += "; CPU time " + ", ".join("%s %s" % (ISA_NAMES.get(key, key), ms(t["median"])) for key, t in row["cpu_ms"].items()) + " ms (%s)" % (
             ", ".join("%s: %s" % (ISA_NAMES.get(isa, isa), times(r["median"])) for isa, r in row["cpu_ratio"].items()))
     extra = ["%s: %s" % (key, times(r["median"])) for key, r in row.get("ratio", {}).items() if key not in ISA_NAMES]
+    if "alone_ratio" in row:
+        extra += ["%s: %.2f of one alone, %.0f %% busy" % (ISA_NAMES.get(isa, isa), r["median"], 100 * row["busy"][isa]) for isa, r in row["alone_ratio"].items()]
     if "peers_tried_ms" in row:
         extra.append("tried: " + ", ".join("%s %s" % (name, ms(t)) for name, t in row["peers_tried_ms"].items()))
     extra += ["failed: " + problem for problem in row.get("peers_failed", [])]

@@ -12,6 +12,7 @@ import statistics
 import sys
 import time
 
+import batch_rows
 import frames
 import gltf_rows
 import measure
@@ -55,6 +56,14 @@ def row_list(isas, gl_device, display, full):
             result["reached"] = result["reached"] and all(result["cpu_ratio"][isa]["median"] >= (cpu_target or 0) for isa in isas)
             return result
         yield name, "≥ %g × in CPU time" % cpu_target if cpu_target else "≥ %g ×" % wall_target, judge
+
+    for name, target, run in batch_rows.rows(isas, display):
+        def judge(run=run, target=target):
+            result = judged_ratio(run(), target, isas)
+            result["reached"] = (result["reached"] and all(result["alone_ratio"][isa]["median"] <= 1.1 for isa in isas) and
+                                 all(result["busy"][isa] >= 0.95 for isa in isas))
+            return result
+        yield name, "≥ %g × in CPU time, ≤ 1.1 of one alone, ≥ 95 %% busy" % target, judge
 
     def judge_prefilter():
         result = gltf_rows.prefilter()

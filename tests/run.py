@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """run.py [VARIANT …]: the whole test suite: builds with both compilers, in release and debug, with sanitizers, runs every test,
-counts. `run.py gl` runs only what needs OpenGL, and names the drivers that it ran on.
+counts. `run.py gl` runs only what needs OpenGL, and names the drivers that it ran on; `run.py long` what takes too long for every day:
+Meson's suite "long".
 
 The last line is `N passed, N failed`, counted from the test programs' own output. Everything is built in
 build-test/; a variant's log is build-test/VARIANT/meson-logs/testlog.txt.
@@ -29,6 +30,9 @@ VARIANTS = [
 # Not part of the whole suite: the same tests alone. Lines that match "tell" are printed.
 GL = {"name": "gcc-release", "cc": "gcc", "options": ["--buildtype=release"], "tell": r"^gl .*OpenGL.*|.*farthest off.*|^the mask: .*",
       "only": ["gl-context", "gl-classic", "gl-device", "gl-caller", "gl-state", "gl-parity", "glsl"]}
+
+# Not part of it either: tests/meson.build marks its tests with suite: 'long'.
+LONG = {"name": "gcc-release", "cc": "gcc", "options": ["--buildtype=release"], "suite": ["--suite", "long"]}
 
 ENVIRONMENT = {
     # A sanitizer's report fails its test. Following the storage that OpenGL's libraries have for each
@@ -77,7 +81,8 @@ def test(variant):
     log = os.path.join(folder, "meson-logs", "testlog.json")
     if os.path.exists(log):
         os.remove(log)
-    run(["meson", "test", "-C", folder, "--no-rebuild", "--num-processes", "2", "--timeout-multiplier", "4"] + variant.get("only", []),
+    run(["meson", "test", "-C", folder, "--no-rebuild", "--num-processes", "2", "--timeout-multiplier", "4",
+         *variant.get("suite", [])] + variant.get("only", []),
         env={**os.environ, **ENVIRONMENT})
     totals = [0, 0, 0]
     told = set()
@@ -109,8 +114,9 @@ def test(variant):
 def main():
     names = sys.argv[1:]
     totals = [0, 0, 0]
-    for variant in [GL] if names == ["gl"] else VARIANTS:
-        if names and names != ["gl"] and variant["name"] not in names:
+    alone = {"gl": [GL], "long": [LONG]}.get(names[0] if len(names) == 1 else None)
+    for variant in alone or VARIANTS:
+        if names and not alone and variant["name"] not in names:
             continue
         start = time.time()
         print("%s: building" % variant["name"], flush=True)

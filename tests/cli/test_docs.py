@@ -169,7 +169,8 @@ class Docs(Case):
                                   env={**os.environ, "PATH": ":".join(path)})
             self.assertEqual(done.returncode, 0, f"{line}: {done.stderr.decode()}")
             for name in re.findall(r"-o (\S+)", line):
-                self.assertTrue((self.folder / name).exists(), line)
+                if "{" not in name:  # a pattern
+                    self.assertTrue((self.folder / name).exists(), line)
         self.assertEqual(os.listdir(self.folder / "out" / "catalogue"), ["spot.png"])
 
     def test_commands_of_the_pages(self):

@@ -192,10 +192,10 @@ class Sentences(Case):
 
 # Options whose default is not a value that can be given, with what stands there.
 NOT_VALUES = {"output", "quality", "color", "view", "camera", "light", "material", "back-material", "cull", "segments", "environment", "reflectivity", "threads",
-              "gl-device", "time-limit", "memory-limit", "triangle-limit", "pixel-limit", "file-limit", "json-depth-limit", "allow-path", "show", "up", "reflection", "isa", "device", "repeat", "scene", "variant", "animation", "time"}
+              "gl-device", "time-limit", "memory-limit", "triangle-limit", "pixel-limit", "file-limit", "json-depth-limit", "allow-path", "show", "up", "reflection", "isa", "device", "repeat", "scene", "variant", "animation", "time", "views", "sizes", "journal"}
 # What else to give so that the option matters, and another value of it.
 CONTEXT = {
-    "sandbox": ([], None), "size": ([], "64"), "samples": ([], "16"), "exposure": ([], "1"), "tone": ([], "aces"), "tone": ([], "aces"), "crease-angle": ([], "20"), "compress": ([], None),
+    "sandbox": ([], None), "retry-failed": ([], None), "size": ([], "64"), "samples": ([], "16"), "exposure": ([], "1"), "tone": ([], "aces"), "tone": ([], "aces"), "crease-angle": ([], "20"), "compress": ([], None),
     "background": ([], "white"), "color-mode": ([], "raw"), "azimuth": ([], "31"), "elevation": ([], "21"), "zoom": ([], "1.1"),
     "projection": ([], "orthographic"), "rig": ([], "headlight"), "ambient": ([], "0.1"), "light-cutoff": (["lights.json"], "0.1"),
     "light-scale": ([], "1.1"), "shading": ([], "flat"), "stage": ([], None), "flat-normal": (["--shading", "flat"], "vertex"),

@@ -135,6 +135,8 @@ class Patterns(Case):
         self.assertEqual(read_png((self.folder / "out/a/cube-left-24x16.png").read_bytes())[:2], (24, 16))
         self.good("a/cube.stl", "-s", 16, "-o", "{stem}.{size}.{view}.ppm")
         self.assertIn("cube.16.three-quarter.ppm", self.names())
+        self.good("a/cube.stl", "cube.obj", "-s", 16, "-o", "{stem}-{ext}.png")
+        self.assertLessEqual({"cube-stl.png", "cube-obj.png"}, self.names())
         self.good("a/cube.stl", "-s", 16, "-o", "{{{stem}}}.png")
         self.assertIn("{cube}.png", self.names())
         self.good("-", "-s", 16, "-o", "{dir}/in-{stem}.png", stdin=(self.folder / "cube.stl").read_bytes())
@@ -154,7 +156,7 @@ class Patterns(Case):
 
     def test_mistakes(self):
         self.given |= {"a", "b"}
-        for pattern, says in (("{name}.png", "found '{name}' in the name, expected one of {stem}, {dir}, {view}, {size};"),
+        for pattern, says in (("{name}.png", "found '{name}' in the name, expected one of {stem}, {ext}, {dir}, {view}, {size};"),
                               ("{frame}.png", "found '{frame}'"), ("{stem.png", "'{stem.png' in the name, a brace without"),
                               ("stem}.png", "'}.png' in the name, a brace"), ("{}.png", "found '{}'"),
                               ("{a{b}}.png", "a brace without")):

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "console.h"
+#include "html.h"
 #include "output.h"
 
 enum { MAX_COUNTED = 512 };
@@ -44,36 +45,10 @@ void check_page_free(struct check_page *page)
     free(page);
 }
 
-static void put(FILE *file, const char *text)
-{
-    for (const char *c = text ? text : ""; *c; c++)
-        switch (*c) {
-        case '&':
-            fputs("&amp;", file);
-            break;
-        case '<':
-            fputs("&lt;", file);
-            break;
-        case '>':
-            fputs("&gt;", file);
-            break;
-        case '"':
-            fputs("&quot;", file);
-            break;
-        default:
-            putc(*c, file);
-        }
-}
-
-// A path as a relative address: everything but letters, digits and a few signs is escaped.
 static void put_address(FILE *file, const char *path)
 {
     const char *slash = strrchr(path, '/');
-    for (const unsigned char *c = (const unsigned char *)(slash ? slash + 1 : path); *c; c++)
-        if ((*c >= '0' && *c <= '9') || (*c >= 'A' && *c <= 'Z') || (*c >= 'a' && *c <= 'z') || strchr("-_.~", *c))
-            putc(*c, file);
-        else
-            fprintf(file, "%%%02X", *c);
+    html_address(file, slash ? slash + 1 : path);
 }
 
 // Names are static: verdicts and ids of mistakes.
@@ -94,12 +69,12 @@ static void put_scene(FILE *file, const lam_check_scene *s)
     if (earned < 0)
         return;
     fprintf(file, "<span class=\"%s\" title=\"", earned ? "good" : "bad");
-    put(file, s->description);
+    html_text(file, s->description);
     fprintf(file, ": largest difference %.3f, mean %.4f", s->maximum, s->mean);
     if (s->looks_like)
         fprintf(file, "; looks like %s", s->looks_like);
     fputs("\">", file);
-    put(file, s->name);
+    html_text(file, s->name);
     fputs("</span> ", file);
 }
 
@@ -108,11 +83,11 @@ static void put_findings(FILE *file, const lam_check_report *r)
     for (int i = 0; i < r->finding_count; i++) {
         const lam_check_finding *f = &r->findings[i];
         fprintf(file, "<p><b>%s</b>: ", f->mistake);
-        put(file, f->explanation);
+        html_text(file, f->explanation);
         if (f->also)
             fprintf(file, " <i>(or %s: the same pictures)</i>", f->also);
         fputs("<br><code>", file);
-        put(file, f->correction);
+        html_text(file, f->correction);
         fputs("</code></p>", file);
     }
     if (r->finding_count && !r->findings[0].certain)
@@ -126,11 +101,11 @@ static void put_findings(FILE *file, const lam_check_report *r)
         const lam_check_diagnostic *d = &r->diagnostics[i];
         const char *slash = d->file ? strrchr(d->file, '/') : NULL;
         fputs("<p class=\"note\">", file);
-        put(file, slash ? slash + 1 : d->file);
+        html_text(file, slash ? slash + 1 : d->file);
         if (d->line)
             fprintf(file, ":%d", d->line);
         fputs(d->file || d->line ? ": " : "", file);
-        put(file, d->text);
+        html_text(file, d->text);
         fputs("</p>", file);
     }
 }
@@ -152,12 +127,12 @@ void check_page_add(struct check_page *page, const struct check_result *result)
     page->count++;
     count(page->verdicts, sizeof page->verdicts / sizeof *page->verdicts, verdict);
     fputs("<tr><th>", file);
-    put(file, result->submission->name);
+    html_text(file, result->submission->name);
     fprintf(file, "</th><td class=\"%s\">%s</td>",
             !result->error.code && r->verdict == LAM_CHECK_PASSES ? "good" : "bad", verdict);
     if (result->error.code) {
         fputs("<td></td><td></td><td>", file);
-        put(file, result->error.text);
+        html_text(file, result->error.text);
         fputs("</td></tr>\n", file);
         return;
     }
@@ -175,7 +150,7 @@ void check_page_add(struct check_page *page, const struct check_result *result)
         fputs("\"></details>", file);
     } else if (result->sheet_error.code) {
         fputs("<p class=\"note\">", file);
-        put(file, result->sheet_error.text);
+        html_text(file, result->sheet_error.text);
         fputs("</p>", file);
     }
     fputs("</td></tr>\n", file);
@@ -214,10 +189,10 @@ static const char style[] =
 static void write_page(FILE *file, struct check_page *page, const char *title)
 {
     fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>", file);
-    put(file, title);
+    html_text(file, title);
     fprintf(file, "</title><meta name=\"viewport\" content=\"width=device-width\"><style>%s</style></head><body>\n<h1>",
             style);
-    put(file, title);
+    html_text(file, title);
     fprintf(file,
             "</h1><p>%d submissions, checked by <code>lambent check</code>. A scene that matches the reference is "
             "a point; point at its name for the differences.</p>\n",

@@ -6,8 +6,8 @@
 
 // In the order of the help. The first one runs when the command line names none.
 #define COMMANDS(row)                                                                                                  \
-    row(render) row(compare) row(explain) row(info) row(check) row(shader) row(diff) row(plot) row(lights) row(shapes) \
-        row(formats) row(looks) row(materials) row(devices) row(help) row(complete) row(generate)
+    row(render) row(batch) row(compare) row(explain) row(info) row(check) row(shader) row(diff) row(plot) row(lights)  \
+        row(shapes) row(formats) row(looks) row(materials) row(devices) row(help) row(complete) row(generate)
 
 #define COMMAND_INDEX(name) COMMAND_##name,
 enum command_index { COMMANDS(COMMAND_INDEX) COMMAND_COUNT };
@@ -17,6 +17,9 @@ typedef int command_fn(int operand_count, char **operands, const struct options 
 
 #define COMMAND_FUNCTION(name) command_fn run_##name;
 COMMANDS(COMMAND_FUNCTION)
+
+// Checks the options of a picture that exclude one another (render.c). Error: LAM_BAD_ARGUMENT.
+bool render_check_options(const struct options *options, lam_error *error);
 
 // A command's own default of an option that others take too. Ends with a NULL option.
 struct own_default {

@@ -7,10 +7,11 @@
 // The options of a picture of a model.
 #define ALL                                                                                                            \
     (((1u << GROUP_COUNT) - 1) & ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | 1u << GROUP_SHEET |    \
-                                   1u << GROUP_CHECK | 1u << GROUP_SHADER))
+                                   1u << GROUP_CHECK | 1u << GROUP_SHADER | 1u << GROUP_BATCH))
 
 static const struct own_default compare_defaults[] = {
     {"output", "MODEL-SHEET.png"}, {"size", "480x400 each"}, {"background", SHEET_BACKGROUND}, {NULL, NULL}};
+static const struct own_default batch_defaults[] = {{"output", "{stem}.png"}, {NULL, NULL}};
 static const struct own_default explain_defaults[] = {{"output", NULL}, {NULL, NULL}};
 static const struct own_default check_defaults[] = {
     {"output", "no sheet"}, {"size", "128"}, {"tolerance", "2"}, {"memory-limit", "1Gi"}, {NULL, NULL}};
@@ -22,8 +23,11 @@ static const struct own_default materials_defaults[] = {
 
 const struct command command_table[] = {
     [COMMAND_render] = {"render", "MODEL...",
-                        "Light models and write a picture of each. The word itself may be left out.", ALL,
-                        .min_operands = 1, .max_operands = -1},
+                        "Light models and write a picture of each. The word itself may be left out.",
+                        ALL | 1u << GROUP_BATCH, .min_operands = 1, .max_operands = -1},
+    [COMMAND_batch] = {"batch", "[MODEL|FOLDER|@LIST|-]...",
+                       "Draw many models: of folders and all below them, of lists, of standard input; with a journal.",
+                       ALL | 1u << GROUP_BATCH, .min_operands = 0, .max_operands = -1, .defaults = batch_defaults},
     [COMMAND_compare] = {"compare", "MODEL",
                          "Draw one labelled sheet of pictures: methods, lights or terms side by side.",
                          (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET,
@@ -113,6 +117,8 @@ const struct example examples[] = {
     {"lambent scan.ply -s 640 --view front", "640x640, straight from the front", true},
     {"lambent teapot --color '#ff8800'", "a built-in shape (`lambent shapes`)", true},
     {"lambent -q *.stl -o pictures/", "a picture of each model, in a folder", true},
+    {"lambent batch models/ -o 'thumbs/{dir}/{stem}.png'", "all models of a folder and below it, with a journal",
+     false},
     {"lambent - -o - < part.stl > part.png", "from standard input to standard output", false},
     {"lambent koala.obj --json", "what was read, the camera, and the time of each step", false},
     {"lambent info ship.glb", "what is in it: size, triangles, materials, animations", false},

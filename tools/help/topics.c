@@ -13,6 +13,13 @@ const struct topic topics[] = {
      "Several models may be given: each becomes its own picture, in the current folder or that of `-o pictures/`. "
      "A model that fails is reported and the others are still drawn; the exit code is then the highest one. `-o "
      "FILE` and `-` need a single model."},
+    {"batch", "Many models", BIT(BATCH), TOPIC_NO_TABLE,
+     "`lambent batch` draws folders with all models below them, lists (`@FILE`), and names on standard input (`-`), as "
+     "many at once as there are processors, and writes a journal: `lambent batch models/ -o "
+     "'thumbs/{dir}/{stem}.png'`. `--dry-run` prints which picture each model becomes. Killed at any moment, the same "
+     "command with `--resume` goes on; with `--skip-same` it draws only what has changed. The exit code is 7 where "
+     "some "
+     "pictures failed. `docs/batch.md` has the details."},
     {"picture", "The picture", BIT(PICTURE), TOPIC_NO_TABLE, NULL},
     {"output", "Output", 0, TOPIC_NO_TABLE,
      "Without `-o` the picture of `models/koala.obj` is `koala.png` in the current folder. An older picture "

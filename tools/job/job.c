@@ -139,7 +139,7 @@ static bool draws_once(const struct job *job)
     if (job->device && lam_device_isa(job->device) == LAM_ISA_AUTO) // an OpenGL device
         return false;
     bool tangents = lam_reflection_describe(o->draw.reflection)->tangents;
-    return o->repeat == 1 && !show_is_all(o) && !tangents;
+    return o->repeat == 1 && !show_is_all(o) && !tangents && job->view_count <= 1;
 }
 
 // Under flat and Gouraud shading most maps are left out.
@@ -161,6 +161,16 @@ static void warn_maps(struct job *job)
     snprintf(text, sizeof text, "maps that need Phong shading are left out: %s", names);
     if (*names)
         lam_scene_add_warning(job->scene, text);
+}
+
+// The background of the command line, else of the scene file.
+static bool find_background(struct job *job, lam_error *error)
+{
+    const struct options *o = job->options;
+    if (o->background)
+        return lam_color_parse(o->background, (lam_color_mode)o->color_mode, &job->background, error);
+    job->background = job->settings.draw.background;
+    return true;
 }
 
 bool job_load(struct job *job, struct progress *progress, lam_error *error)
@@ -206,6 +216,8 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
         return complain(error, LAM_CANNOT_READ,
                         "%s: found no triangles, lines or points, expected at least one to draw", job->model);
     scene_settings_apply(job);
+    if (!find_background(job, error))
+        return false;
     warn_maps(job);
     if (o->slices && lam_shape_find(job->model) < 0)
         lam_scene_add_warning(job->scene, "option '--segments' changes nothing: the model is a file");
@@ -236,27 +248,74 @@ static bool find_camera(struct job *job, lam_error *error)
         job->options->camera, count ? known : "none", count > 1 && strlen(known) >= sizeof known - 60 ? ", ..." : "");
 }
 
+// Makes one of several views the options of the next picture.
+static void choose_view(struct job *job, const struct job_view *view)
+{
+    job->own.width = view->width;
+    job->own.height = view->height;
+    if (view->side >= 0)
+        job->own.view = view->side;
+}
+
 // Fits the camera before the model is turned: one fit serves every angle. A camera in words aims at the turned model.
-static bool place_camera_and_turn(struct job *job, const struct model_sphere *sphere, lam_error *error)
+static void fit_camera(struct job *job, const struct model_sphere *sphere, bool side_is_given)
 {
     const struct options *o = job->options;
-    double start = clock_ms();
     lam_view view = view_of(o);
     lam_vec3 axis;
-    if (scene_settings_has_camera(job))
+    if (scene_settings_has_camera(job) && !side_is_given)
         job->camera = job->settings.camera;
     else if (!o->camera && job_turn_axis(o, &axis))
         job->camera = lam_camera_fit_turning(job->scene, sphere->centre, axis, o->width, o->height, &view);
     else if (!o->camera)
         job->camera = lam_camera_fit(job->scene, o->width, o->height, &view);
+}
+
+static bool place_camera_and_turn(struct job *job, const struct model_sphere *sphere, lam_error *error)
+{
+    const struct options *o = job->options;
+    double start = clock_ms();
+    for (int i = job->view_count - 1; i >= 0; i--) { // the first one is in place then
+        choose_view(job, &job->views[i]);
+        fit_camera(job, sphere, job->views[i].side >= 0);
+        job->views[i].camera = job->camera;
+    }
+    if (!job->view_count)
+        fit_camera(job, sphere, false);
     job->times.camera = clock_ms() - start;
     if (!job_turn(job, sphere, error))
         return false;
-    if (o->camera && !strchr(o->camera, '='))
-        return find_camera(job, error);
-    if (o->camera)
+    if (o->camera && !strchr(o->camera, '=') && !find_camera(job, error))
+        return false;
+    if (o->camera && strchr(o->camera, '='))
         lam_camera_parse(o->camera, job->scene, &job->camera, NULL); // cannot fail: store_camera has parsed it
+    for (int i = 0; o->camera && i < job->view_count; i++)
+        job->views[i].camera = job->camera;
     return true;
+}
+
+// Keeps the lights as they are before those of the options come, where these come again for each view's camera.
+static bool keep_lights(struct job *job, lam_error *error)
+{
+    if (job->view_count <= 1 || !job->options->lights.count)
+        return true;
+    job->light_count = lam_scene_light_count(job->scene);
+    job->lights = calloc((size_t)job->light_count + 1, sizeof *job->lights);
+    for (int i = 0; job->lights && i < job->light_count; i++)
+        job->lights[i] = *lam_scene_light(job->scene, i);
+    return job->lights || complain(error, LAM_LIMIT, "out of memory");
+}
+
+// Lights the scene for another view. The sphere is that of the model before it was turned.
+static bool light_again(struct job *job, lam_error *error)
+{
+    if (!job->lights)
+        return true;
+    lam_scene_clear_lights(job->scene);
+    for (int i = 0; i < job->light_count; i++)
+        if (lam_scene_add_light(job->scene, &job->lights[i], error) < 0)
+            return false;
+    return job_light(job, &job->sphere, error);
 }
 
 // Finds the exposure where it is automatic. All lights count then: what a light changes depends on the exposure.
@@ -341,36 +400,23 @@ static bool write_output(struct job *job, lam_error *error)
     return ok;
 }
 
-// The background of the command line, else of the scene file.
-static bool find_background(struct job *job, lam_error *error)
-{
-    const struct options *o = job->options;
-    if (o->background)
-        return lam_color_parse(o->background, (lam_color_mode)o->color_mode, &job->background, error);
-    job->background = job->settings.draw.background;
-    return true;
-}
-
 bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
 {
-    struct model_sphere sphere;
     lam_control control;
-    if (!control_of(job, progress, &control, error) || !job_apply_options(job, &control, &sphere, error) ||
+    if (!control_of(job, progress, &control, error) || !job_apply_options(job, &control, &job->sphere, error) ||
         !environment_option_apply(job->options, job->scene, &control, error))
         return false;
     if (job->options->save_scene && option_given(job->options, "show"))
         lam_scene_add_warning(job->scene, "the saved scene file describes the picture without --show");
     if (job->options->save_scene && job->options->files_inside && !scene_settings_are_beside(job))
         lam_scene_add_warning(job->scene, "the saved scene file names files outside of its folder");
-    return place_camera_and_turn(job, &sphere, error) && job_light(job, &sphere, error) &&
-           (!job->options->show_lights || light_markers_add(job, error));
+    return place_camera_and_turn(job, &job->sphere, error) && keep_lights(job, error) &&
+           job_light(job, &job->sphere, error) && (!job->options->show_lights || light_markers_add(job, error));
 }
 
-bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error)
+static bool make_image(struct job *job, lam_pixel_format format, lam_error *error)
 {
-    if (!job_load(job, progress, error) || !find_background(job, error))
-        return false;
-    const struct options *o = job->options; // now includes the scene file's settings
+    const struct options *o = job->options;
     uint64_t bytes = (uint64_t)o->width * (uint64_t)o->height * (format == LAM_RGBA8 ? 4 : 16);
     uint64_t limit = limits_memory(o);
     if (limit && bytes > limit)
@@ -378,35 +424,64 @@ bool job_draw(struct job *job, lam_pixel_format format, struct progress *progres
                         "the picture of %dx%d pixels needs %.1f MB, more than the memory limit of %.1f MB "
                         "(--memory-limit)",
                         o->width, o->height, (double)bytes / 1e6, (double)limit / 1e6);
-    return lam_image_make(&job->image, o->width, o->height, format, error) && job_arrange(job, progress, error) &&
+    return lam_image_make(&job->image, o->width, o->height, format, error);
+}
+
+bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error)
+{
+    return job_load(job, progress, error) && make_image(job, format, error) && job_arrange(job, progress, error) &&
            draw(job, progress, error);
 }
 
-bool job_run(struct job *job, struct progress *progress, lam_error *error)
+bool job_check_output(struct job *job, lam_error *error)
 {
     bool stream = output_is_stream(job->output);
-    lam_pixel_format format;
-    if (!output_format(job->output, &format, error))
+    if (!output_format(job->output, &job->pixels, error))
         return false;
     job->format = stream ? "png" : strrchr(job->output, '.') + 1;
     if (strcmp(job->output, "-") != 0 &&
         !output_check(job->output, job->model, output_given(job->options->output), error))
         return false;
-    if (show_is_all(job->options) && !show_all_check(job, error))
+    return !show_is_all(job->options) || show_all_check(job, error);
+}
+
+bool job_run(struct job *job, struct progress *progress, lam_error *error)
+{
+    if (!job_check_output(job, error))
         return false;
     if (job->options->dry_run) {
-        job->planned =
-            job_load(job, progress, error) && find_background(job, error) && job_arrange(job, progress, error);
+        job->planned = job_load(job, progress, error) && job_arrange(job, progress, error);
         return job->planned;
     }
-    return job_draw(job, format, progress, error) && write_output(job, error) &&
+    return job_draw(job, job->pixels, progress, error) && write_output(job, error) &&
            (!job->options->save_scene || scene_settings_save(job, error));
+}
+
+bool job_run_view(struct job *job, int view, struct progress *progress, lam_error *error)
+{
+    choose_view(job, &job->views[view]);
+    job->camera = job->views[view].camera;
+    job->written = false;
+    if (!job_check_output(job, error) || (view > 0 && !light_again(job, error)))
+        return false;
+    job->planned = job->options->dry_run;
+    return job->planned || (make_image(job, job->pixels, error) && draw(job, progress, error) &&
+                            write_output(job, error) && (!job->options->save_scene || scene_settings_save(job, error)));
+}
+
+void job_free(struct job *job)
+{
+    lam_image_free(&job->image);
+    lam_scene_free(job->scene);
+    free(job->lights);
+    job->scene = NULL;
+    job->lights = NULL;
 }
 
 lam_explanation *job_explain(struct job *job, int x, int y, struct progress *progress, lam_error *error)
 {
     lam_control control;
-    if (!job_load(job, progress, error) || !find_background(job, error) || !job_arrange(job, progress, error))
+    if (!job_load(job, progress, error) || !job_arrange(job, progress, error))
         return NULL;
     progress_phase(progress, 0.5, 0.5);
     if (!control_of(job, progress, &control, error))

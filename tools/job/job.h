@@ -23,21 +23,40 @@ struct model_counts {
 enum { MODEL_COUNTS_SIZE = 100 };
 const char *model_counts_text(const struct model_counts *counts, char out[MODEL_COUNTS_SIZE]);
 
+// The bounding sphere of the model before --rotate; its radius is the unit r.
+struct model_sphere {
+    lam_vec3 centre;
+    double radius;
+};
+
+// One of several pictures of a model that is read once.
+struct job_view {
+    int side;          // lam_side; −1: as the options have it
+    int width, height; // pixels
+    lam_camera camera; // filled by job_arrange
+};
+
 struct job {
     const struct options *options;
-    const char *model;  // as typed
-    const char *output; // path of the picture; "-": standard output
-    const char *format; // of the picture: "png"
-    lam_scene *scene;   // NULL until the model is loaded
+    const char *model;       // as typed
+    const char *output;      // path of the picture; "-": standard output
+    const char *format;      // of the picture: "png"
+    lam_pixel_format pixels; // that it is drawn with
+    lam_scene *scene;        // NULL until the model is loaded
     struct model_counts model_counts;
-    lam_rig rig;          // the rig that drawing adds to the scene's own lights
-    bool file_lights;     // the lights of a glTF file, in candela and lux, light it
-    bool exposure_fitted; // draw.exposure was found for this picture
-    bool studio;          // the built-in environment "studio" lights it, where no other is set
+    lam_rig rig;                // the rig that drawing adds to the scene's own lights
+    bool file_lights;           // the lights of a glTF file, in candela and lux, light it
+    bool exposure_fitted;       // draw.exposure was found for this picture
+    bool studio;                // the built-in environment "studio" lights it, where no other is set
+    struct model_sphere sphere; // before it was turned
     lam_camera camera;
     lam_image image;
     lam_rgba background; // behind the model
     lam_device *device;
+    struct job_view *views; // the pictures to draw; NULL: one, as the options have it
+    int view_count;
+    lam_light *lights; // those before the options' lights, which may depend on the camera; from malloc
+    int light_count;
     uint64_t bytes; // size of the written file
     bool written;
     bool planned;                  // --dry-run: everything is ready to be drawn
@@ -52,6 +71,15 @@ struct job {
 // times.start; the steps fill in the rest, so that a report of a failure includes the completed steps. The caller
 // frees the scene and the image.
 bool job_run(struct job *job, struct progress *progress, lam_error *error);
+
+// The same for one of several pictures, after job_check_output, job_load and job_arrange; `output` is its file.
+bool job_run_view(struct job *job, int view, struct progress *progress, lam_error *error);
+
+// Whether the picture's name is one that can be written, and by which format. Fills in `format`.
+bool job_check_output(struct job *job, lam_error *error);
+
+// Frees the scene, the image and the lights.
+void job_free(struct job *job);
 
 // Loads and draws; the picture stays in `image`. Ignores output and format.
 bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error);

@@ -4,12 +4,6 @@
 
 #include "job.h"
 
-// The bounding sphere of the model before --rotate; its radius is the unit r.
-struct model_sphere {
-    lam_vec3 centre;
-    double radius;
-};
-
 // Applies materials, sides and the rig: everything that comes before the camera and the turns. Fills `sphere`.
 bool job_apply_options(struct job *job, const lam_control *control, struct model_sphere *sphere, lam_error *error);
 

@@ -10,7 +10,7 @@
 static const struct {
     const char *name;
     unsigned bit; // 0: always known
-} words[] = {{"stem", 0}, {"dir", 0}, {"view", NAME_VIEW}, {"size", NAME_SIZE}, {"frame", NAME_FRAME}};
+} words[] = {{"stem", 0}, {"ext", 0}, {"dir", 0}, {"view", NAME_VIEW}, {"size", NAME_SIZE}, {"frame", NAME_FRAME}};
 
 enum { WORDS = sizeof words / sizeof words[0] };
 
@@ -125,6 +125,11 @@ static void print_word(FILE *out, const struct part *part, const struct output_w
         int length;
         const char *stem = output_stem(w->model, &length);
         fwrite(stem, 1, (size_t)length, out);
+    } else if (is_word(part, "ext")) {
+        int length;
+        const char *end = output_stem(w->model, &length) + length;
+        if (strcmp(w->model, "-") != 0 && *end == '.')
+            fputs(end + 1, out);
     } else if (is_word(part, "dir")) {
         print_folder(out, w);
     } else if (is_word(part, "view")) {

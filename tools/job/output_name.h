@@ -4,7 +4,7 @@
 
 #include <lambent/base.h>
 
-// What the words of a pattern stand for, for one picture.
+// What the words of a pattern stand for, for one picture. {ext}: the ending of the model's file name, "obj".
 struct output_words {
     const char *model; // {stem}: its file name without the ending; "-": model
     const char *root;  // {dir} is the model's folder below this one; NULL or "": the folder as it is given
@@ -13,7 +13,7 @@ struct output_words {
     int frame, digits; // {frame}: a number with leading zeros, at least so many digits
 };
 
-// The words that a command knows besides {stem} and {dir}, as bits.
+// The words that a command knows besides {stem}, {ext} and {dir}, as bits.
 enum { NAME_VIEW = 1, NAME_SIZE = 2, NAME_FRAME = 4 };
 
 // True if a name has a pattern's brace. "{{" and "}}" stand for braces.

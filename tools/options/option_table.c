@@ -17,6 +17,7 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_SHADING] = "Shading",
     [GROUP_WORK] = "Work",
     [GROUP_LIMITS] = "Limits",
+    [GROUP_BATCH] = "Many models (render, batch)",
     [GROUP_REPORT] = "Reports",
     [GROUP_DIFF] = "Comparing pictures (diff, check)",
     [GROUP_PLOT] = "Plots (plot)",
@@ -246,7 +247,8 @@ const struct option option_table[] = {
      "never overwritten. `-o pictures/`, with a trailing slash, does the same in that folder, and makes it if it "
      "is missing; every command that writes files takes it.\n"
      "A name with words in braces is a pattern, which each model fills in: `-o 'thumbs/{dir}/{stem}-{view}.png'`. "
-     "`{stem}` is the model's file name without its ending, `{dir}` its folder (without `..` and a leading slash), "
+     "`{stem}` is the model's file name without its ending, `{ext}` that ending, `{dir}` its folder (without `..` and "
+     "a leading slash), "
      "`{view}` the word of `--view`, `{size}` the size in pixels, `256` or `256x128`. Missing folders are made, and "
      "existing files replaced. Two models whose pictures would have one name are an error before the start. `{{` "
      "and `}}` are braces.",
@@ -651,11 +653,53 @@ const struct option option_table[] = {
      NULL, .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(allow_paths),
      .single = TAKES_PICTURE_LIMITS},
 
+    {"views", 0, GROUP_BATCH, "SIDES", "that of `--view`",
+     "Draw each model from several sides, such as front,left,iso; it is read once.",
+     "At most 16. Without a pattern in `-o` the side follows the model's name: `bunny-front.png`.", view_words,
+     .store = store_views, .others = "sides angles cameras", FIELD(views)},
+    {"sizes", 0, GROUP_BATCH, "SIZES", "that of `--size`",
+     "Draw each model in several sizes, such as 1024,256x128; it is read once.",
+     "At most 16, each drawn on its own and never scaled. With `--views` every side is drawn in every size. Without a "
+     "pattern in `-o` the size follows the model's name: `bunny-256x128.png`.",
+     .store = store_sizes, .others = "resolutions thumbnails", FIELD(sizes), .max = 65535},
+    {"files-from", 0, GROUP_BATCH, "FILE", NULL, "Draw the models that FILE names, one on each line; repeatable.",
+     "`-` is standard input. Names are those of the current folder, as on the command line; empty lines count for "
+     "nothing. `batch` takes `@FILE` for the same.",
+     .kind = VALUE_FILE, .store = store_list, .others = "input-list filelist models-from", FIELD(lists)},
+    {"journal", 0, GROUP_BATCH, "FILE", "none; `batch`: lambent.jsonl in the pictures' folder",
+     "Write a line of JSON for each picture that is done or has failed.",
+     "A line has the model, the picture, the outcome (`class`, `exit`, `error`), the milliseconds of each step, the "
+     "triangles, the warnings, the picture's bytes and hash, the files that were read and their hashes, and the key "
+     "of `--skip-same`. It is written after the picture is in its place. `none` writes no journal. `docs/batch.md` has "
+     "every field.",
+     .kind = VALUE_FILE, .store = store_text, .others = "log record", FIELD(journal)},
+    {"resume", 0, GROUP_BATCH, NULL, NULL, "Go on where the journal ends: pictures that it has are not drawn again.",
+     "Without a journal everything is drawn, so that one command line starts and goes on. Refused where the options of "
+     "the picture are not the journal's. Models that were being drawn when a run was killed are drawn first, each in "
+     "a process of its own.",
+     .store = store_switch, .others = "continue restart", FIELD(resume)},
+    {"retry-failed", 0, GROUP_BATCH, "N", "0", "Try a picture that failed again, at most N times.",
+     "They are tried at the end of the run, and with `--resume` also those that failed in earlier runs; a line of the "
+     "journal counts as one try. What still fails is named at the end.",
+     .store = store_integer, .others = "retries retry attempts", FIELD(retry_failed), .max = 1000},
+    {"skip-same", 0, GROUP_BATCH, NULL, NULL, "Draw only what has changed since the journal was written.",
+     "A picture is left as it is if it still has the journal's hash, and its key is the journal's: a hash of all files "
+     "that reading the model looked for (textures and material libraries too), the options with their defaults, and "
+     "the program's version.",
+     .store = store_switch, .others = "incremental update changed newer cache", FIELD(skip_same)},
+    {"isolate", 0, GROUP_BATCH, NULL, NULL, "Draw each model in a process of its own.",
+     "A model that crashes or uses up the memory costs one line of the journal, of the class `crashed`, and the others "
+     "go on.",
+     .store = store_switch, .others = "process fork sandbox-process", FIELD(isolate)},
+    {"report", 0, GROUP_BATCH, "FILE.html", NULL, "Also write a page of all pictures, failures first.",
+     "Thumbnails go to the folder FILE-files beside it. It needs no other file and no network.", .kind = VALUE_FILE,
+     .store = store_text, .others = "contact-sheet html gallery page", FIELD(report_page)},
+
     {"json", 0, GROUP_REPORT, NULL, NULL, "Print a report in JSON, one line for each model.",
      "The report goes to standard output, or to standard error when the picture goes to standard output (then "
      "nothing else is written there). It replaces the line with the file's name, and is printed on failure as "
      "well. Its schema is `docs/report.schema.json`.",
-     .brief = "print a report for other programs", .store = store_switch, .others = "report stats info", FIELD(json),
+     .brief = "print a report for other programs", .store = store_switch, .others = "stats info", FIELD(json),
      .single = TAKES_JSON},
     {"dry-run", 0, GROUP_REPORT, NULL, NULL, "Print what would be drawn and written, and write nothing.",
      "Models are read and checked, and so are the options and whether each picture can be written; nothing is drawn. "

@@ -209,19 +209,69 @@ bool store_exposure(const struct option *option, const char *value, struct optio
     return true;
 }
 
-// "800" or "1920x1080".
+// "800" or "1920x1080", up to `end`.
+static bool read_size(const char *value, long max, int size[2], char **end)
+{
+    *end = (char *)(uintptr_t)value;
+    long width = *value >= '0' && *value <= '9' ? strtol(value, end, 10) : 0;
+    long height = width;
+    if (*end > value && (**end == 'x' || **end == 'X') && (*end)[1] >= '0' && (*end)[1] <= '9')
+        height = strtol(*end + 1, end, 10);
+    bool ok = width >= 1 && height >= 1 && width <= max && height <= max;
+    size[0] = ok ? (int)width : 0;
+    size[1] = ok ? (int)height : 0;
+    return ok;
+}
+
 bool store_size(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
-    char *end = (char *)(uintptr_t)value;
-    long width = *value >= '0' && *value <= '9' ? strtol(value, &end, 10) : 0;
-    long height = width;
-    if (end > value && (*end == 'x' || *end == 'X') && end[1] >= '0' && end[1] <= '9')
-        height = strtol(end + 1, &end, 10);
-    if (width < 1 || height < 1 || width > (long)option->max || height > (long)option->max || *end)
+    int size[2];
+    char *end;
+    if (!read_size(value, (long)option->max, size, &end) || *end)
         return wrong(error, value, "W or WxH from 1 to 65535 pixels, such as 800 or 1920x1080");
     options->has_size = true;
-    options->width = (int)width;
-    options->height = (int)height;
+    options->width = size[0];
+    options->height = size[1];
+    return true;
+}
+
+// "1024,256x128".
+bool store_sizes(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    options->size_count = 0;
+    for (const char *at = value;;) {
+        char *end;
+        int *size = options->sizes[options->size_count];
+        if (options->size_count == VIEWS_MAX || !read_size(at, (long)option->max, size, &end) || (*end && *end != ','))
+            return wrong(error, value, "at most 16 sizes, W or WxH from 1 to 65535 pixels, such as 1024,256x128");
+        for (int i = 0; i < options->size_count; i++)
+            if (options->sizes[i][0] == size[0] && options->sizes[i][1] == size[1])
+                return complain(error, LAM_BAD_ARGUMENT, "'%.100s' has a size twice", value);
+        options->size_count++;
+        if (!*end)
+            return true;
+        at = end + 1;
+    }
+}
+
+// "front,left,iso".
+bool store_views(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    options->view_count = 0;
+    for (const char *at = value; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
+        struct option one = *option;
+        char word[32];
+        snprintf(word, sizeof word, "%.*s", (int)(strcspn(at, ",") < 31 ? strcspn(at, ",") : 31), at);
+        if (options->view_count == VIEWS_MAX)
+            return complain(error, LAM_BAD_ARGUMENT, "names more than %d sides", VIEWS_MAX);
+        one.field = (size_t)((char *)&options->views[options->view_count] - (char *)options);
+        if (!store_word(&one, word, options, error))
+            return false;
+        for (int i = 0; i < options->view_count; i++)
+            if (options->views[i] == options->views[options->view_count])
+                return complain(error, LAM_BAD_ARGUMENT, "'%.100s' has a side twice", value);
+        options->view_count++;
+    }
     return true;
 }
 
@@ -347,6 +397,12 @@ static bool append(const struct option *option, const char *value, struct option
     items[texts->count++] = value;
     texts->items = items;
     return true;
+}
+
+bool store_list(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    return *value ? append(option, value, options, error)
+                  : complain(error, LAM_BAD_ARGUMENT, "its value is empty, expected a file of names");
 }
 
 bool store_light(const struct option *option, const char *value, struct options *options, lam_error *error)

@@ -29,6 +29,7 @@ void options_free(struct options *options)
     free(options->sheet_rotations.items);
     free(options->across.items);
     free(options->allow_paths.items);
+    free(options->lists.items);
 }
 
 static bool texts_copy(struct texts *texts)
@@ -50,6 +51,7 @@ bool options_copy(struct options *to, const struct options *from)
     ok = texts_copy(&to->sheet_rotations) && ok;
     ok = texts_copy(&to->across) && ok;
     ok = texts_copy(&to->allow_paths) && ok;
+    ok = texts_copy(&to->lists) && ok;
     if (!ok)
         options_free(to);
     return ok;

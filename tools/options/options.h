@@ -5,7 +5,7 @@
 
 #include <lambent/lambent.h>
 
-enum { OPTIONS_MAX = 128, ACROSS_MAX = 2 };
+enum { OPTIONS_MAX = 128, ACROSS_MAX = 2, VIEWS_MAX = 16 };
 
 // The values of an option that may be repeated, in order.
 struct texts {
@@ -101,6 +101,15 @@ struct options {
     // Models that are worked on at the same time, which share the default memory; set by the loop over them. 0: one.
     int in_flight;
 
+    // Many models
+    struct texts lists;               // files of names
+    int views[VIEWS_MAX], view_count; // lam_side; 0: that of --view
+    int sizes[VIEWS_MAX][2], size_count;
+    const char *journal;     // NULL: the command's default; "none"
+    const char *report_page; // NULL: none
+    int retry_failed;
+    bool resume, skip_same, isolate;
+
     // Comparison of pictures
     double tolerance, gain;
 
@@ -181,6 +190,7 @@ enum option_group {
     GROUP_SHADING,
     GROUP_WORK,
     GROUP_LIMITS,
+    GROUP_BATCH,
     GROUP_REPORT,
     GROUP_DIFF,
     GROUP_PLOT,
@@ -282,6 +292,9 @@ bool store_cutoff(const struct option *, const char *, struct options *, lam_err
 bool store_word_flag(const struct option *, const char *, struct options *, lam_error *);    // bool, words of 0 and 1
 bool store_exposure(const struct option *, const char *, struct options *, lam_error *);     // double, or auto
 bool store_size(const struct option *, const char *, struct options *, lam_error *);         // width, height
+bool store_views(const struct option *, const char *, struct options *, lam_error *);        // views, view_count
+bool store_sizes(const struct option *, const char *, struct options *, lam_error *);        // sizes, size_count
+bool store_list(const struct option *, const char *, struct options *, lam_error *);         // struct texts
 bool store_segments(const struct option *, const char *, struct options *, lam_error *);     // slices, stacks
 bool store_bytes(const struct option *, const char *, struct options *, lam_error *);        // uint64_t
 bool store_color(const struct option *, const char *, struct options *, lam_error *);        // const char *, checked

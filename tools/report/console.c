@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 static bool terminal, colors;
+static _Thread_local FILE *captured; // NULL: standard error
 
 void console_start(void)
 {
@@ -21,21 +22,25 @@ void console_start(void)
 bool console_is_terminal(void) { return terminal; }
 bool console_has_colors(void) { return colors; }
 
+void console_capture(FILE *stream) { captured = stream; }
+
+static FILE *stream_of(void) { return captured ? captured : stderr; }
+
 void say_error(const char *text)
 {
-    fprintf(stderr, "%slambent:%s %s\n", colors ? "\033[1;31m" : "", colors ? "\033[0m" : "", text);
+    fprintf(stream_of(), "%slambent:%s %s\n", colors ? "\033[1;31m" : "", colors ? "\033[0m" : "", text);
 }
 
 void say_warning(const char *text)
 {
-    fprintf(stderr, "%slambent: warning:%s %s\n", colors ? "\033[1;33m" : "", colors ? "\033[0m" : "", text);
+    fprintf(stream_of(), "%slambent: warning:%s %s\n", colors ? "\033[1;33m" : "", colors ? "\033[0m" : "", text);
 }
 
 void say_plain(const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    vfprintf(stderr, format, arguments);
+    vfprintf(stream_of(), format, arguments);
     va_end(arguments);
 }
 

@@ -3,6 +3,7 @@
 #define CONSOLE_H
 
 #include <stdbool.h>
+#include <stdio.h>
 
 #include <lambent/base.h>
 
@@ -14,6 +15,8 @@ bool console_has_colors(void);
 // Print one line on standard error: "lambent: …" and "lambent: warning: …".
 void say_error(const char *text);
 void say_warning(const char *text);
+// The next messages of this thread go to `stream` until it is NULL again, to be shown later in their order.
+void console_capture(FILE *stream);
 void say_plain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 // Fills an error with a printf-like sentence and returns false.

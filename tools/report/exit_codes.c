@@ -11,6 +11,8 @@ const struct exit_code exit_codes[] = {
      "the output cannot be written, or would overwrite a file that lambent did not write"},
     {EXIT_DIFFERS, -1, NULL,
      "`diff`: the pictures differ by more than the tolerance; `check`: the shader does not pass"},
+    {EXIT_SOME_FAILED, -1, NULL, "`batch`: some pictures failed; the messages and the journal name them"},
+    {EXIT_CRASHED, -1, "crashed", "`--isolate`: the process that drew the model ended without an answer"},
     {130, LAM_CANCELLED, "cancelled", "interrupted (Ctrl-C); no partial files remain"},
     {0, -1, NULL, NULL},
 };

@@ -5,7 +5,7 @@
 
 #include <lambent/base.h>
 
-enum { EXIT_DIFFERS = 6 };
+enum { EXIT_DIFFERS = 6, EXIT_SOME_FAILED = 7, EXIT_CRASHED = 8 };
 
 struct exit_code {
     int code;

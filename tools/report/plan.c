@@ -41,30 +41,30 @@ void each_given_option(const struct options *options, option_visit *visit, void 
 // Quoted where a shell would take the value apart.
 static void print_option(void *user, const char *name, const char *value)
 {
-    (void)user;
+    FILE *out = user;
     if (strcmp(name, "dry-run") == 0)
         return;
     const char *quote = value && (!*value || strpbrk(value, " \t\n#;&|<>*?$'\"()[]{}\\!~`")) ? "'" : "";
-    printf(" --%s%s%s%s%s", name, value ? " " : "", quote, value ? value : "", quote);
+    fprintf(out, " --%s%s%s%s%s", name, value ? " " : "", quote, value ? value : "", quote);
 }
 
-void report_plan(const struct job *job)
+void report_plan(FILE *out, const struct job *job)
 {
     const struct options *o = job->options;
     const lam_camera *camera = &job->camera;
     const char *format = lam_scene_format(job->scene);
-    printf("%s\n", strcmp(job->model, "-") == 0 ? "standard input" : job->model);
+    fprintf(out, "%s\n", strcmp(job->model, "-") == 0 ? "standard input" : job->model);
     char items[MODEL_COUNTS_SIZE];
-    printf("  model     %s, %s\n", *format ? format : "shape", model_counts_text(&job->model_counts, items));
-    printf("  picture   %s, %s, %dx%d, %d samples a pixel%s\n",
-           strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->format, o->width, o->height,
-           planned_samples(o), plan_replaces(job) ? "; replaces the file" : "");
+    fprintf(out, "  model     %s, %s\n", *format ? format : "shape", model_counts_text(&job->model_counts, items));
+    fprintf(out, "  picture   %s, %s, %dx%d, %d samples a pixel%s\n",
+            strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->format, o->width, o->height,
+            planned_samples(o), plan_replaces(job) ? "; replaces the file" : "");
     if (o->save_scene)
-        printf("  scene     %s\n", o->save_scene);
-    printf("  camera    eye %.7g %.7g %.7g, target %.7g %.7g %.7g\n", camera->eye.x, camera->eye.y, camera->eye.z,
-           camera->target.x, camera->target.y, camera->target.z);
-    printf("  device    %s\n", lam_device_name(job->device));
-    printf("  options  ");
-    each_given_option(o, print_option, NULL);
-    printf("\n");
+        fprintf(out, "  scene     %s\n", o->save_scene);
+    fprintf(out, "  camera    eye %.7g %.7g %.7g, target %.7g %.7g %.7g\n", camera->eye.x, camera->eye.y, camera->eye.z,
+            camera->target.x, camera->target.y, camera->target.z);
+    fprintf(out, "  device    %s\n", lam_device_name(job->device));
+    fprintf(out, "  options  ");
+    each_given_option(o, print_option, out);
+    fprintf(out, "\n");
 }

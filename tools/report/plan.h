@@ -2,10 +2,12 @@
 #ifndef PLAN_H
 #define PLAN_H
 
+#include <stdio.h>
+
 #include "job.h"
 
-// Prints it on standard output.
-void report_plan(const struct job *job);
+// Prints it.
+void report_plan(FILE *out, const struct job *job);
 
 int planned_samples(const struct options *options); // a pixel
 bool plan_replaces(const struct job *job);          // the picture's file exists

@@ -1,0 +1,513 @@
+# test_batch.py: many models: where they come from, their names, the journal, going on after a failure, a kill, a change.
+import json
+import os
+import pathlib
+import pty
+import random
+import re
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+import urllib.parse
+
+from harness import PROGRAM, Case, read_png
+
+KILLS = int(os.environ.get("LAMBENT_KILLS", "5"))  # of test_kill; `make test-long` has 50
+
+
+def xxh64(data):
+    """XXH64 with the seed 0, written from its specification a second time."""
+    mask, p = (1 << 64) - 1, (0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x85EBCA77C2B2AE63, 0x27D4EB2F165667C5)
+    rotate = lambda x, n: (x << n | x >> (64 - n)) & mask
+    turn = lambda lane, word: rotate(lane + word * p[1] & mask, 31) * p[0] & mask
+    at = 0
+    if len(data) >= 32:
+        lanes = [p[0] + p[1] & mask, p[1], 0, -p[0] & mask]
+        while at + 32 <= len(data):
+            for i in range(4):
+                lanes[i] = turn(lanes[i], int.from_bytes(data[at + 8 * i:at + 8 * i + 8], "little"))
+            at += 32
+        total = sum(rotate(lane, n) for lane, n in zip(lanes, (1, 7, 12, 18))) & mask
+        for lane in lanes:
+            total = ((total ^ turn(0, lane)) * p[0] + p[3]) & mask
+    else:
+        total = p[4]
+    total = total + len(data) & mask
+    for size, factor, bits, times, plus in ((8, None, 27, p[0], p[3]), (4, p[0], 23, p[1], p[2]), (1, p[4], 11, p[0], 0)):
+        while at + size <= len(data):
+            word = int.from_bytes(data[at:at + size], "little")
+            total = rotate(total ^ (turn(0, word) if factor is None else word * factor & mask), bits) * times + plus & mask
+            at += size
+    for shift, factor in ((33, p[1]), (29, p[2]), (32, 1)):
+        total = (total ^ total >> shift) * factor & mask
+    return "xxh64:%016x" % total
+
+
+class Batch(Case):
+    def setUp(self):
+        super().setUp()
+        for name in os.listdir(self.folder):
+            os.remove(self.folder / name)
+
+    def cube(self, path, source="cube.stl"):
+        target = self.folder / path
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes((pathlib.Path(__file__).parents[1] / "models" / source).read_bytes())
+        return target
+
+    def tree(self, count=6):
+        for i in range(count):
+            self.cube(f"in/{'ab'[i % 2]}/m{i}.stl")
+        return [f"in/{'ab'[i % 2]}/m{i}.stl" for i in range(count)]
+
+    def files(self, folder="out"):
+        return {os.path.relpath(os.path.join(path, name), self.folder / folder)
+                for path, _, names in os.walk(self.folder / folder) for name in names}
+
+    def pictures(self, folder="out"):
+        return {name: (self.folder / folder / name).read_bytes() for name in self.files(folder) if name.endswith(".png")}
+
+    def journal(self, path="out/lambent.jsonl"):
+        """The records of pictures of a journal; every line is whole."""
+        lines = [json.loads(line) for line in (self.folder / path).read_text().splitlines()]
+        return [line for line in lines if "output" in line]
+
+    def batch(self, *words, code=0, **more):
+        done = self.run_program("batch", *words, *([] if "--sizes" in words else ["-s", 24]), **more)
+        self.assertEqual(done.returncode, code, done.stderr.decode())
+        return done
+
+
+class Sources(Batch):
+    def test_folders(self):
+        self.tree(4)
+        self.cube("in/a/deep/c.OBJ", "cube.obj")
+        self.cube("in/.hidden/h.stl")
+        self.cube("in/a/.h.stl")
+        (self.folder / "in/a/notes.txt").write_text("no model")
+        (self.folder / "in/a/data.json").write_text("{}")
+        os.symlink("..", self.folder / "in/b/up")  # a circle
+        done = self.batch("in", "-o", "out/{dir}/{stem}.png")
+        self.assertEqual(set(self.pictures()), {"a/m0.png", "b/m1.png", "a/m2.png", "b/m3.png", "a/deep/c.png"})
+        self.assertIn("5 of 5 pictures written", done.stderr.decode())
+        self.assertEqual(done.stdout, b"")
+        self.run_program("batch", "in/a/", self.folder / "in/b", "-s", 24, "-o", "two/{dir}/{stem}.png")
+        self.assertEqual(set(self.pictures("two")), {"m0.png", "m1.png", "m2.png", "m3.png", "deep/c.png"})
+
+    def test_lists(self):
+        names = self.tree(4)
+        (self.folder / "list").write_text("\r\n".join(names[:2]) + "\n\n")
+        (self.folder / "more").write_text(names[3])
+        self.batch("@list", names[2], "--files-from", "more", "-o", "out/")
+        self.assertEqual(set(self.pictures()), {"m0.png", "m1.png", "m2.png", "m3.png"})
+        self.batch("-", "-o", "in2/", stdin="\n".join(names).encode())
+        self.assertEqual(set(self.pictures("in2")), set(self.pictures()))
+        self.good("--files-from", "more", names[0], "-s", 24, "-o", "three/")
+        self.assertEqual(set(self.pictures("three")), {"m0.png", "m3.png"})
+
+    def test_dry_run(self):
+        self.tree(2)
+        done = self.batch("in", "-o", "out/{stem}-{size}.png", "--dry-run")
+        self.assertEqual(done.stdout.decode(), "in/a/m0.stl -> out/m0-24.png\nin/b/m1.stl -> out/m1-24.png\n")
+        done = self.batch("in", "-o", "out/", "--dry-run", "--json")
+        self.assertEqual([json.loads(line) for line in done.stdout.splitlines()],
+                         [{"model": "in/a/m0.stl", "output": "out/m0.png"}, {"model": "in/b/m1.stl", "output": "out/m1.png"}])
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_mistakes(self):
+        self.cube("a/x.stl")
+        self.cube("a/x.obj", "cube.obj")
+        (self.folder / "empty").mkdir()
+        (self.folder / "zero").write_bytes(b"a\0b\n")
+        for words, code, says in ((["a"], 1, ["'a/x.obj' and 'a/x.stl' would both be written to 'x.png'", "{ext}"]),
+                                  ([], 1, "no model given"), (["empty"], 2, "found no model"), (["@none"], 2, "none: cannot read the list"),
+                                  (["@zero"], 2, "zero byte"), (["a/x.stl", "-o", "-"], 1, "pictures are files"),
+                                  (["a/x.stl", "--views", "front,left", "-o", "x.png"], 1, "names one picture"),
+                                  (["a/x.stl", "--views", "front,left", "-o", "{stem}.png"], 1, "needs {view} or {size}"),
+                                  (["a/x.stl", "--views", "front,front"], 1, "a side twice"),
+                                  (["a/x.stl", "--views", "front,side"], 1, "found 'side'"),
+                                  (["a/x.stl", "--sizes", "16,0"], 1, "such as 1024,256x128"),
+                                  (["a/x.stl", "--views", "front", "--azimuth", "3"], 1, "'--views' and '--azimuth'"),
+                                  (["a/x.stl", "--resume", "--skip-same"], 1, "cannot be used together"),
+                                  (["a/x.stl", "--resume", "--journal", "none"], 1, "goes by a journal")):
+            done = self.run_program("batch", *words)
+            self.assertEqual(done.returncode, code, (words, done.stderr))
+            for part in [says] if isinstance(says, str) else says:
+                self.assertIn(part, done.stderr.decode())
+            self.assertEqual(self.files(""), {"a/x.stl", "a/x.obj", "zero"})
+
+
+class Page(Batch):
+    def test_page(self):
+        names = self.tree(3)
+        (self.folder / names[1]).write_bytes(b"")
+        self.cube("in/a/<b>&'\"%.stl")
+        for more in ([], ["--isolate"], ["--resume"]):
+            self.batch("in", "-o", "out/{stem}.png", "--report", "pages/p.html", *more, code=7)
+            page = (self.folder / "pages/p.html").read_text()
+            self.assertLess(page.index("Failed"), page.index("Pictures"))
+            failed, pictures = page.split("<h2>Pictures</h2>")
+            self.assertIn("in/b/m1.stl", failed)
+            self.assertIn("cannot-read", failed)
+            self.assertIn("&lt;b&gt;&amp;", pictures)
+            self.assertNotIn("<b>&", page)
+            self.assertNotIn("<script", page)
+            images = re.findall(r'src="([^"]+)"', page)
+            links = re.findall(r'href="([^"]+)"', page)
+            self.assertEqual((len(images), len(links)), (3, 3))
+            for address in images + links:
+                self.assertTrue((self.folder / "pages" / urllib.parse.unquote(address)).is_file(), address)
+                self.assertFalse(address.startswith("/"))
+            small = [read_png((self.folder / "pages" / urllib.parse.unquote(a)).read_bytes()) for a in images]
+            self.assertEqual({s[:2] for s in small}, {(24, 24)})
+        self.batch("in", "-o", "large/", "--report", "p.html", "--sizes", "400x200,20", code=7)
+        sizes = [read_png(path.read_bytes())[:2] for path in (self.folder / "p-files").iterdir()]
+        self.assertEqual(sorted(set(sizes)), [(20, 20), (160, 80)])
+
+
+class Pictures(Batch):
+    def test_same_bytes_as_alone(self):
+        names = self.tree(7)
+        self.cube("in/a/cube.mtl", "cube.mtl")
+        self.cube("in/a/c.obj", "cube.obj")
+        for jobs in ("1", "3", "64"):
+            shutil.rmtree(self.folder / "out", True)
+            self.batch("in", "-o", "out/", "-j", jobs)
+            together = self.pictures()
+            self.assertEqual(len(together), 8)
+            for name in [*names, "in/a/c.obj"]:
+                self.good(name, "-s", 24, "-o", "alone.png")
+                self.assertEqual((self.folder / "alone.png").read_bytes(), together[pathlib.Path(name).stem + ".png"], (jobs, name))
+        self.good(*names, "-s", 24, "-o", "multi/")
+        self.assertEqual({n: b for n, b in together.items() if n != "c.png"}, self.pictures("multi"))
+        self.batch("in", "-o", "process/", "--isolate")
+        self.assertEqual(self.pictures("process"), together)
+
+    def test_views_and_sizes_of_one_reading(self):
+        self.cube("cube.obj", "cube.obj")
+        self.cube("cube.mtl", "cube.mtl")
+        for look in ([], ["--rotate", "y:30"], ["--light", "point:frame=view,position=1r/2r/3r", "--light-scale", "0.5"], ["--light", "+spot"],
+                     ["--show-lights"], ["--rig", "three-point", "--two-sided"]):
+            done = self.good("cube.obj", "--views", "front,left,iso", "--sizes", "24,40x16", "-o", "out/", *look)
+            self.assertEqual(len(done.stderr.splitlines()) >= 6, True)
+            for view in ("front", "left", "iso"):
+                for size in ("24", "40x16"):
+                    self.good("cube.obj", "--view", view, "-s", size, "-o", "alone.png", *look)
+                    self.assertEqual((self.folder / "alone.png").read_bytes(), (self.folder / f"out/cube-{view}-{size}.png").read_bytes(),
+                                     (look, view, size))
+            shutil.rmtree(self.folder / "out")
+
+    def test_order_of_messages(self):
+        names = self.tree(8)
+        (self.folder / names[3]).write_bytes(b"solid x\nfacet no")
+        done = self.run_program(*names, "-s", 24, "--json", "-j", "4", "-o", "out/")
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual([json.loads(line)["model"]["path"] for line in done.stdout.splitlines()], names)
+
+    def test_failures(self):
+        names = self.tree(4)
+        (self.folder / names[1]).write_bytes(b"")
+        done = self.batch("in", "-o", "out/", code=7)
+        self.assertEqual(set(self.pictures()), {"m0.png", "m2.png", "m3.png"})
+        self.assertIn("3 of 4 pictures written, 1 failed (cannot-read 1)", done.stderr.decode())
+        self.assertIn("in/b/m1.stl", done.stderr.decode())
+        [failed] = [r for r in self.journal() if r["class"] != "ok"]
+        self.assertEqual((failed["class"], failed["exit"], failed["attempt"]), ("cannot-read", 2, 1))
+        self.assertIn("in/b/m1.stl", failed["error"])
+        self.assertEqual(len(self.journal()), 4)
+
+
+class Journal(Batch):
+    def test_lines(self):
+        self.cube("in/cube.obj", "cube.obj")
+        self.cube("in/cube.mtl", "cube.mtl")
+        self.batch("in", "-o", "out/")
+        [record] = self.journal()
+        picture = (self.folder / "out/cube.png").read_bytes()
+        self.assertEqual(record["hash"], xxh64(picture))
+        self.assertEqual(record["files"], [{"path": "in/cube.obj", "hash": xxh64((self.folder / "in/cube.obj").read_bytes())},
+                                           {"path": "in/cube.mtl", "hash": xxh64((self.folder / "in/cube.mtl").read_bytes())}])
+        self.assertEqual((record["model"], record["output"], record["triangles"], record["bytes"], record["width"], record["view"]),
+                         ("in/cube.obj", "out/cube.png", 12, len(picture), 24, "three-quarter"))
+        self.assertEqual(set(record["times_ms"]), {"read", "prepare", "camera", "frame", "encode", "total"})
+        self.assertTrue(all(t >= 0 for t in record["times_ms"].values()) and record["times_ms"]["total"] > 0)
+        self.assertEqual(self.files(), {"cube.png", "lambent.jsonl"})
+
+    def test_where_it_lies(self):
+        self.cube("in/a.stl")
+        for output, words, path in (("out/{dir}/{stem}.png", [], "out/lambent.jsonl"), ("p-{stem}.png", [], "lambent.jsonl"),
+                                    ("two/", ["--journal", "deep/j"], "deep/j"), ("three/", ["--journal", "none"], None)):
+            self.batch("in", "-o", output, *words)
+            if path:
+                self.assertEqual(len(self.journal(path)), 1)
+        self.assertEqual(self.files("three"), {"a.png"})
+        self.good("in/a.stl", "-s", 24, "-o", "four/")
+        self.assertEqual(self.files("four"), {"a.png"})
+        self.good("in/a.stl", "-s", 24, "-o", "four/", "--journal", "four/j")
+        self.assertEqual(len(self.journal("four/j")), 1)
+
+    def test_start_keeps_the_old_one(self):
+        self.cube("in/a.stl")
+        self.batch("in", "-o", "out/")
+        first = (self.folder / "out/lambent.jsonl").read_bytes()
+        self.batch("in", "-o", "out/")
+        self.assertEqual((self.folder / "out/lambent.jsonl.before").read_bytes(), first)
+        self.assertEqual(len(self.journal()), 1)
+        (self.folder / "other").write_text("precious\n")
+        for more in ([], ["--resume"], ["--skip-same"]):
+            done = self.batch("in", "-o", "out/", "--journal", "other", *more, code=1)
+            self.assertIn("expected a journal of lambent", done.stderr.decode())
+        self.assertEqual((self.folder / "other").read_text(), "precious\n")
+
+    def test_resume(self):
+        names = self.tree(6)
+        (self.folder / names[2]).write_bytes(b"")
+        self.batch(*names[:4], "-o", "out/", code=7)
+        before = {name: os.stat(self.folder / "out" / name).st_mtime_ns for name in self.pictures()}
+        with open(self.folder / "out/lambent.jsonl", "a") as journal:
+            journal.write('{"model": "in/a/m0.stl", "output": "out/m0.p')  # torn
+        os.remove(self.folder / "out/m1.png")
+        done = self.batch("in", "-o", "out/", "--resume", code=7)
+        self.assertIn("3 of 6 pictures written, 2 done before, 1 failed", done.stderr.decode())
+        self.assertEqual({n for n in before if n != "m1.png" and os.stat(self.folder / "out" / n).st_mtime_ns != before[n]}, set())
+        shutil.copy(self.folder / names[0], self.folder / names[2])
+        done = self.batch("in", "-o", "out/", "--resume", "--retry-failed", "1")
+        self.assertIn("1 of 6 pictures written, 5 done before", done.stderr.decode())
+        self.assertEqual(len(self.pictures()), 6)
+
+    def test_resume_is_refused(self):
+        self.tree(2)
+        self.batch("in", "-o", "out/")
+        self.assertIn("2 done before", self.batch("in", "-o", "out/", "--resume").stderr.decode())
+        for more, says in ((["--tone", "aces"], "'--tone auto' in the journal, '--tone aces' now"), (["--views", "iso"], "iso 24x24"),
+                           (["--light", "point"], "--light point"), (["--ao", "off"], "--ao off")):
+            done = self.batch("in", "-o", "out/", "--resume", *more, code=1)
+            self.assertIn(says, done.stderr.decode())
+        self.assertEqual(len(self.journal()), 2)
+        self.batch("in", "-o", "out/", "--resume", "--tone", "auto", "-j", "2", "--time-limit", "50")  # the defaults, and what changes nothing
+
+    def test_retries(self):
+        names = self.tree(3)
+        (self.folder / names[1]).write_bytes(b"")
+        done = self.batch("in", "-o", "out/", "--retry-failed", "2", code=7)
+        self.assertEqual([(r["model"], r["attempt"]) for r in self.journal() if r["class"] != "ok"], [(names[1], 1), (names[1], 2), (names[1], 3)])
+        self.assertIn(f"{names[1]}: given up after 3 tries", done.stderr.decode())
+        self.assertIn("2 of 3 pictures written, 1 failed (cannot-read 1)", done.stderr.decode())
+        done = self.batch("in", "-o", "out/", "--retry-failed", "2", "--resume", code=7)
+        self.assertEqual(len(self.journal()), 5)
+
+    def test_one_run_at_a_time(self):
+        self.tree(1)
+        first = subprocess.Popen([PROGRAM, "batch", "in", "-s", "4000", "--samples", "16", "-o", "out/", "-j", "1"], cwd=self.folder,
+                                 stderr=subprocess.DEVNULL)
+        try:
+            until = time.time() + 20
+            while not (self.folder / "out/lambent.jsonl").exists() and time.time() < until:
+                time.sleep(0.005)
+            os.kill(first.pid, signal.SIGSTOP)
+            done = self.batch("in", "-o", "out/", code=1)
+            self.assertIn("in use by another run", done.stderr.decode())
+        finally:
+            os.kill(first.pid, signal.SIGCONT)
+            first.terminate()
+            first.wait()
+
+
+class SkipSame(Batch):
+    def setUp(self):
+        super().setUp()
+        self.cube("in/m.stl")
+        (self.folder / "in/t.obj").write_text("mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n")
+        (self.folder / "in/t.mtl").write_text("newmtl a\nKd 1 1 1\nmap_Kd t.ppm\nmap_Ke later.ppm\n")
+        self.texture(b"\xff\0\0")
+        time.sleep(0.02)  # a file changed within a tick of the clock before its reading has no key
+
+    def texture(self, color, name="t.ppm"):
+        (self.folder / "in" / name).write_bytes(b"P6\n2 2\n255\n" + color * 4)
+
+    def drawn(self, *more, code=0):
+        """The pictures that a run with --skip-same draws."""
+        time.sleep(0.02)
+        before = len(self.journal()) if (self.folder / "out/lambent.jsonl").exists() else 0
+        self.batch("in", "-o", "out/", "--skip-same", *more, code=code)
+        return {r["output"] for r in self.journal()[before:]}
+
+    def test_changes(self):
+        m, t = "out/m.png", "out/t.png"
+        self.assertEqual(self.drawn(), {m, t})
+        self.assertEqual(self.drawn(), set())
+        first = self.pictures()["t.png"]
+        self.texture(b"\0\xff\0")  # only a texture
+        self.assertEqual(self.drawn(), {t})
+        self.assertNotEqual(self.pictures()["t.png"], first)
+        self.texture(b"\0\0\xff", "later.ppm")  # a file that was missing
+        self.assertEqual(self.drawn(), {t})
+        os.utime(self.folder / "in/t.ppm")  # touched, not changed
+        self.assertEqual(self.drawn(), set())
+        self.assertEqual(self.drawn("--tone", "aces"), {m, t})
+        self.assertEqual(self.drawn("--tone", "aces", "--samples", "8"), {m, t})
+        self.assertEqual(self.drawn("--tone", "aces", "--samples", "8", "--ao", "auto", "-j", "1", "-v"), set())  # a default, and what changes no picture
+        shutil.copy(self.folder / t, self.folder / m)  # not the picture that was written
+        self.assertEqual(self.drawn("--tone", "aces", "--samples", "8"), {m})
+        os.remove(self.folder / t)
+        self.assertEqual(self.drawn("--tone", "aces", "--samples", "8"), {t})
+
+    def test_environment_counts(self):
+        (self.folder / "sky.ppm").write_bytes(b"P6\n2 1\n255\nabcdef")
+        words = ["--environment", "sky.ppm", "--reflectivity", "0.5"]
+        self.assertEqual(len(self.drawn(*words)), 2)
+        self.assertEqual(len(self.drawn(*words)), 0)
+        (self.folder / "sky.ppm").write_bytes(b"P6\n2 1\n255\nabcdeg")
+        self.assertEqual(len(self.drawn(*words)), 2)
+
+    def test_failures_are_drawn_again(self):
+        (self.folder / "in/bad.stl").write_bytes(b"")
+        self.assertEqual(len(self.drawn(code=7)), 3)
+        self.assertEqual(self.drawn(code=7), {"out/bad.png"})
+
+
+class Kills(Batch):
+    COUNT = 40
+
+    def setUp(self):
+        super().setUp()
+        random.seed(4)
+        for i in range(self.COUNT):
+            self.cube(f"in/{i:02}.stl")
+        (self.folder / "in/07.stl").write_bytes(b"")
+
+    def words(self, *more):
+        return ["batch", "in", "-s", "300", "-j", "3", "-o", "out/{stem}.png", *more]
+
+    def kill_test(self, *more):
+        self.assertEqual(self.run_program(*self.words(*more)).returncode, 7)
+        expected = self.pictures()
+        self.assertEqual(len(expected), self.COUNT - 1)
+        start = time.time()
+        shutil.rmtree(self.folder / "out")
+        self.run_program(*self.words(*more))
+        whole_s = time.time() - start
+        shutil.rmtree(self.folder / "out")
+        killed = 0
+        for round in range(20 * KILLS):
+            process = subprocess.Popen([PROGRAM, *self.words("--resume", *more)], cwd=self.folder, stderr=subprocess.PIPE)
+            # The first kills come early, so that a run is killed often before it is done; now and then it may start anew.
+            try:
+                process.wait(timeout=random.uniform(0, 3 * whole_s / max(KILLS, 4)))
+            except subprocess.TimeoutExpired:
+                process.send_signal(signal.SIGKILL)
+                killed += 1
+            process.communicate()
+            if process.returncode == 7:  # done: the same again
+                self.check_outputs(expected)
+                shutil.rmtree(self.folder / "out")
+            if killed == KILLS:
+                break
+        self.assertEqual(killed, KILLS)
+        done = self.run_program(*self.words("--resume", *more))
+        self.assertEqual(done.returncode, 7, done.stderr.decode())
+        self.check_outputs(expected)
+
+    def check_outputs(self, expected):
+        self.assertEqual(self.pictures(), expected)
+        self.assertEqual(self.files() - set(expected), {"lambent.jsonl"})  # no temporary file
+        records = []
+        for line in (self.folder / "out/lambent.jsonl").read_text().splitlines():
+            try:
+                record = json.loads(line)
+            except ValueError:
+                continue  # torn by a kill
+            if "output" in record:
+                records.append(record)
+        self.assertEqual(sorted(r["output"] for r in records), sorted(f"out/{i:02}.png" for i in range(self.COUNT)))
+        self.assertEqual([r["output"] for r in records if r["class"] != "ok"], ["out/07.png"])
+
+    def test_kill(self):
+        self.kill_test()
+
+    def test_kill_isolated(self):
+        self.kill_test("--isolate")
+
+    def test_temporary_files_of_a_killed_run(self):
+        """A picture that was being replaced when the process was killed leaves a file, which the next run removes."""
+        process = subprocess.Popen([PROGRAM, *self.words()], cwd=self.folder, stderr=subprocess.DEVNULL)
+        until = time.time() + 20
+        while not self.pictures() and time.time() < until:
+            time.sleep(0.002)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        part, other = f".lambent-{process.pid}-123.part", ".lambent-1-123.part"
+        for name in (part, other):
+            (self.folder / "out" / name).write_bytes(b"half")
+        self.run_program(*self.words("--resume"))
+        self.assertFalse((self.folder / "out" / part).exists())
+        self.assertTrue((self.folder / "out" / other).exists())  # not of this journal's runs
+
+    def test_interrupt(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            for more in ([], ["--isolate"]):
+                process = subprocess.Popen([PROGRAM, "batch", "in", "-s", "3000", "--samples", "16", "-j", "2", "-o", "out/", *more],
+                                           cwd=self.folder, stderr=subprocess.PIPE)
+                time.sleep(0.5)
+                process.send_signal(number)
+                start = time.time()
+                text = process.communicate()[1].decode()
+                self.assertEqual(process.returncode, -number, text)
+                self.assertLess(time.time() - start, 1 if KILLS > 5 else 3)
+                self.assertRegex(text, r"interrupted: \d+ of 40 pictures written")
+                self.assertEqual({n for n in self.files() if not n.endswith(".png")}, {"lambent.jsonl", "lambent.jsonl.running"})
+                shutil.rmtree(self.folder / "out")
+
+
+class Crashes(Batch):
+    def test_a_crash_is_one_failed_line(self):
+        """A process killed while it draws costs its own picture alone."""
+        names = self.tree(2)
+        process = subprocess.Popen([PROGRAM, "batch", *names, "-s", "6000", "--samples", "16", "--isolate", "-j", "2", "-o", "out/"],
+                                   cwd=self.folder, stderr=subprocess.PIPE)
+        child = None
+        until = time.time() + 30
+        while not child and time.time() < until:
+            children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+            child = int(children[0]) if children else None
+        os.kill(child, signal.SIGSEGV)
+        text = process.communicate()[1].decode()
+        self.assertEqual(process.returncode, 7, text)
+        self.assertIn("its process was ended by signal 11 (Segmentation fault)", text)
+        self.assertIn("1 of 2 pictures written, 1 failed (crashed 1)", text)
+        records = self.journal()
+        self.assertEqual(sorted((r["class"], r["exit"]) for r in records), [("crashed", 8), ("ok", 0)])
+        self.assertEqual(len(self.pictures()), 1)
+
+
+class Terminal(Batch):
+    def test_progress(self):
+        names = self.tree(30)
+        for words in (["batch", "in", "-o", "out/"], [*names, "-o", "out/", "--quiet"], [*names, "-o", "out/"]):
+            master, slave = pty.openpty()
+            process = subprocess.Popen([PROGRAM, *words, "-s", "700", "--samples", "16", "-j", "2"], cwd=self.folder, stderr=slave,
+                                       env={**os.environ, "TERM": "xterm", "NO_COLOR": "1"})
+            os.close(slave)
+            text = b""
+            while True:
+                try:
+                    piece = os.read(master, 4096)
+                except OSError:
+                    break
+                if not piece:
+                    break
+                text += piece
+            self.assertEqual(process.wait(), 0)
+            os.close(master)
+            progress = re.findall(rb"\d+ of 30  \d+ %  [\d.e+]+ a second  \d+:\d\d left", text)
+            if "--quiet" in words:
+                self.assertEqual(text, b"")
+            else:
+                self.assertTrue(progress, text)
+                self.assertIn(b"30 of 30 pictures written", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,264 @@
+// batch_isolate.c: a pass over the models with a process for each: what it does is sent back, and if it ends before that, this
+// is what became of its pictures.
+#include "batch_isolate.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "batch_page.h"
+#include "batch_process.h"
+#include "batch_reach.h"
+#include "console.h"
+#include "device_option.h"
+#include "exit_codes.h"
+#include "interrupt.h"
+#include "limit_options.h"
+
+// Milliseconds that a process has beyond --time-limit, and after an interrupt, before it is killed.
+static const double grace_ms = 5000, interrupt_ms = 600;
+
+// --- the process
+
+// What a process sends: this, for each picture a `sent_picture` and its line of the journal, then both texts.
+struct sent {
+    int code, warnings;
+    bool interrupted;
+    size_t out_size, err_size;
+};
+
+struct sent_picture {
+    struct batch_picture picture;
+    char class[24];
+    bool is_new;
+    size_t line_size; // 0: no record
+};
+
+struct work {
+    struct batch *batch;
+    struct batch_unit *unit;
+};
+
+static void draw_here(struct batch *b, struct batch_unit *u)
+{
+    struct options options = *b->options;
+    options.threads = b->threads;
+    options.in_flight = b->workers;
+    lam_error error = {0};
+    lam_device *device =
+        batch_reach_enter(b, b->journal_path, u->model, 1, &error) ? device_option_make(&options, &error) : NULL;
+    if (device)
+        batch_unit_draw(u, b, &options, device, true);
+    else if (asprintf(&u->err, "lambent: %s\n", error.text) >= 0)
+        batch_unit_fail(u, b, exit_code_of(error.code)->name, exit_code_of(error.code)->code, error.text);
+    lam_device_free(device);
+}
+
+static void work(void *user, struct batch_answer *answer)
+{
+    const struct work *w = user;
+    struct batch_unit *u = w->unit;
+    draw_here(w->batch, u);
+    batch_page_thumbnails(w->batch, u);
+    struct sent sent = {u->code, u->warnings, u->interrupted, u->out ? strlen(u->out) : 0, u->err ? strlen(u->err) : 0};
+    bool ok = batch_answer_add(answer, &sent, sizeof sent);
+    for (int i = 0; ok && i < w->batch->plan->view_count; i++) {
+        char *line = u->is_new[i] && u->records[i] ? journal_line(u->records[i]) : NULL;
+        struct sent_picture picture = {
+            .picture = u->pictures[i], .is_new = u->is_new[i], .line_size = line ? strlen(line) : 0};
+        snprintf(picture.class, sizeof picture.class, "%s", u->classes[i] ? u->classes[i] : "");
+        ok = batch_answer_add(answer, &picture, sizeof picture) && batch_answer_add(answer, line, picture.line_size);
+        free(line);
+    }
+    ok = ok && batch_answer_add(answer, u->out, sent.out_size) && batch_answer_add(answer, u->err, sent.err_size);
+    if (!ok)
+        _exit(1);
+}
+
+// --- what it has sent
+
+// The bytes that are still to be read.
+struct rest {
+    const char *at;
+    size_t size;
+};
+
+static bool read_bytes(struct rest *rest, void *to, size_t size)
+{
+    if (rest->size < size)
+        return false;
+    memcpy(to, rest->at, size);
+    rest->at += size;
+    rest->size -= size;
+    return true;
+}
+
+static bool read_text(struct rest *rest, char **to, size_t size)
+{
+    *to = size <= rest->size ? malloc(size + 1) : NULL;
+    if (!*to)
+        return false;
+    (*to)[size] = 0;
+    return read_bytes(rest, *to, size);
+}
+
+// The table's own name of a class.
+static const char *class_name(const char *name)
+{
+    for (const struct exit_code *code = exit_codes; code->meaning; code++)
+        if (code->name && strcmp(code->name, name) == 0)
+            return code->name;
+    return "failed";
+}
+
+// False: the answer is not whole.
+static bool read_answer(struct batch_unit *u, const struct batch *b, const struct batch_answer *answer)
+{
+    struct rest rest = {answer->data, answer->size};
+    struct sent sent;
+    if (!read_bytes(&rest, &sent, sizeof sent))
+        return false;
+    for (int i = 0; i < b->plan->view_count; i++) {
+        struct sent_picture picture;
+        char *line = NULL;
+        if (!read_bytes(&rest, &picture, sizeof picture) || !read_text(&rest, &line, picture.line_size))
+            return false;
+        picture.class[sizeof picture.class - 1] = 0;
+        if (picture.is_new && picture.line_size) {
+            json_decref(u->records[i]);
+            u->records[i] = json_loads(line, 0, NULL);
+        }
+        free(line);
+        u->pictures[i] = picture.picture;
+        u->is_new[i] = picture.is_new;
+        u->classes[i] = class_name(picture.class);
+    }
+    u->code = sent.code;
+    u->warnings = sent.warnings;
+    u->interrupted = sent.interrupted;
+    return read_text(&rest, &u->out, sent.out_size) && read_text(&rest, &u->err, sent.err_size);
+}
+
+// --- this process
+
+static void fail_process(struct batch *b, struct batch_unit *u, const struct batch_process *process, int status)
+{
+    const char *model = b->plan->models[u->model].path;
+    lam_error error;
+    bool crashed = !process->stopped;
+    if (process->stopped)
+        complain(&error, LAM_LIMIT, "%.400s: the time limit of %.10g s was reached", model, limits_time(b->options));
+    else if (WIFSIGNALED(status))
+        complain(&error, LAM_LIMIT, "%.400s: its process was ended by signal %d (%s)", model, WTERMSIG(status),
+                 strsignal(WTERMSIG(status)));
+    else
+        complain(&error, LAM_LIMIT, "%.400s: its process ended without an answer (%d)", model, WEXITSTATUS(status));
+    free(u->out);
+    free(u->err);
+    u->out = u->err = NULL;
+    if (asprintf(&u->err, "lambent: %s\n", error.text) < 0)
+        u->err = NULL;
+    const char *class = crashed ? "crashed" : exit_code_of(LAM_LIMIT)->name;
+    batch_unit_fail(u, b, class, crashed ? EXIT_CRASHED : exit_code_of(LAM_LIMIT)->code, error.text);
+}
+
+static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_process *process, int status)
+{
+    struct batch_picture *before = malloc((size_t)b->plan->view_count * sizeof *before);
+    if (before)
+        memcpy(before, u->pictures, (size_t)b->plan->view_count * sizeof *before);
+    bool whole = WIFEXITED(status) && WEXITSTATUS(status) == 0 && read_answer(u, b, &process->answer);
+    if (!whole) {
+        if (before)
+            memcpy(u->pictures, before, (size_t)b->plan->view_count * sizeof *before);
+        batch_remove_parts(b, u->model, process->pid);
+        if (!interrupted())
+            fail_process(b, u, process, status);
+    }
+    free(before);
+    batch_deliver(b, u);
+    batch_unit_free(u, b);
+    batch_process_free(process);
+}
+
+// Gives the next model to a process. False: there is no more.
+static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_process *process, int slot)
+{
+    size_t model;
+    lam_error error = {0};
+    while (batch_take(b, &model)) {
+        if (!batch_unit_start(u, b, model, &error)) {
+            batch_stop(b, &error);
+            return false;
+        }
+        struct work w = {b, u};
+        const char *path = b->plan->models[model].path;
+        bool open = batch_unit_look(u, b);
+        fflush(stdout);
+        if (open && batch_process_start(process, work, &w)) {
+            if (limits_time(b->options) > 0)
+                process->stop_ms = clock_ms() + limits_time(b->options) * 1e3 * b->plan->view_count + grace_ms;
+            if (b->journal)
+                journal_begin(b->journal, slot, process->pid, path);
+            return true;
+        }
+        if (open) {
+            complain(&error, LAM_LIMIT, "%.400s: cannot start a process: %s", path, strerror(errno));
+            if (asprintf(&u->err, "lambent: %s\n", error.text) < 0)
+                u->err = NULL;
+            batch_unit_fail(u, b, exit_code_of(LAM_LIMIT)->name, exit_code_of(LAM_LIMIT)->code, error.text);
+        }
+        batch_page_thumbnails(b, u);
+        batch_deliver(b, u);
+        batch_unit_free(u, b);
+    }
+    return false;
+}
+
+// An interrupt goes on to the processes; what does not end soon is killed.
+static void end_processes(struct batch_process *processes, int count, double *since_ms)
+{
+    if (!interrupted())
+        return;
+    bool first = *since_ms == 0;
+    *since_ms = first ? clock_ms() : *since_ms;
+    bool late = clock_ms() - *since_ms > interrupt_ms;
+    for (int i = 0; i < count; i++)
+        if (processes[i].pid > 0 && (first || late))
+            kill(processes[i].pid, late ? SIGKILL : SIGTERM);
+}
+
+void batch_isolate(struct batch *b)
+{
+    struct batch_unit *units = calloc((size_t)b->workers, sizeof *units);
+    struct batch_process *processes = calloc((size_t)b->workers, sizeof *processes);
+    lam_error error;
+    if (!units || !processes) {
+        complain(&error, LAM_LIMIT, "out of memory");
+        batch_stop(b, &error);
+    }
+    int running = 0;
+    double since_ms = 0;
+    for (bool more = units && processes; more || running;) {
+        for (int i = 0; more && i < b->workers; i++)
+            if (processes[i].pid == 0) {
+                more = fill_slot(b, &units[i], &processes[i], i);
+                running += more;
+            }
+        if (!running)
+            break;
+        end_processes(processes, b->workers, &since_ms);
+        int status, ended = batch_process_wait(processes, b->workers, 100, &status);
+        batch_show_progress(&b->tally);
+        if (ended < 0)
+            continue;
+        finish_slot(b, &units[ended], &processes[ended], status);
+        running--;
+    }
+    free(units);
+    free(processes);
+}

@@ -1,0 +1,369 @@
+// batch_item.c: draws one model, and records what became of its pictures.
+#include "batch_item.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+#include "batch_key.h"
+#include "console.h"
+#include "exit_codes.h"
+#include "journal.h"
+#include "limit_options.h"
+#include "output.h"
+#include "plan.h"
+#include "report.h"
+#include "sandbox_start.h"
+#include "xxh64.h"
+
+// --- messages
+
+// Prints each warning once; returns how many there are.
+static int print_warnings(const struct job *job, bool print)
+{
+    int count = 0;
+    for (int i = 0; job->scene && lam_scene_warning(job->scene, i); i++) {
+        const char *text = lam_scene_warning(job->scene, i);
+        bool printed = false;
+        for (int k = 0; k < i && !printed; k++)
+            printed = strcmp(lam_scene_warning(job->scene, k), text) == 0;
+        count += !printed;
+        if (!printed && print)
+            say_warning(text);
+    }
+    return count;
+}
+
+static const char nothing_seen[] = "the picture shows no part of the model";
+
+static bool sees_nothing(const struct job *job) { return job->written && !job->times.frame.pixels_covered; }
+
+// True if a sentence begins with the name, in which it shows control characters as '?'.
+static bool names(const char *sentence, const char *name)
+{
+    for (; *name; name++, sentence++) {
+        bool control = (unsigned char)*name < 32 || *name == 127;
+        if (*sentence != (control ? '?' : *name))
+            return false;
+    }
+    return *sentence == ':';
+}
+
+// Puts the model's name before a sentence of the library that lacks it, and the user's limit in place of the remaining
+// one.
+static void name_model(const struct job *job, lam_error *error)
+{
+    const struct options *o = job->options;
+    const char *name = strcmp(job->model, "-") == 0 ? "standard input" : job->model;
+    if (error->code == LAM_LIMIT && limits_time(o) > 0 && clock_ms() - job->times.start >= limits_time(o) * 1e3) {
+        complain(error, LAM_LIMIT, "%s: the time limit of %.10g s was reached (--time-limit)", name, limits_time(o));
+    } else if (error->code == LAM_CANCELLED) {
+        complain(error, LAM_CANCELLED, "%s: interrupted", name);
+    } else if (error->code != LAM_CANNOT_WRITE && !names(error->text, name) &&
+               !(job->output && strstr(error->text, job->output) == error->text)) {
+        lam_error plain = *error;
+        complain(error, plain.code, "%.200s: %.300s", name, plain.text);
+    }
+}
+
+// --- records
+
+// The files of a model and their hashes.
+struct files {
+    int count;
+    char (*hashes)[XXH64_TEXT];
+    const char **texts; // of the hashes
+    bool changed;       // since the model was read: their hashes say nothing about the picture
+};
+
+// Whether a file may have changed after `start`, a time of the clock that file systems use.
+static bool changed_since(const char *path, const struct timespec *start)
+{
+    struct stat about;
+    if (stat(path, &about) != 0)
+        return errno != ENOENT && errno != ENOTDIR;
+    return about.st_ctim.tv_sec > start->tv_sec ||
+           (about.st_ctim.tv_sec == start->tv_sec && about.st_ctim.tv_nsec >= start->tv_nsec);
+}
+
+static bool hash_files(const struct job *job, const struct timespec *start, struct files *files)
+{
+    while (lam_scene_file(job->scene, files->count))
+        files->count++;
+    files->hashes = calloc((size_t)files->count + 1, sizeof *files->hashes);
+    files->texts = calloc((size_t)files->count + 1, sizeof *files->texts);
+    if (!files->hashes || !files->texts)
+        return false;
+    for (int i = 0; i < files->count; i++) {
+        uint64_t hash;
+        const char *path = lam_scene_file(job->scene, i);
+        files->texts[i] = files->hashes[i];
+        if (xxh64_file(path, &hash))
+            xxh64_print(hash, files->hashes[i]);
+        else
+            snprintf(files->hashes[i], XXH64_TEXT, "absent");
+        files->changed |= changed_since(path, start);
+    }
+    return true;
+}
+
+static void set(json_t *record, const char *key, json_t *value) { json_object_set_new(record, key, value); }
+
+static void set_text(json_t *record, const char *key, const char *text)
+{
+    char *clean = text ? journal_text(text) : NULL;
+    set(record, key, clean ? json_string(clean) : json_null());
+    free(clean);
+}
+
+static void set_ms(json_t *record, const char *key, double ms)
+{
+    set(record, key, json_real((double)(int64_t)(ms * 1e3 + 0.5) / 1e3));
+}
+
+static json_t *start_record(const struct batch_item *item, int view, const char *class, int exit, const char *error)
+{
+    const struct job_view *v = &item->views[view];
+    json_t *record = json_object();
+    set_text(record, "model", item->model);
+    set_text(record, "output", item->outputs[view]);
+    set_text(record, "view", lam_side_name((lam_side)(v->side >= 0 ? v->side : item->options->view)));
+    set_text(record, "class", class);
+    set(record, "exit", json_integer(exit));
+    set_text(record, "error", error);
+    set(record, "attempt", json_integer(item->attempts[view]));
+    return record;
+}
+
+json_t *batch_record_failed(const struct batch_item *item, int view, const char *name, int exit, const char *text)
+{
+    return start_record(item, view, name, exit, text);
+}
+
+static json_t *warnings_of(const struct job *job)
+{
+    json_t *list = json_array();
+    for (int i = 0; job->scene && lam_scene_warning(job->scene, i); i++) {
+        char *clean = journal_text(lam_scene_warning(job->scene, i));
+        json_array_append_new(list, json_string(clean ? clean : ""));
+        free(clean);
+    }
+    if (sees_nothing(job))
+        json_array_append_new(list, json_string(nothing_seen));
+    return list;
+}
+
+static json_t *times_of(const struct job_times *times)
+{
+    json_t *record = json_object();
+    set_ms(record, "read", times->read);
+    set_ms(record, "prepare", times->prepare);
+    set_ms(record, "camera", times->camera);
+    set_ms(record, "frame", times->frame.total_ms);
+    set_ms(record, "encode", times->encode);
+    set_ms(record, "total", times->total);
+    return record;
+}
+
+// The picture's hash, the files that were read, and the key.
+static void add_key(json_t *record, const struct batch_item *item, int view, const struct job *job,
+                    const struct files *files)
+{
+    char text[XXH64_TEXT];
+    uint64_t hash;
+    const char *format = lam_scene_format(job->scene);
+    if (xxh64_file(job->output, &hash)) {
+        xxh64_print(hash, text);
+        set_text(record, "hash", text);
+    }
+    json_t *list = json_array();
+    for (int i = 0; i < files->count; i++) {
+        json_t *file = json_object();
+        set_text(file, "path", lam_scene_file(job->scene, i));
+        set_text(file, "hash", files->texts[i]);
+        json_array_append_new(list, file);
+    }
+    set(record, "files", list);
+    set_text(record, "format", *format ? format : "shape");
+    if (files->changed || strcmp(item->model, "-") == 0)
+        return; // without a key, the picture is never taken for the same
+    const struct job_view *v = &item->views[view];
+    struct batch_key_parts parts = {.options = item->options_text,
+                                    .parsed = item->options,
+                                    .model = item->model,
+                                    .format = format,
+                                    .picture = job->format,
+                                    .side = v->side,
+                                    .width = v->width,
+                                    .height = v->height,
+                                    .files = files->texts,
+                                    .file_count = files->count};
+    xxh64_print(batch_key(&parts), text);
+    set_text(record, "key", text);
+}
+
+static json_t *record_of(const struct batch_item *item, int view, const struct job *job, const lam_error *error,
+                         const struct files *files)
+{
+    const struct exit_code *code = exit_code_of(error->code);
+    json_t *record = start_record(item, view, code->name, code->code, error->code ? error->text : NULL);
+    if (job->scene) {
+        set(record, "triangles", json_integer((json_int_t)job->model_counts.triangles));
+        set(record, "lines", json_integer((json_int_t)job->model_counts.lines));
+        set(record, "points", json_integer((json_int_t)job->model_counts.points));
+    }
+    char sandbox[SANDBOX_TEXT_SIZE];
+    set_text(record, "sandbox", sandbox_text(sandbox_active(), sandbox));
+    set(record, "warnings", warnings_of(job));
+    set(record, "times_ms", times_of(&job->times));
+    if (job->written) {
+        set(record, "width", json_integer(job->image.width));
+        set(record, "height", json_integer(job->image.height));
+        set(record, "bytes", json_integer((json_int_t)job->bytes));
+        add_key(record, item, view, job, files);
+    }
+    return record;
+}
+
+// --- drawing
+
+// The state of one reading of a model.
+struct reading {
+    const struct batch_item *item;
+    const struct batch_artist *artist;
+    struct batch_result *result;
+    struct timespec start; // of the clock that file systems use
+    struct files files;
+    bool hashed;
+};
+
+// Prints and records what became of a picture.
+static void finish_picture(struct reading *r, struct job *job, int view, bool ok, lam_error *error)
+{
+    const struct options *o = r->item->options;
+    FILE *stream = report_stream(o);
+    bool may_talk = stream != stderr;
+    job->times.total = clock_ms() - job->times.start;
+    if (!ok)
+        name_model(job, error);
+    bool talks = !o->quiet && may_talk && r->artist->is_talkative;
+    if (view == 0 || !job->views)
+        r->result->warnings += print_warnings(job, talks);
+    if (sees_nothing(job)) {
+        r->result->warnings++;
+        if (talks)
+            say_warning(nothing_seen);
+    }
+    if (!ok && may_talk)
+        say_error(error->text);
+    if (ok && o->dry_run && !stream && !o->quiet)
+        report_plan(r->artist->out, job);
+    else if (ok && o->verbose && may_talk && !o->dry_run)
+        report_table(job);
+    else if (ok && talks && !stream && !o->dry_run)
+        report_line(job);
+    if (stream)
+        report_json(stream == stdout ? r->artist->out : stream, job, error);
+    const struct exit_code *code = exit_code_of(error->code);
+    r->result->code = code->code > r->result->code ? code->code : r->result->code;
+    r->result->interrupted |= error->code == LAM_CANCELLED;
+    r->result->outcomes[view].class = code->name;
+    r->result->outcomes[view].kind = ok                             ? BATCH_WRITTEN
+                                     : error->code == LAM_CANCELLED ? BATCH_INTERRUPTED
+                                                                    : BATCH_FAILED;
+    if (!r->item->options_text || error->code == LAM_CANCELLED)
+        return;
+    if (job->written && !r->hashed) {
+        r->hashed = true;
+        r->files.changed |= !hash_files(job, &r->start, &r->files);
+    }
+    r->result->records[view] = record_of(r->item, view, job, error, &r->files);
+}
+
+static void run_views(struct reading *r, struct job *job, struct progress *progress)
+{
+    lam_error error = {0};
+    bool read = job_load(job, progress, &error) && job_arrange(job, progress, &error);
+    for (int i = 0; i < job->view_count; i++) {
+        job->output = r->item->outputs[i];
+        bool ok = read && job_run_view(job, i, progress, &error);
+        progress_end(progress);
+        finish_picture(r, job, i, ok, &error);
+        lam_image_free(&job->image);
+        if (read)
+            error = (lam_error){0};
+        job->times.start = clock_ms();
+        job->times.read = job->times.prepare = job->times.camera = 0;
+    }
+}
+
+static void draw(struct reading *r)
+{
+    const struct batch_item *item = r->item;
+    struct job_view views[VIEWS_MAX * VIEWS_MAX];
+    struct options own = *item->options; // sizes of the command line are given like --size
+    own.has_size |= own.size_count > 0;
+    struct job job = {
+        .options = item->several ? &own : item->options, .model = item->model, .device = r->artist->device};
+    job.times.start = clock_ms();
+    clock_gettime(CLOCK_REALTIME_COARSE, &r->start);
+    struct progress progress;
+    progress_start(&progress, item->model,
+                   console_is_terminal() && r->artist->has_bar && !own.quiet && report_stream(&own) != stderr);
+    if (item->several) {
+        memcpy(views, item->views, (size_t)item->view_count * sizeof *views);
+        job.views = views;
+        job.view_count = item->view_count;
+        run_views(r, &job, &progress);
+    } else {
+        lam_error error = {0};
+        job.output = item->outputs[0];
+        bool ok = job_run(&job, &progress, &error);
+        progress_end(&progress);
+        finish_picture(r, &job, 0, ok, &error);
+    }
+    job_free(&job);
+    free(r->files.hashes);
+    free(r->files.texts);
+}
+
+void batch_draw(const struct batch_item *item, const struct batch_artist *artist, struct batch_result *result)
+{
+    *result = (struct batch_result){.record_count = item->view_count,
+                                    .records = calloc((size_t)item->view_count, sizeof *result->records),
+                                    .outcomes = calloc((size_t)item->view_count, sizeof *result->outcomes)};
+    if (!result->records || !result->outcomes) {
+        say_error("out of memory");
+        result->code = exit_code_of(LAM_LIMIT)->code;
+        result->record_count = 0;
+        return;
+    }
+    // Markers of lights are objects of the scene, and belong to one camera: each picture reads the model itself.
+    int together = item->options->show_lights ? 1 : item->view_count;
+    for (int i = 0; i < item->view_count; i += together) {
+        struct batch_item part = *item;
+        struct batch_result own = *result;
+        part.views += i;
+        part.outputs += i;
+        part.attempts += i;
+        part.view_count = together;
+        own.records += i;
+        own.outcomes += i;
+        struct reading reading = {.item = &part, .artist = artist, .result = &own};
+        draw(&reading);
+        own.records = result->records;
+        own.outcomes = result->outcomes;
+        *result = own;
+    }
+}
+
+void batch_result_free(struct batch_result *result)
+{
+    for (int i = 0; result->records && i < result->record_count; i++)
+        json_decref(result->records[i]);
+    free(result->records);
+    free(result->outcomes);
+    *result = (struct batch_result){0};
+}

@@ -1,0 +1,51 @@
+// batch_item.h: draws one model: all of its pictures, with the messages and the records of what became of them.
+#ifndef BATCH_ITEM_H
+#define BATCH_ITEM_H
+
+#include <jansson.h>
+#include <stdio.h>
+
+#include "job.h"
+
+// A model to draw.
+struct batch_item {
+    const struct options *options;
+    const char *options_text; // batch_options_text, for the keys; NULL: no records are wanted
+    const char *model;
+    const struct job_view *views; // its pictures
+    char *const *outputs;         // and their paths
+    const int *attempts;          // which try each of them is, from 1
+    int view_count;
+    bool several; // of the command line: views or sizes, which are not the options' own
+};
+
+// Who draws it.
+struct batch_artist {
+    lam_device *device;
+    FILE *out;         // for reports
+    bool has_bar;      // a progress bar on the terminal
+    bool is_talkative; // lines for each picture and warnings; errors are always told
+};
+
+struct batch_outcome {
+    enum { BATCH_INTERRUPTED, BATCH_WRITTEN, BATCH_FAILED } kind;
+    const char *class; // the name of its exit code
+};
+
+struct batch_result {
+    struct batch_outcome *outcomes; // of each picture
+    json_t **records;               // of each picture; NULL: none are wanted, or it was interrupted
+    int record_count;
+    int warnings;
+    int code; // the highest exit code
+    bool interrupted;
+};
+
+// Draws the model. Errors become messages and records. The caller frees the result.
+void batch_draw(const struct batch_item *item, const struct batch_artist *artist, struct batch_result *result);
+void batch_result_free(struct batch_result *result);
+
+// The record of a picture that failed without a report of its own.
+json_t *batch_record_failed(const struct batch_item *item, int view, const char *name, int exit, const char *text);
+
+#endif

@@ -1,0 +1,178 @@
+// batch_key.c: what a picture depends on.
+#include "batch_key.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "console.h"
+#include "environment_option.h"
+#include "json.h"
+#include "xxh64.h"
+
+// Options outside of the groups of the picture that change it, and options of those groups that do not; sides and sizes
+// belong to each picture.
+static const char *const also[] = {"files-inside", "device", "gl-device", NULL}, *const without[] = {
+                                                                                     "output", "save-scene", "size",
+                                                                                     "view", NULL};
+
+static bool is_in(const char *const *names, const char *name)
+{
+    while (*names && strcmp(*names, name) != 0)
+        names++;
+    return *names;
+}
+
+static bool changes_picture(const struct option *option)
+{
+    bool group = option->group == GROUP_PICTURE || option->group == GROUP_MODEL || option->group == GROUP_VIEW ||
+                 option->group == GROUP_LIGHTS || option->group == GROUP_MATERIALS || option->group == GROUP_SHADING;
+    return is_in(also, option->name) || (group && !is_in(without, option->name));
+}
+
+static bool is_texts(const struct option *option)
+{
+    return option->store == store_light || option->store == store_material || option->store == store_rotation;
+}
+
+static bool is_integer(const struct option *option)
+{
+    return option->store == store_word || option->store == store_words || option->store == store_up ||
+           option->store == store_integer;
+}
+
+static void print_number(FILE *out, double value)
+{
+    char text[32];
+    shortest_number(value, text);
+    fputs(text, out);
+}
+
+// A word by its name; a number as it is.
+static void print_word(FILE *out, const struct option *option, int value)
+{
+    const struct word *word = option->words;
+    while (word && word->name && word->value != value)
+        word++;
+    if (word && word->name)
+        fputs(word->name, out);
+    else
+        fprintf(out, "%d", value);
+}
+
+static void print_value(FILE *out, const struct option *option, const struct options *o)
+{
+    const void *field = (const char *)o + option->field;
+    const lam_rgb *color = field;
+    if (option->store == store_switch || option->store == store_word_flag)
+        fputs(*(const bool *)field ? "on" : "off", out);
+    else if (is_integer(option))
+        print_word(out, option, *(const int *)field);
+    else if (option->store == store_number)
+        print_number(out, *(const double *)field);
+    else if (option->store == store_float || option->store == store_cutoff)
+        fprintf(out, "%.9g", (double)*(const float *)field);
+    else if (option->store == store_exposure)
+        fprintf(out, "%d/%.17g", o->exposure_kind, o->exposure);
+    else if (option->store == store_segments)
+        fprintf(out, "%dx%d", o->slices, o->stacks);
+    else if (option->store == store_reflectivity)
+        fprintf(out, "%.9g/%.9g/%.9g", (double)color->r, (double)color->g, (double)color->b);
+    else if (is_texts(option))
+        for (int i = 0; i < ((const struct texts *)field)->count; i++)
+            fprintf(out, "%s%s", i ? " | " : "", ((const struct texts *)field)->items[i]);
+    else if (o->values[option - option_table]) // all others keep their text
+        fputs(o->values[option - option_table], out);
+}
+
+// The hashes of the environment's files, which are read once and count for every model.
+static bool print_environment(FILE *out, const struct options *o, lam_error *error)
+{
+    const char *paths[LAM_FACE_COUNT] = {o->environment};
+    if (!o->environment || environment_option_built_in(o->environment))
+        return true;
+    char *names = strchr(o->environment, ',') ? environment_option_faces(o->environment, paths, error) : NULL;
+    if (!names && strchr(o->environment, ','))
+        return false;
+    bool ok = true;
+    for (int i = 0; ok && i < (names ? LAM_FACE_COUNT : 1); i++) {
+        uint64_t hash;
+        char text[XXH64_TEXT];
+        ok = xxh64_file(paths[i], &hash) ||
+             complain(error, LAM_CANNOT_READ, "%s: cannot open: %s", paths[i], strerror(errno));
+        if (ok) {
+            xxh64_print(hash, text);
+            fprintf(out, "%s%s", i ? "," : " ", text);
+        }
+    }
+    free(names);
+    return ok;
+}
+
+char *batch_options_text(const struct options *o, lam_error *error)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    bool ok = out || complain(error, LAM_LIMIT, "out of memory");
+    for (const struct option *option = option_table; ok && option->name; option++) {
+        if (!changes_picture(option) || (option->has_field && option->store != store_switch &&
+                                         !*(const bool *)((const char *)o + option->has_field)))
+            continue;
+        fprintf(out, "%s=", option->name);
+        print_value(out, option, o);
+        if (strcmp(option->name, "environment") == 0)
+            ok = print_environment(out, o, error);
+        putc('\n', out);
+    }
+    if (out && fclose(out) != 0 && ok)
+        ok = complain(error, LAM_LIMIT, "out of memory");
+    if (ok)
+        return text;
+    free(text);
+    return NULL;
+}
+
+// A line as an option is typed.
+static int typed(const char *line, char *text, size_t size)
+{
+    int length = (int)strcspn(line, "\n"), name = (int)strcspn(line, "=\n");
+    int value = length > name ? length - name - 1 : 0;
+    return snprintf(text, size, "--%.*s %.*s", name < 40 ? name : 40, line, value < 80 ? value : 80,
+                    line + length - value);
+}
+
+void batch_options_difference(const char *then, const char *now, char text[300])
+{
+    while (*then && *now && strcspn(then, "\n") == strcspn(now, "\n") && memcmp(then, now, strcspn(then, "\n")) == 0) {
+        then += strcspn(then, "\n") + (then[strcspn(then, "\n")] == '\n');
+        now += strcspn(now, "\n") + (now[strcspn(now, "\n")] == '\n');
+    }
+    char old[140] = "", new[140] = "";
+    typed(then, old, sizeof old);
+    typed(now, new, sizeof new);
+    snprintf(text, 300, "'%s' in the journal, '%s' now", *then ? old : "nothing", *now ? new : "nothing");
+}
+
+uint64_t batch_key(const struct batch_key_parts *p)
+{
+    struct xxh64 hash;
+    char numbers[100];
+    xxh64_start(&hash);
+    xxh64_add_text(&hash, lam_version());
+    xxh64_add_text(&hash, lam_build_info());
+    xxh64_add_text(&hash, p->options);
+    // A scene file's own settings count where the command line has none: there it matters what was typed.
+    for (int i = 0; strcmp(p->format, "scene") == 0 && option_table[i].name; i++)
+        if (p->parsed->given[i] && changes_picture(&option_table[i]))
+            xxh64_add_text(&hash, option_table[i].name);
+    xxh64_add_text(&hash, p->file_count ? NULL : p->model);
+    xxh64_add_text(&hash, p->picture);
+    snprintf(numbers, sizeof numbers, "%d %dx%d", p->side >= 0 ? p->side : p->parsed->view, p->width, p->height);
+    xxh64_add_text(&hash, numbers);
+    for (int i = 0; i < p->file_count; i++)
+        xxh64_add_text(&hash, p->files[i]);
+    return xxh64_end(&hash);
+}

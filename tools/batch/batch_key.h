@@ -1,0 +1,27 @@
+// batch_key.h: what a picture depends on: the options with their defaults, the program's version, the contents of files.
+#ifndef BATCH_KEY_H
+#define BATCH_KEY_H
+
+#include "options.h"
+
+// The options that a picture depends on, one `name=value` on each line, whether given or by default, without side and size;
+// files that they name stand with their hash. From malloc; NULL: see `error` (LAM_CANNOT_READ: such a file).
+char *batch_options_text(const struct options *options, lam_error *error);
+
+// The options of both texts that differ first, as "--size 512 … --size 256": for a sentence. The texts differ.
+void batch_options_difference(const char *then, const char *now, char text[300]);
+
+// What the key of one picture is made of.
+struct batch_key_parts {
+    const char *options;          // batch_options_text
+    const struct options *parsed; // the same, for scene files: which options were given
+    const char *model;            // counts where no file was read: a built-in shape
+    const char *format;           // of the model: lam_scene_format
+    const char *picture;          // the ending of the picture's name
+    int side, width, height;
+    const char *const *files; // hashes of the files, or "absent"
+    int file_count;
+};
+uint64_t batch_key(const struct batch_key_parts *parts);
+
+#endif

@@ -1,0 +1,210 @@
+// batch_page.c: --report: one HTML file without scripts, failures first, with thumbnails in a folder beside it.
+#include "batch_page.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "console.h"
+#include "html.h"
+#include "output.h"
+#include "xxh64.h"
+
+enum { THUMBNAIL = 160 }; // pixels of the longer side
+
+// --- thumbnails
+
+// The file of a picture's thumbnail, from malloc: "page-files/0123456789abcdef.png" for "page.html".
+static char *thumbnail_path(const char *page, const char *output)
+{
+    struct xxh64 hash;
+    const char *slash = strrchr(page, '/'), *dot = strrchr(slash ? slash : page, '.');
+    char *path = NULL;
+    xxh64_start(&hash);
+    xxh64_add_text(&hash, output);
+    int stem = (int)(dot ? (size_t)(dot - page) : strlen(page));
+    return asprintf(&path, "%.*s-files/%016llx.png", stem, page, (unsigned long long)xxh64_end(&hash)) < 0 ? NULL
+                                                                                                           : path;
+}
+
+static unsigned char encode(double linear)
+{
+    double x = linear <= 0 ? 0 : linear >= 1 ? 1 : linear;
+    return (unsigned char)((x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055) * 255 + 0.5);
+}
+
+// Averages the pixels under each pixel of the smaller picture: linear light, premultiplied by alpha.
+static void shrink(const lam_image *from, const lam_image *to)
+{
+    for (int y = 0; y < to->height; y++)
+        for (int x = 0; x < to->width; x++) {
+            int left = (int)((int64_t)x * from->width / to->width),
+                right = (int)((int64_t)(x + 1) * from->width / to->width);
+            int top = (int)((int64_t)y * from->height / to->height),
+                bottom = (int)((int64_t)(y + 1) * from->height / to->height);
+            double sum[4] = {0};
+            for (int v = top; v < bottom; v++)
+                for (int u = left; u < right; u++)
+                    for (int c = 0; c < 4; c++)
+                        sum[c] +=
+                            (double)((const float *)
+                                         from->pixels)[4 * ((size_t)v * (size_t)from->width + (size_t)u) + (size_t)c];
+            unsigned char *pixel = (unsigned char *)to->pixels + 4 * ((size_t)y * (size_t)to->width + (size_t)x);
+            double alpha = sum[3] / ((double)(right - left) * (bottom - top));
+            for (int c = 0; c < 3; c++)
+                pixel[c] = encode(sum[3] > 0 ? sum[c] / sum[3] : 0);
+            pixel[3] = (unsigned char)((alpha < 1 ? alpha : 1) * 255 + 0.5);
+        }
+}
+
+static bool make_thumbnail(const char *output, const char *thumbnail)
+{
+    lam_image picture = {0}, small = {0};
+    lam_error error;
+    if (!lam_image_load_linear(&picture, output, LAM_COLOR_SRGB, NULL, &error))
+        return false;
+    int longer = picture.width > picture.height ? picture.width : picture.height,
+        most = longer < THUMBNAIL ? longer : THUMBNAIL;
+    int width = (int)((int64_t)picture.width * most / longer), height = (int)((int64_t)picture.height * most / longer);
+    bool ok = lam_image_make(&small, width ? width : 1, height ? height : 1, LAM_RGBA8, &error);
+    if (ok)
+        shrink(&picture, &small);
+    lam_save_params params = {.threads = 1};
+    ok = ok && output_make_folder(thumbnail, &error) && lam_image_save(&small, thumbnail, &params, &error);
+    lam_image_free(&picture);
+    lam_image_free(&small);
+    return ok;
+}
+
+static bool has_picture(const struct batch_picture *picture)
+{
+    return picture->outcome == PICTURE_WRITTEN || picture->outcome == PICTURE_SAME ||
+           picture->outcome == PICTURE_BEFORE;
+}
+
+void batch_page_thumbnails(const struct batch *b, const struct batch_unit *u)
+{
+    struct stat found;
+    for (int i = 0; b->options->report_page && i < b->plan->view_count; i++) {
+        char *thumbnail = has_picture(&u->pictures[i]) ? thumbnail_path(b->options->report_page, u->outputs[i]) : NULL;
+        if (thumbnail && (u->pictures[i].outcome == PICTURE_WRITTEN || stat(thumbnail, &found) != 0))
+            make_thumbnail(u->outputs[i], thumbnail);
+        free(thumbnail);
+    }
+}
+
+// --- the page
+
+static const char head[] =
+    "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+    "content=\"width=device-width\">\n"
+    "<title>%s</title>\n<style>\n"
+    "body { font: 14px/1.4 system-ui, sans-serif; margin: 2em; color: #222; background: #fff }\n"
+    "h1 { font-size: 1.4em } h2 { font-size: 1.1em; margin-top: 2em }\n"
+    "li { margin: .4em 0 } .bad { color: #b00020 } small, .about { color: #666 }\n"
+    ".sheet { display: grid; grid-template-columns: repeat(auto-fill, 176px); gap: 16px }\n"
+    "figure { margin: 0 } figcaption { overflow-wrap: anywhere; font-size: 12px }\n"
+    ".thumb { display: flex; width: 176px; height: 176px; align-items: center; justify-content: center;\n"
+    "  background: #f2f2f2; border-radius: 4px }\n"
+    "</style>\n";
+
+static const char *text_of(const json_t *record, const char *key)
+{
+    const char *text = json_string_value(json_object_get(record, key));
+    return text ? text : "";
+}
+
+// The address of a file as the page, in its folder, finds it.
+static void put_address(FILE *out, const char *page, const char *path)
+{
+    size_t common = 0;
+    for (size_t i = 0; page[i] && page[i] == path[i]; i++)
+        if (page[i] == '/')
+            common = i + 1;
+    if (path[0] != '/' || page[0] == '/')
+        for (const char *slash = page + common; (slash = strchr(slash, '/')); slash++)
+            fputs("../", out);
+    else
+        common = 0;
+    html_address(out, path + common);
+}
+
+static void put_failure(FILE *out, const json_t *record)
+{
+    fputs("<li><b class=\"bad\">", out);
+    html_text(out, text_of(record, "class"));
+    fputs("</b> ", out);
+    html_text(out, text_of(record, "model"));
+    fputs("<br>", out);
+    html_text(out, text_of(record, "error"));
+    long long attempt = json_integer_value(json_object_get(record, "attempt"));
+    if (attempt > 1)
+        fprintf(out, " <small>(%lld tries)</small>", attempt);
+    fputs("</li>\n", out);
+}
+
+static void put_picture(FILE *out, const struct batch *b, size_t index, const json_t *record)
+{
+    const char *page = b->options->report_page;
+    size_t views = (size_t)b->plan->view_count;
+    char *output = batch_plan_output(b->plan, index / views, (int)(index % views));
+    char *thumbnail = output ? thumbnail_path(page, output) : NULL;
+    if (thumbnail) {
+        fputs("<figure><a class=\"thumb\" href=\"", out);
+        put_address(out, page, output);
+        fputs("\"><img loading=\"lazy\" alt=\"\" src=\"", out);
+        put_address(out, page, thumbnail);
+        fputs("\"></a><figcaption>", out);
+        html_text(out, text_of(record, "model"));
+        fprintf(out, "<br><small>%s, %lld triangles, %.1f ms</small>", text_of(record, "view"),
+                json_integer_value(json_object_get(record, "triangles")),
+                json_number_value(json_object_get(json_object_get(record, "times_ms"), "total")));
+        const json_t *list = json_object_get(record, "warnings"), *warning;
+        size_t i;
+        json_array_foreach(list, i, warning)
+        {
+            fputs("<br><small class=\"bad\">", out);
+            html_text(out, json_string_value(warning));
+            fputs("</small>", out);
+        }
+        fputs("</figcaption></figure>\n", out);
+    }
+    free(output);
+    free(thumbnail);
+}
+
+static void put_page(FILE *out, const struct batch *b)
+{
+    size_t pictures = b->plan->count * (size_t)b->plan->view_count, failed = b->tally.failed + b->tally.failed_before;
+    const struct batch_tally *t = &b->tally;
+    fprintf(out, head, "lambent");
+    fprintf(out,
+            "<h1>%zu of %zu pictures</h1>\n<p class=\"about\">lambent %s: %zu written, %zu unchanged, %zu done before, "
+            "%zu failed</p>\n",
+            t->written + t->same + t->before, t->total, lam_version(), t->written, t->same, t->before, failed);
+    if (failed)
+        fputs("<h2>Failed</h2>\n<ul>\n", out);
+    for (size_t i = 0; i < pictures; i++)
+        if (b->records[i] && !has_picture(&b->pictures[i]))
+            put_failure(out, b->records[i]);
+    fputs(failed ? "</ul>\n<h2>Pictures</h2>\n<div class=\"sheet\">\n" : "<div class=\"sheet\">\n", out);
+    for (size_t i = 0; i < pictures; i++)
+        if (b->records[i] && has_picture(&b->pictures[i]))
+            put_picture(out, b, i, b->records[i]);
+    fputs("</div>\n</html>\n", out);
+}
+
+bool batch_page_write(const struct batch *b, lam_error *error)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (out)
+        put_page(out, b);
+    bool ok = (out && fclose(out) == 0) || complain(error, LAM_LIMIT, "out of memory");
+    ok = ok && output_replace(b->options->report_page, &(lam_bytes){text, size}, error);
+    free(text);
+    return ok;
+}

@@ -1,0 +1,197 @@
+// batch_pass.c: one pass over the models.
+#include "batch_pass.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "console.h"
+#include "exit_codes.h"
+#include "interrupt.h"
+
+// --- which model is next
+
+// A failed picture that may be tried once more becomes an open one.
+static bool reopen(struct batch *b, size_t model)
+{
+    bool open = false;
+    for (int i = 0; i < b->plan->view_count; i++) {
+        struct batch_picture *picture = &batch_pictures_of(b, model)[i];
+        if (picture->outcome == PICTURE_FAILED && picture->attempts <= b->options->retry_failed) {
+            picture->outcome = PICTURE_OPEN;
+            b->tally.failed--;
+            b->tally.retried--;
+            b->tally.classes[picture->class].count--;
+            open = true;
+        }
+    }
+    return open;
+}
+
+bool batch_begin_pass(struct batch *b, int pass)
+{
+    size_t count = 0;
+    if (interrupted() || b->failed)
+        return false;
+    b->next = 0;
+    for (size_t i = 0; i < b->plan->count; i++) {
+        if (pass > 0)
+            b->taken[i] = !reopen(b, i);
+        count += !b->taken[i];
+    }
+    return count > 0;
+}
+
+bool batch_take(struct batch *b, size_t *model)
+{
+    pthread_mutex_lock(&b->lock);
+    while (b->next < b->plan->count && b->taken[b->next])
+        b->next++;
+    bool found = b->next < b->plan->count && !interrupted() && !b->failed;
+    if (found) {
+        *model = b->next++;
+        b->taken[*model] = true;
+        pthread_cond_broadcast(&b->changed);
+    }
+    pthread_mutex_unlock(&b->lock);
+    return found;
+}
+
+// --- what a killed run left
+
+void batch_remove_parts(const struct batch *b, size_t model, int process)
+{
+    char begin[40];
+    int length = snprintf(begin, sizeof begin, ".lambent-%d-", process);
+    for (int i = 0; i < b->plan->view_count; i++) {
+        char *output = batch_plan_output(b->plan, model, i), *slash = output ? strrchr(output, '/') : NULL;
+        if (slash)
+            slash[slash == output] = 0;
+        DIR *folder = output ? opendir(slash ? output : ".") : NULL;
+        for (struct dirent *entry; folder && (entry = readdir(folder));) {
+            size_t size = strlen(entry->d_name);
+            if (strncmp(entry->d_name, begin, (size_t)length) == 0 && size > 5 &&
+                strcmp(entry->d_name + size - 5, ".part") == 0)
+                unlinkat(dirfd(folder), entry->d_name, 0);
+        }
+        if (folder)
+            closedir(folder);
+        free(output);
+    }
+}
+
+struct suspects {
+    struct batch *batch;
+    size_t count;
+};
+
+static void note_suspect(void *user, const char *model, int process)
+{
+    struct suspects *s = user;
+    struct batch *b = s->batch;
+    for (size_t i = 0; i < b->plan->count; i++)
+        if (strcmp(b->plan->models[i].path, model) == 0) {
+            batch_remove_parts(b, i, process);
+            s->count += b->taken[i];
+            b->taken[i] = false;
+        }
+}
+
+bool batch_begin_suspects(struct batch *b)
+{
+    struct suspects suspects = {.batch = b};
+    if (!b->journal)
+        return false;
+    memset(b->taken, 1, b->plan->count * sizeof *b->taken);
+    journal_each_running(b->journal, note_suspect, &suspects);
+    b->next = 0;
+    if (!suspects.count) {
+        memset(b->taken, 0, b->plan->count * sizeof *b->taken);
+        return false;
+    }
+    return true;
+}
+
+// The next pass is over the models that were none.
+void batch_end_suspects(struct batch *b)
+{
+    for (size_t i = 0; i < b->plan->count; i++) {
+        b->taken[i] = true;
+        for (int k = 0; k < b->plan->view_count; k++)
+            b->taken[i] &= batch_pictures_of(b, i)[k].outcome != PICTURE_OPEN;
+    }
+}
+
+// --- what comes of a model
+
+void batch_stop(struct batch *b, const lam_error *error)
+{
+    pthread_mutex_lock(&b->lock);
+    int code = exit_code_of(error->code)->code;
+    if (!b->failed) {
+        batch_hide_progress(&b->tally);
+        say_error(error->text);
+    }
+    b->failed = true;
+    b->code = code > b->code ? code : b->code;
+    pthread_mutex_unlock(&b->lock);
+}
+
+static void count(struct batch *b, const struct batch_unit *u, int view)
+{
+    struct batch_tally *t = &b->tally;
+    struct batch_picture *picture = &u->pictures[view];
+    const char *class = u->classes[view];
+    switch ((enum picture_outcome)picture->outcome) {
+    case PICTURE_OPEN:
+        break;
+    case PICTURE_WRITTEN:
+        t->written++;
+        break;
+    case PICTURE_SAME:
+        t->same++;
+        break;
+    case PICTURE_BEFORE:
+        t->before++;
+        break;
+    case PICTURE_FAILED:
+        t->failed++;
+        t->retried += picture->attempts <= b->options->retry_failed;
+        picture->class = (uint8_t)batch_count_class(t, class ? class : "failed");
+        break;
+    case PICTURE_FAILED_BEFORE:
+        t->failed_before++;
+        break;
+    }
+}
+
+void batch_deliver(struct batch *b, struct batch_unit *u)
+{
+    lam_error error = {0};
+    bool ok = true;
+    size_t first = u->model * (size_t)b->plan->view_count;
+    pthread_mutex_lock(&b->lock);
+    for (int i = 0; i < b->plan->view_count; i++) {
+        if (b->pictures[first + (size_t)i].outcome != u->pictures[i].outcome)
+            count(b, u, i);
+        if (b->journal && u->is_new[i] && u->records[i] && ok)
+            ok = journal_add(b->journal, u->records[i], &error);
+        b->pictures[first + (size_t)i] = u->pictures[i];
+        if (b->records && u->records[i]) {
+            json_decref(b->records[first + (size_t)i]);
+            b->records[first + (size_t)i] = u->records[i];
+            u->records[i] = NULL;
+        }
+    }
+    b->tally.warnings += (size_t)u->warnings;
+    b->code = u->code > b->code ? u->code : b->code;
+    b->interrupted |= u->interrupted;
+    batch_print(&b->texts, u->model, u->out, u->err, u->code == 0, &b->tally);
+    u->out = u->err = NULL;
+    batch_show_progress(&b->tally);
+    pthread_mutex_unlock(&b->lock);
+    if (!ok)
+        batch_stop(b, &error);
+}

@@ -1,0 +1,27 @@
+// batch_pass.h: one pass over the models: which is next, and what becomes of a model that is done.
+#ifndef BATCH_PASS_H
+#define BATCH_PASS_H
+
+#include "batch_unit.h"
+
+// Begins a pass: 0: over all models but those that a pass before has drawn; later: over those that failed and may be tried
+// again. False: there is nothing to do, or an interrupt came.
+bool batch_begin_pass(struct batch *batch, int pass);
+
+// Begins a pass over the models that a killed run was drawing, and removes what their processes left. False: none.
+bool batch_begin_suspects(struct batch *batch);
+void batch_end_suspects(struct batch *batch);
+
+// The next model of the pass. False: there is none, or nothing more is to be begun. Any thread.
+bool batch_take(struct batch *batch, size_t *model);
+
+// Takes what a unit brings: counts, lines of the journal, messages. Any thread.
+void batch_deliver(struct batch *batch, struct batch_unit *unit);
+
+// Reports an error after which nothing more is begun. Any thread.
+void batch_stop(struct batch *batch, const lam_error *error);
+
+// Removes the temporary files that a process left beside a model's pictures when it was killed.
+void batch_remove_parts(const struct batch *batch, size_t model, int process);
+
+#endif

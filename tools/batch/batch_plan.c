@@ -1,0 +1,185 @@
+// batch_plan.c: which models are drawn, and the names of their pictures.
+#include "batch_plan.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "console.h"
+#include "output.h"
+
+// The pattern of the names: the user's, or one that tells several pictures of a model apart. NULL: the model's name.
+static bool make_pattern(struct batch_plan *plan, lam_error *error)
+{
+    const struct options *o = plan->options;
+    const char *output = o->output, *side = o->view_count > 1 ? "-{view}" : "",
+               *size = o->size_count > 1 ? "-{size}" : "";
+    if (output_name_is_pattern(output)) {
+        plan->pattern = strdup(output);
+    } else if (plan->view_count > 1) {
+        if (output_is_named(output))
+            return complain(
+                error, LAM_BAD_ARGUMENT,
+                "option '--output' names one picture, but each model has %d; name a folder, -o pictures/, or a "
+                "pattern, -o '{stem}%s%s.png'",
+                plan->view_count, side, size);
+        bool slash = output && output[strlen(output) - 1] != '/';
+        if (asprintf(&plan->pattern, "%s%s{stem}%s%s.png", output ? output : "", slash ? "/" : "", side, size) < 0)
+            plan->pattern = NULL;
+    } else {
+        return true;
+    }
+    return plan->pattern ? output_name_check(plan->pattern, NAME_VIEW | NAME_SIZE, error)
+                         : complain(error, LAM_LIMIT, "out of memory");
+}
+
+static bool check_together(const struct options *o, lam_error *error)
+{
+    static const char *const sides[] = {"view", "camera", "azimuth", "elevation", NULL};
+    for (int i = 0; o->view_count && sides[i]; i++)
+        if (option_given(o, sides[i]))
+            return complain(error, LAM_BAD_ARGUMENT, "options '--views' and '--%s' cannot be used together", sides[i]);
+    const char *wants = o->resume ? "resume" : o->skip_same ? "skip-same" : NULL;
+    if (wants && o->journal && strcmp(o->journal, "none") == 0)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' goes by a journal, and '--journal none' has none",
+                        wants);
+    if (o->resume && o->skip_same)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "options '--resume' and '--skip-same' cannot be used together; --skip-same goes on after a "
+                        "killed run too");
+    if (o->size_count && option_given(o, "size"))
+        return complain(error, LAM_BAD_ARGUMENT, "options '--sizes' and '--size' cannot be used together");
+    if (o->save_scene && (o->view_count > 1 || o->size_count > 1))
+        return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' goes only with a single picture");
+    return true;
+}
+
+bool batch_plan_start(struct batch_plan *plan, const struct options *o, lam_error *error)
+{
+    *plan = (struct batch_plan){.options = o};
+    if (!check_together(o, error))
+        return false;
+    int views = o->view_count ? o->view_count : 1, sizes = o->size_count ? o->size_count : 1;
+    for (int v = 0; v < views; v++)
+        for (int s = 0; s < sizes; s++)
+            plan->views[plan->view_count++] = (struct job_view){
+                .side = o->view_count ? o->views[v] : -1,
+                .width = o->size_count ? o->sizes[s][0] : o->width,
+                .height = o->size_count ? o->sizes[s][1] : o->height,
+            };
+    return make_pattern(plan, error);
+}
+
+bool batch_plan_add(struct batch_plan *plan, const char *path, const char *root, lam_error *error)
+{
+    if (plan->count == plan->capacity) {
+        size_t capacity = plan->capacity ? 2 * plan->capacity : 64;
+        struct batch_model *more = realloc(plan->models, capacity * sizeof *more);
+        if (!more)
+            return complain(error, LAM_LIMIT, "out of memory");
+        plan->models = more;
+        plan->capacity = capacity;
+    }
+    struct batch_model *model = &plan->models[plan->count];
+    *model = (struct batch_model){strdup(path), root ? strdup(root) : NULL};
+    if (model->path && (model->root || !root)) {
+        plan->count++;
+        return true;
+    }
+    free(model->path);
+    free(model->root);
+    return complain(error, LAM_LIMIT, "out of memory");
+}
+
+char *batch_plan_output(const struct batch_plan *plan, size_t index, int view)
+{
+    const struct batch_model *model = &plan->models[index];
+    const struct job_view *v = &plan->views[view];
+    struct output_words words = {.model = model->path,
+                                 .root = model->root,
+                                 .view = lam_side_name((lam_side)(v->side >= 0 ? v->side : plan->options->view)),
+                                 .width = v->width,
+                                 .height = v->height};
+    return output_path_of(plan->pattern ? plan->pattern : plan->options->output, &words);
+}
+
+char *batch_plan_folder(const struct batch_plan *plan)
+{
+    const char *name = plan->pattern ? plan->pattern : plan->options->output;
+    if (!name)
+        return strdup("");
+    if (!output_name_is_pattern(name) && !output_is_named(name)) {
+        char *folder = NULL;
+        return asprintf(&folder, "%s%s", name, name[strlen(name) - 1] == '/' ? "" : "/") < 0 ? NULL : folder;
+    }
+    size_t length = strcspn(name, "{}");
+    while (length && name[length - 1] != '/')
+        length--;
+    return strndup(name, length);
+}
+
+// Sorts pictures by their name, to find two with the same one.
+struct named_output {
+    size_t model;
+    char *output;
+};
+
+static int by_output(const void *a, const void *b)
+{
+    const struct named_output *x = a, *y = b;
+    int order = strcmp(x->output, y->output);
+    return order ? order : (x->model > y->model) - (x->model < y->model);
+}
+
+static bool find_doubles(const struct batch_plan *plan, const struct named_output *named, size_t count,
+                         lam_error *error)
+{
+    for (size_t i = 1; i < count; i++) {
+        if (strcmp(named[i].output, named[i - 1].output) != 0)
+            continue;
+        const char *a = plan->models[named[i - 1].model].path, *b = plan->models[named[i].model].path;
+        if (named[i].model == named[i - 1].model)
+            return complain(
+                error, LAM_BAD_ARGUMENT,
+                "several pictures of '%.150s' would be written to '%.200s'; the name needs {view} or {size}", a,
+                named[i].output);
+        return complain(
+            error, LAM_BAD_ARGUMENT,
+            "'%.120s' and '%.120s' would both be written to '%.120s'; name a pattern: -o '{dir}/{stem}-{ext}.png'", a,
+            b, named[i].output);
+    }
+    return true;
+}
+
+bool batch_plan_check(const struct batch_plan *plan, lam_error *error)
+{
+    size_t count = plan->count * (size_t)plan->view_count, used = 0;
+    struct named_output *named = calloc(count + 1, sizeof *named);
+    bool ok = named != NULL;
+    for (size_t i = 0; ok && i < count; i++) {
+        size_t model = i / (size_t)plan->view_count;
+        char *output = batch_plan_output(plan, model, (int)(i % (size_t)plan->view_count));
+        named[used++] = (struct named_output){model, output};
+        ok = output != NULL;
+    }
+    if (!ok)
+        complain(error, LAM_LIMIT, "out of memory");
+    else
+        qsort(named, count, sizeof *named, by_output);
+    ok = ok && find_doubles(plan, named, count, error);
+    for (size_t i = 0; i < used; i++)
+        free(named[i].output);
+    free(named);
+    return ok;
+}
+
+void batch_plan_free(struct batch_plan *plan)
+{
+    for (size_t i = 0; i < plan->count; i++) {
+        free(plan->models[i].path);
+        free(plan->models[i].root);
+    }
+    free(plan->models);
+    free(plan->pattern);
+    *plan = (struct batch_plan){0};
+}

@@ -1,0 +1,38 @@
+// batch_plan.h: which models are drawn, from which sides, in which sizes, and the names of their pictures.
+#ifndef BATCH_PLAN_H
+#define BATCH_PLAN_H
+
+#include "job.h"
+
+struct batch_model {
+    char *path; // from malloc
+    char *root; // {dir} is below this folder; from malloc; NULL: the path's own folder
+};
+
+struct batch_plan {
+    const struct options *options;
+    struct batch_model *models;
+    size_t count, capacity;
+    struct job_view views[VIEWS_MAX * VIEWS_MAX]; // of each model
+    int view_count;
+    char *pattern; // of the names; NULL: that of the model
+};
+
+// A plan without models. Checks the options that belong together. Error: LAM_BAD_ARGUMENT.
+bool batch_plan_start(struct batch_plan *plan, const struct options *options, lam_error *error);
+
+// Adds a model; `root` may be NULL. Both are copied. False: LAM_LIMIT.
+bool batch_plan_add(struct batch_plan *plan, const char *path, const char *root, lam_error *error);
+
+// Finds two pictures of one name, and names that cannot be written. Error: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED.
+bool batch_plan_check(const struct batch_plan *plan, lam_error *error);
+
+// The path of a picture, from malloc. NULL: out of memory.
+char *batch_plan_output(const struct batch_plan *plan, size_t model, int view);
+
+// The folder that all pictures lie below, with its '/' ("": the current one), from malloc. NULL: out of memory.
+char *batch_plan_folder(const struct batch_plan *plan);
+
+void batch_plan_free(struct batch_plan *plan);
+
+#endif

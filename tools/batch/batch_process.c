@@ -1,0 +1,120 @@
+// batch_process.c: a piece of work in a process of its own.
+#include "batch_process.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "progress.h"
+
+enum { PROCESSES_MAX = 1024 };
+
+bool batch_answer_add(struct batch_answer *answer, const void *data, size_t size)
+{
+    if (answer->capacity - answer->size < size) {
+        size_t capacity =
+            2 * answer->capacity > answer->size + size ? 2 * answer->capacity : answer->size + size + 4096;
+        void *more = realloc(answer->data, capacity);
+        if (!more)
+            return false;
+        answer->data = more;
+        answer->capacity = capacity;
+    }
+    memcpy(answer->data + answer->size, data, size);
+    answer->size += size;
+    return true;
+}
+
+static void send_all(int to, const struct batch_answer *answer)
+{
+    for (size_t at = 0; at < answer->size;) {
+        ssize_t sent = write(to, answer->data + at, answer->size - at);
+        if (sent < 0 && errno != EINTR)
+            _exit(1);
+        at += sent > 0 ? (size_t)sent : 0;
+    }
+}
+
+bool batch_process_start(struct batch_process *process, batch_work *work, void *user)
+{
+    int pipes[2];
+    *process = (struct batch_process){.from = -1};
+    if (pipe2(pipes, O_CLOEXEC) != 0)
+        return false;
+    process->pid = fork();
+    if (process->pid == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL); // dies with its parent
+        setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
+        close(pipes[0]);
+        struct batch_answer answer = {0};
+        work(user, &answer);
+        send_all(pipes[1], &answer);
+        _exit(0);
+    }
+    int reason = errno;
+    close(pipes[1]);
+    process->from = pipes[0];
+    if (process->pid > 0)
+        return true;
+    close(pipes[0]);
+    *process = (struct batch_process){.from = -1};
+    errno = reason;
+    return false;
+}
+
+// Reads what is there; false at the end.
+static bool receive(struct batch_process *process)
+{
+    char piece[64 << 10];
+    ssize_t got = read(process->from, piece, sizeof piece);
+    if (got < 0)
+        return errno == EINTR || errno == EAGAIN;
+    return got > 0 && batch_answer_add(&process->answer, piece, (size_t)got);
+}
+
+int batch_process_wait(struct batch_process *list, int count, int wait_ms, int *status)
+{
+    struct pollfd wait[PROCESSES_MAX];
+    count = count < PROCESSES_MAX ? count : PROCESSES_MAX;
+    double now = clock_ms();
+    for (int i = 0; i < count; i++) {
+        wait[i] = (struct pollfd){.fd = list[i].pid ? list[i].from : -1, .events = POLLIN};
+        if (list[i].pid && list[i].stop_ms > 0 && now > list[i].stop_ms && !list[i].stopped) {
+            list[i].stopped = true;
+            batch_process_kill(&list[i]);
+        }
+    }
+    if (poll(wait, (nfds_t)count, wait_ms) <= 0)
+        return -1;
+    for (int i = 0; i < count; i++) {
+        if (wait[i].fd < 0 || !wait[i].revents || receive(&list[i]))
+            continue;
+        close(list[i].from);
+        list[i].from = -1;
+        while (waitpid(list[i].pid, status, 0) < 0 && errno == EINTR)
+            continue;
+        return i;
+    }
+    return -1;
+}
+
+void batch_process_kill(struct batch_process *process)
+{
+    if (process->pid > 0)
+        kill(process->pid, SIGKILL);
+}
+
+void batch_process_free(struct batch_process *process)
+{
+    if (process->from >= 0)
+        close(process->from);
+    free(process->answer.data);
+    *process = (struct batch_process){.from = -1};
+}

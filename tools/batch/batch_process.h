@@ -1,0 +1,37 @@
+// batch_process.h: a piece of work in a process of its own, whose end cannot take the others with it.
+#ifndef BATCH_PROCESS_H
+#define BATCH_PROCESS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <sys/types.h>
+
+// Bytes that a process sends back.
+struct batch_answer {
+    char *data; // from malloc
+    size_t size, capacity;
+};
+
+struct batch_process {
+    pid_t pid; // 0: none
+    int from;
+    struct batch_answer answer;
+    double stop_ms; // clock_ms() at which it is killed; 0: never
+    bool stopped;   // it was killed for that reason
+};
+
+// Starts `work` in a copy of this process, which must have no other thread. What `work` returns is sent back. False: errno.
+typedef void batch_work(void *user, struct batch_answer *answer);
+bool batch_process_start(struct batch_process *process, batch_work *work, void *user);
+
+// Waits up to `wait_ms` for any of them to say or to end something. Returns the index of one that has ended, with its status
+// of waitpid; −1: none has.
+int batch_process_wait(struct batch_process *list, int count, int wait_ms, int *status);
+
+void batch_process_kill(struct batch_process *process);
+void batch_process_free(struct batch_process *process);
+
+// Appends bytes; false: out of memory.
+bool batch_answer_add(struct batch_answer *answer, const void *data, size_t size);
+
+#endif

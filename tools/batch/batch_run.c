@@ -1,0 +1,331 @@
+// batch_run.c: the loop over models: workers take the next model, draw it, and hand over what came of it.
+//
+// A worker is a thread with a device of its own, which draws with one thread where there are enough models; with --isolate it is a
+// process for each model. Another thread reads files ahead of the workers, so that the disk works while they draw. What a worker
+// hands over is printed in the order of the models, but stands in the journal as soon as it is done.
+#include "batch_run.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "batch_isolate.h"
+#include "batch_key.h"
+#include "batch_page.h"
+#include "batch_pass.h"
+#include "batch_reach.h"
+#include "batch_unit.h"
+#include "console.h"
+#include "device_option.h"
+#include "exit_codes.h"
+#include "interrupt.h"
+#include "report.h"
+
+enum { WORKERS_MAX = 256 };
+
+struct worker {
+    struct batch *batch;
+    int slot;
+    struct options options; // with its number of threads
+    lam_device *device;
+    pthread_t thread;
+};
+
+// --- one worker
+
+static void draw_next(struct worker *w, size_t model)
+{
+    struct batch *b = w->batch;
+    struct batch_unit unit;
+    lam_error error = {0};
+    bool alone = b->plan->count == 1;
+    if (!batch_unit_start(&unit, b, model, &error)) {
+        batch_stop(b, &error);
+        return;
+    }
+    if (batch_unit_look(&unit, b)) {
+        if (b->journal)
+            journal_begin(b->journal, w->slot, (int)getpid(), b->plan->models[model].path);
+        batch_unit_draw(&unit, b, &w->options, w->device, !alone);
+    }
+    batch_page_thumbnails(b, &unit);
+    batch_deliver(b, &unit);
+    batch_unit_free(&unit, b);
+}
+
+static void *work(void *user)
+{
+    struct worker *w = user;
+    struct batch *b = w->batch;
+    size_t model;
+    while (batch_take(b, &model))
+        draw_next(w, model);
+    pthread_mutex_lock(&b->lock);
+    b->drawing--;
+    pthread_cond_broadcast(&b->changed);
+    pthread_mutex_unlock(&b->lock);
+    return NULL;
+}
+
+// --- reading ahead
+
+// Asks the system for the pages of a file. The request is cut to pieces: of a longer one it reads only the beginning.
+static void warm(const char *path)
+{
+    enum { PIECE = 128 << 10, MAX = 256 << 20 };
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    off_t end = file >= 0 ? lseek(file, 0, SEEK_END) : 0;
+    for (off_t at = 0; at < end && at < MAX && !interrupted(); at += PIECE)
+        if (posix_fadvise(file, at, PIECE, POSIX_FADV_WILLNEED) != 0)
+            break;
+    if (file >= 0)
+        close(file);
+}
+
+static void *read_ahead(void *user)
+{
+    struct batch *b = user;
+    size_t ahead = 2 * (size_t)b->workers + 2;
+    pthread_mutex_lock(&b->lock);
+    for (size_t at = 0; at < b->plan->count && b->drawing && !interrupted(); at++) {
+        while (at > b->next + ahead && b->drawing)
+            pthread_cond_wait(&b->changed, &b->lock);
+        if (at < b->next)
+            at = b->next;
+        if (at >= b->plan->count || b->taken[at])
+            continue;
+        pthread_mutex_unlock(&b->lock);
+        warm(b->plan->models[at].path);
+        pthread_mutex_lock(&b->lock);
+    }
+    pthread_mutex_unlock(&b->lock);
+    return NULL;
+}
+
+// --- a pass
+
+// The workers draw while this thread shows the progress. One alone works in this thread.
+static void run_threads(struct batch *b, struct worker *workers)
+{
+    b->drawing = b->workers;
+    if (b->workers == 1) {
+        work(&workers[0]);
+        return;
+    }
+    pthread_t reader;
+    bool reads = b->plan->count > (size_t)b->workers && pthread_create(&reader, NULL, read_ahead, b) == 0;
+    int started = 0;
+    while (started < b->workers && pthread_create(&workers[started].thread, NULL, work, &workers[started]) == 0)
+        started++;
+    pthread_mutex_lock(&b->lock);
+    b->drawing -= b->workers - started;
+    while (b->drawing) {
+        struct timespec until;
+        clock_gettime(CLOCK_MONOTONIC, &until);
+        until.tv_nsec += 100000000;
+        until.tv_sec += until.tv_nsec / 1000000000;
+        until.tv_nsec %= 1000000000;
+        pthread_cond_timedwait(&b->changed, &b->lock, &until);
+        batch_show_progress(&b->tally);
+    }
+    pthread_cond_broadcast(&b->changed);
+    pthread_mutex_unlock(&b->lock);
+    for (int i = 0; i < started; i++)
+        pthread_join(workers[i].thread, NULL);
+    if (reads)
+        pthread_join(reader, NULL);
+    if (!started) { // no thread can be had: this one works
+        b->drawing = 1;
+        work(&workers[0]);
+    }
+}
+
+static bool make_workers(struct batch *b, struct worker *workers, lam_error *error)
+{
+    for (int i = 0; i < b->workers; i++) {
+        workers[i] = (struct worker){.batch = b, .slot = i, .options = *b->options};
+        workers[i].options.threads = b->threads;
+        workers[i].options.in_flight = b->workers;
+        workers[i].device = device_option_make(&workers[i].options, error);
+        if (!workers[i].device)
+            return false;
+    }
+    return true;
+}
+
+static void free_workers(const struct batch *b, struct worker *workers)
+{
+    for (int i = 0; i < b->workers; i++)
+        lam_device_free(workers[i].device);
+}
+
+// Draws the models that a killed run was drawing, each in a process of its own: one of them may be the cause.
+static void draw_suspects(struct batch *b)
+{
+    if (b->way == JOURNAL_START || !batch_begin_suspects(b))
+        return;
+    batch_isolate(b);
+    batch_end_suspects(b);
+}
+
+static bool run_passes(struct batch *b, lam_error *error)
+{
+    struct worker *workers = b->options->isolate ? NULL : calloc((size_t)b->workers, sizeof *workers);
+    if (!workers && !b->options->isolate)
+        return complain(error, LAM_LIMIT, "out of memory");
+    draw_suspects(b);
+    bool ok = !workers ||
+              (batch_reach_enter(b, b->journal_path, 0, b->plan->count, error) && make_workers(b, workers, error));
+    for (int pass = 0; ok && batch_begin_pass(b, pass); pass++) {
+        if (workers)
+            run_threads(b, workers);
+        else
+            batch_isolate(b);
+    }
+    if (workers)
+        free_workers(b, workers);
+    free(workers);
+    return ok;
+}
+
+// --- the batch
+
+static bool draws_with_gl(const struct options *o)
+{
+    return o->device == DEVICE_GL || o->device == DEVICE_GLES || (o->device == DEVICE_AUTO && o->gl_device);
+}
+
+// One worker for each processor, with the threads that are left where there are fewer models than that.
+static void share_threads(struct batch *b)
+{
+    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    int threads = b->options->threads ? b->options->threads : processors > 0 ? (int)processors : 1;
+    int most = draws_with_gl(b->options) ? 1 : threads < WORKERS_MAX ? threads : WORKERS_MAX;
+    b->workers = (size_t)most < b->plan->count ? most : b->plan->count ? (int)b->plan->count : 1;
+    b->threads = b->workers == 1 ? b->options->threads : threads / b->workers;
+}
+
+// The options that the journal's pictures have in common, and which pictures a model has. From malloc; NULL: out of memory.
+static char *pictures_text(const struct batch *b)
+{
+    const struct batch_plan *plan = b->plan;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return NULL;
+    fprintf(out, "%soutput=%s\n", b->options_text,
+            plan->pattern        ? plan->pattern
+            : b->options->output ? b->options->output
+                                 : "");
+    for (int i = 0; i < plan->view_count; i++) {
+        const struct job_view *v = &plan->views[i];
+        fprintf(out, "picture=%s %dx%d\n", lam_side_name((lam_side)(v->side >= 0 ? v->side : b->options->view)),
+                v->width, v->height);
+    }
+    if (fclose(out) == 0)
+        return text;
+    free(text);
+    return NULL;
+}
+
+static bool start(struct batch *b, const char *journal, lam_error *error)
+{
+    const struct options *o = b->options;
+    size_t models = b->plan->count, pictures = models * (size_t)b->plan->view_count;
+    share_threads(b);
+    b->pictures = calloc(pictures + 1, sizeof *b->pictures);
+    b->taken = calloc(models + 1, sizeof *b->taken);
+    b->texts = (struct batch_texts){.list = calloc(models + 1, sizeof *b->texts.list), .count = models};
+    b->records = o->report_page ? calloc(pictures + 1, sizeof *b->records) : NULL;
+    if (!b->pictures || !b->taken || !b->texts.list || (o->report_page && !b->records))
+        return complain(error, LAM_LIMIT, "out of memory");
+    b->tally = (struct batch_tally){
+        .total = pictures, .start_ms = clock_ms(), .has_progress = console_is_terminal() && !o->quiet && models > 1};
+    if ((journal || o->report_page) && !(b->options_text = batch_options_text(o, error)))
+        return false;
+    b->way = o->skip_same ? JOURNAL_SAME : o->resume ? JOURNAL_RESUME : JOURNAL_START;
+    if (!batch_reach_make(b, journal, error))
+        return false;
+    char *all = journal ? pictures_text(b) : NULL;
+    bool ok = !journal || all || complain(error, LAM_LIMIT, "out of memory");
+    ok = ok && (!journal || (b->journal = journal_open(journal, b->way, all, b->workers, error)));
+    free(all);
+    return ok;
+}
+
+// Names the pictures that failed again and again.
+static void name_poison(const struct batch *b)
+{
+    enum { NAMES = 10 };
+    size_t count = 0, pictures = b->plan->count * (size_t)b->plan->view_count;
+    for (size_t i = 0; i < pictures; i++) {
+        const struct batch_picture *picture = &b->pictures[i];
+        bool failed = picture->outcome == PICTURE_FAILED || picture->outcome == PICTURE_FAILED_BEFORE;
+        if (!failed || picture->attempts < 2 || count++ >= NAMES)
+            continue;
+        lam_error text;
+        complain(&text, LAM_LIMIT, "%.400s: given up after %d tries",
+                 b->plan->models[i / (size_t)b->plan->view_count].path, picture->attempts);
+        say_error(text.text);
+    }
+    if (count > NAMES)
+        say_plain("lambent: and %zu more\n", count - NAMES);
+}
+
+static void finish(struct batch *b)
+{
+    batch_print_rest(&b->texts, &b->tally);
+    lam_error error;
+    if (b->options->report_page && !batch_page_write(b, &error))
+        batch_stop(b, &error);
+    if (!interrupted())
+        name_poison(b);
+    bool several = b->is_batch || b->plan->count > 1;
+    if (several && !b->options->quiet && !b->options->json)
+        batch_say_summary(&b->tally, interrupted());
+}
+
+static void free_batch(struct batch *b)
+{
+    size_t pictures = b->plan->count * (size_t)b->plan->view_count;
+    for (size_t i = 0; b->records && i < pictures; i++)
+        json_decref(b->records[i]);
+    free(b->records);
+    free(b->pictures);
+    free(b->taken);
+    free(b->texts.list);
+    free(b->options_text);
+    pthread_cond_destroy(&b->changed);
+    pthread_mutex_destroy(&b->lock);
+}
+
+int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch)
+{
+    struct batch b = {.plan = plan, .options = plan->options, .is_batch = is_batch, .journal_path = journal};
+    lam_error error = {0};
+    pthread_condattr_t monotonic;
+    pthread_condattr_init(&monotonic);
+    pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
+    pthread_mutex_init(&b.lock, NULL);
+    pthread_cond_init(&b.changed, &monotonic);
+    pthread_condattr_destroy(&monotonic);
+    interrupt_start();
+    bool started = start(&b, journal, &error), ok = started && run_passes(&b, &error);
+    if (started && ok)
+        finish(&b);
+    journal_close(b.journal, ok && !interrupted() && !b.failed);
+    int code = ok ? b.code : report_failure(&error, plan->options);
+    if (ok && is_batch && b.tally.failed + b.tally.failed_before && !b.failed)
+        code = EXIT_SOME_FAILED;
+    free_batch(&b);
+    if (interrupted()) {
+        fflush(stdout);
+        interrupt_finish();
+    }
+    return code;
+}

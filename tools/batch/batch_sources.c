@@ -1,0 +1,107 @@
+// batch_sources.c: where the models of `batch` come from.
+#include "batch_sources.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "console.h"
+
+// True if the name ends like a file of a model format. Scene files (.json) must be named: most JSON files are not one.
+static bool is_model(const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    for (int format = 0; dot && dot != name && lam_model_format_name(format); format++) {
+        if (strcmp(lam_model_format_name(format), "scene") == 0)
+            continue;
+        const char *ending = lam_model_format_extensions(format);
+        while (*ending) {
+            size_t length = strcspn(ending, " ");
+            if (strlen(dot + 1) == length && strncasecmp(dot + 1, ending, length) == 0)
+                return true;
+            ending += length + strspn(ending + length, " ");
+        }
+    }
+    return false;
+}
+
+static int by_name(const struct dirent **a, const struct dirent **b) { return strcmp((*a)->d_name, (*b)->d_name); }
+
+// Names that begin with a dot are hidden.
+static int is_visible(const struct dirent *entry) { return entry->d_name[0] != '.'; }
+
+// Adds the models of a folder and of those below it, in alphabetical order. Links to folders are not followed: they
+// may lead in a circle.
+static bool add_folder(struct batch_plan *plan, const char *folder, const char *root, lam_error *error)
+{
+    struct dirent **entries;
+    int count = scandir(folder, &entries, is_visible, by_name);
+    if (count < 0)
+        return complain(error, LAM_CANNOT_READ, "%s: cannot read the folder: %s", folder, strerror(errno));
+    bool ok = true;
+    for (int i = 0; i < count; i++) {
+        char *path = NULL;
+        struct stat own, target;
+        bool slash = folder[strlen(folder) - 1] != '/';
+        if (ok && asprintf(&path, "%s%s%s", folder, slash ? "/" : "", entries[i]->d_name) < 0) {
+            path = NULL;
+            ok = complain(error, LAM_LIMIT, "out of memory");
+        }
+        if (ok && lstat(path, &own) == 0) {
+            if (S_ISDIR(own.st_mode))
+                ok = add_folder(plan, path, root, error);
+            else if (is_model(path) && stat(path, &target) == 0 && S_ISREG(target.st_mode))
+                ok = batch_plan_add(plan, path, root, error);
+        }
+        free(path);
+        free(entries[i]);
+    }
+    free(entries);
+    return ok;
+}
+
+bool batch_add_list(struct batch_plan *plan, const char *path, lam_error *error)
+{
+    bool standard = strcmp(path, "-") == 0;
+    FILE *file = standard ? stdin : fopen(path, "r");
+    if (!file)
+        return complain(error, LAM_CANNOT_READ, "%s: cannot read the list: %s", path, strerror(errno));
+    char *line = NULL;
+    size_t capacity = 0;
+    ssize_t length;
+    bool ok = true;
+    while (ok && (length = getline(&line, &capacity, file)) > 0) {
+        while (length && (line[length - 1] == '\n' || line[length - 1] == '\r'))
+            line[--length] = 0;
+        if (strlen(line) != (size_t)length)
+            ok = complain(error, LAM_CANNOT_READ, "%s: expected names, one on each line, found a zero byte", path);
+        else if (length)
+            ok = batch_plan_add(plan, line, NULL, error);
+    }
+    if (ok && ferror(file))
+        ok = complain(error, LAM_CANNOT_READ, "%s: cannot read the list: %s", path, strerror(errno));
+    free(line);
+    if (!standard)
+        fclose(file);
+    return ok;
+}
+
+bool batch_add_operand(struct batch_plan *plan, const char *operand, lam_error *error)
+{
+    struct stat found;
+    if (!*operand)
+        return complain(error, LAM_BAD_ARGUMENT, "a model's name is empty");
+    if (strcmp(operand, "-") == 0 || operand[0] == '@')
+        return batch_add_list(plan, operand + (operand[0] == '@'), error);
+    if (lam_shape_find(operand) < 0 && stat(operand, &found) == 0 && S_ISDIR(found.st_mode)) {
+        size_t before = plan->count;
+        return add_folder(plan, operand, operand, error) &&
+               (plan->count > before ||
+                complain(error, LAM_CANNOT_READ, "%s: found no model in the folder or below it", operand));
+    }
+    return batch_plan_add(plan, operand, NULL, error);
+}

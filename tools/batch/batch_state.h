@@ -1,0 +1,57 @@
+// batch_state.h: the state of a batch: what has become of each picture, and who is drawing.
+#ifndef BATCH_STATE_H
+#define BATCH_STATE_H
+
+#include <pthread.h>
+
+#include "batch_item.h"
+#include "batch_plan.h"
+#include "batch_tell.h"
+#include "journal.h"
+
+// What has become of a picture.
+enum picture_outcome {
+    PICTURE_OPEN, // nothing yet
+    PICTURE_WRITTEN,
+    PICTURE_SAME,          // --skip-same
+    PICTURE_BEFORE,        // --resume: an earlier run has written it
+    PICTURE_FAILED,        // it may be tried again
+    PICTURE_FAILED_BEFORE, // in an earlier run, and is not tried again
+};
+
+struct batch_picture {
+    uint8_t outcome;   // enum picture_outcome
+    uint8_t class;     // where it failed: its place in tally.classes
+    uint16_t attempts; // tries so far, those of earlier runs included
+};
+
+struct batch {
+    const struct batch_plan *plan;
+    const struct options *options;
+    bool is_batch;
+    char *options_text; // NULL: no records
+    enum journal_way way;
+    struct journal *journal;
+    const char *journal_path; // NULL: none
+    int workers, threads;     // threads of each worker
+
+    pthread_mutex_t lock; // of what follows
+    pthread_cond_t changed;
+    struct batch_picture *pictures; // of each model one after the other
+    json_t **records;               // the same, for the page; NULL: it is not wanted
+    bool *taken;                    // for each model: this pass has given it to a worker
+    size_t next;                    // model that this pass looks at next
+    int drawing;                    // workers that are not done
+    struct batch_tally tally;
+    struct batch_texts texts;
+    int code; // the highest exit code
+    bool interrupted;
+    bool failed; // the journal cannot be written: nothing more is begun
+};
+
+static inline struct batch_picture *batch_pictures_of(const struct batch *b, size_t model)
+{
+    return b->pictures + model * (size_t)b->plan->view_count;
+}
+
+#endif

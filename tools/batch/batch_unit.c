@@ -1,0 +1,222 @@
+// batch_unit.c: the work on one model of a batch.
+#include "batch_unit.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "batch_key.h"
+#include "console.h"
+#include "exit_codes.h"
+#include "report.h"
+#include "xxh64.h"
+
+bool batch_unit_start(struct batch_unit *u, const struct batch *b, size_t model, lam_error *error)
+{
+    size_t count = (size_t)b->plan->view_count;
+    *u = (struct batch_unit){.model = model,
+                             .pictures = calloc(count, sizeof *u->pictures),
+                             .outputs = calloc(count, sizeof *u->outputs),
+                             .classes = calloc(count, sizeof *u->classes),
+                             .records = calloc(count, sizeof *u->records),
+                             .is_new = calloc(count, sizeof *u->is_new)};
+    bool ok = u->pictures && u->outputs && u->classes && u->records && u->is_new;
+    for (size_t i = 0; ok && i < count; i++) {
+        u->pictures[i] = batch_pictures_of(b, model)[i];
+        u->outputs[i] = batch_plan_output(b->plan, model, (int)i);
+        ok = u->outputs[i] != NULL;
+    }
+    if (ok)
+        return true;
+    batch_unit_free(u, b);
+    return complain(error, LAM_LIMIT, "out of memory");
+}
+
+void batch_unit_free(struct batch_unit *u, const struct batch *b)
+{
+    for (int i = 0; i < b->plan->view_count; i++) {
+        if (u->outputs)
+            free(u->outputs[i]);
+        if (u->records)
+            json_decref(u->records[i]);
+    }
+    free(u->pictures);
+    free(u->outputs);
+    free(u->classes);
+    free(u->records);
+    free(u->is_new);
+    free(u->out);
+    free(u->err);
+    *u = (struct batch_unit){0};
+}
+
+// --- what the journal says
+
+static const char *text_of(const json_t *record, const char *key)
+{
+    const char *text = json_string_value(json_object_get(record, key));
+    return text ? text : "";
+}
+
+// Whether the picture is there, with the hash that the journal has.
+static bool is_untouched(const json_t *record, const char *output)
+{
+    uint64_t hash, recorded;
+    return xxh64_parse(text_of(record, "hash"), &recorded) && xxh64_file(output, &hash) && hash == recorded;
+}
+
+// Whether the files that the model was made of, and the options, give the record's key.
+static bool has_same_key(const json_t *record, const struct batch_unit *u, const struct batch *b, int view)
+{
+    const json_t *files = json_object_get(record, "files"), *file;
+    size_t count = json_array_size(files), i;
+    uint64_t recorded;
+    char(*hashes)[XXH64_TEXT] = calloc(count + 1, sizeof *hashes);
+    const char **texts = calloc(count + 1, sizeof *texts);
+    bool same = hashes && texts && xxh64_parse(text_of(record, "key"), &recorded);
+    if (same)
+        json_array_foreach(files, i, file)
+        {
+            uint64_t hash;
+            texts[i] = hashes[i];
+            if (xxh64_file(text_of(file, "path"), &hash))
+                xxh64_print(hash, hashes[i]);
+            else
+                strcpy(hashes[i], "absent");
+            same &= strcmp(hashes[i], text_of(file, "hash")) == 0;
+        }
+    if (same) {
+        const struct job_view *v = &b->plan->views[view];
+        const char *dot = strrchr(u->outputs[view], '.'), *format = text_of(record, "format");
+        struct batch_key_parts parts = {.options = b->options_text,
+                                        .parsed = b->options,
+                                        .model = b->plan->models[u->model].path,
+                                        .format = strcmp(format, "shape") == 0 ? "" : format,
+                                        .picture = dot ? dot + 1 : "",
+                                        .side = v->side,
+                                        .width = v->width,
+                                        .height = v->height,
+                                        .files = texts,
+                                        .file_count = (int)count};
+        same = batch_key(&parts) == recorded;
+    }
+    free(hashes);
+    free(texts);
+    return same;
+}
+
+static enum picture_outcome look(const struct batch_unit *u, const struct batch *b, int view, const json_t *record,
+                                 uint16_t *attempts)
+{
+    struct stat found;
+    bool written = strcmp(text_of(record, "class"), "ok") == 0;
+    if (b->way == JOURNAL_SAME)
+        return written && has_same_key(record, u, b, view) && is_untouched(record, u->outputs[view]) ? PICTURE_SAME
+                                                                                                     : PICTURE_OPEN;
+    if (written)
+        return stat(u->outputs[view], &found) == 0 ? PICTURE_BEFORE : PICTURE_OPEN;
+    *attempts = (uint16_t)json_integer_value(json_object_get(record, "attempt"));
+    return *attempts > b->options->retry_failed ? PICTURE_FAILED_BEFORE : PICTURE_OPEN;
+}
+
+bool batch_unit_look(struct batch_unit *u, const struct batch *b)
+{
+    bool open = false;
+    for (int i = 0; i < b->plan->view_count; i++) {
+        struct batch_picture *picture = &u->pictures[i];
+        // One that this run has tried already is tried again whatever the journal said.
+        bool asks = picture->outcome == PICTURE_OPEN && picture->attempts == 0 && b->journal && b->way != JOURNAL_START;
+        json_t *record = asks ? journal_find(b->journal, u->outputs[i]) : NULL;
+        if (record)
+            picture->outcome = (uint8_t)look(u, b, i, record, &picture->attempts);
+        if (picture->outcome != PICTURE_OPEN && b->records)
+            u->records[i] = record;
+        else
+            json_decref(record);
+        open |= picture->outcome == PICTURE_OPEN;
+    }
+    return open;
+}
+
+// --- drawing
+
+// The open pictures of a unit, as an item; `which` receives their numbers.
+static struct batch_item item_of(const struct batch_unit *u, const struct batch *b, const struct options *o,
+                                 struct job_view *views, char **outputs, int *attempts, int *which)
+{
+    int count = 0;
+    for (int i = 0; i < b->plan->view_count; i++) {
+        if (u->pictures[i].outcome != PICTURE_OPEN)
+            continue;
+        views[count] = b->plan->views[i];
+        outputs[count] = u->outputs[i];
+        attempts[count] = u->pictures[i].attempts + 1;
+        which[count++] = i;
+    }
+    return (struct batch_item){.options = o,
+                               .options_text = b->options_text,
+                               .model = b->plan->models[u->model].path,
+                               .views = views,
+                               .outputs = outputs,
+                               .attempts = attempts,
+                               .view_count = count,
+                               .several = o->view_count || o->size_count};
+}
+
+enum { VIEWS = VIEWS_MAX * VIEWS_MAX };
+
+void batch_unit_draw(struct batch_unit *u, const struct batch *b, const struct options *o, lam_device *device,
+                     bool capture)
+{
+    struct job_view views[VIEWS];
+    char *outputs[VIEWS];
+    int attempts[VIEWS], which[VIEWS];
+    struct batch_item item = item_of(u, b, o, views, outputs, attempts, which);
+    struct batch_artist artist = {
+        .device = device, .out = stdout, .has_bar = !capture, .is_talkative = !b->is_batch || o->verbose};
+    size_t out_size, err_size;
+    FILE *out = capture ? open_memstream(&u->out, &out_size) : NULL,
+         *err = capture ? open_memstream(&u->err, &err_size) : NULL;
+    if (out)
+        artist.out = out;
+    console_capture(err);
+    struct batch_result result;
+    batch_draw(&item, &artist, &result);
+    console_capture(NULL);
+    if (out)
+        fclose(out);
+    if (err)
+        fclose(err);
+    u->code = result.code;
+    u->warnings = result.warnings;
+    u->interrupted = result.interrupted;
+    for (int i = 0; i < result.record_count; i++) {
+        struct batch_picture *picture = &u->pictures[which[i]];
+        if (result.outcomes[i].kind == BATCH_INTERRUPTED)
+            continue;
+        u->classes[which[i]] = result.outcomes[i].class;
+        picture->outcome = result.outcomes[i].kind == BATCH_WRITTEN ? PICTURE_WRITTEN : PICTURE_FAILED;
+        picture->attempts++;
+        u->records[which[i]] = result.records[i];
+        u->is_new[which[i]] = true;
+        result.records[i] = NULL;
+    }
+    batch_result_free(&result);
+}
+
+void batch_unit_fail(struct batch_unit *u, const struct batch *b, const char *class, int exit, const char *text)
+{
+    struct job_view views[VIEWS];
+    char *outputs[VIEWS];
+    int attempts[VIEWS], which[VIEWS];
+    struct batch_item item = item_of(u, b, b->options, views, outputs, attempts, which);
+    u->code = exit;
+    for (int i = 0; i < item.view_count; i++) {
+        struct batch_picture *picture = &u->pictures[which[i]];
+        picture->outcome = PICTURE_FAILED;
+        picture->attempts++;
+        u->classes[which[i]] = class;
+        u->records[which[i]] = b->options_text ? batch_record_failed(&item, i, class, exit, text) : NULL;
+        u->is_new[which[i]] = true;
+    }
+}

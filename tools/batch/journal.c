@@ -1,0 +1,343 @@
+// journal.c: a file with one JSON line for each picture that is done or has failed.
+#include "journal.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "batch_key.h"
+#include "console.h"
+#include "output.h"
+#include "xxh64.h"
+
+enum { SLOT = 8192 };
+
+// The latest line of a picture.
+struct entry {
+    uint64_t output;  // hash of its path
+    const char *line; // NULL: free
+};
+
+struct journal {
+    char *path, *running_path;
+    int file, running;
+    char *text; // of the journal as it was, its lines ended by zeros
+    struct entry *entries;
+    size_t capacity; // a power of 2
+    size_t count;
+    char *was_running; // slots of the run before
+    size_t was_slots;
+    bool torn; // the last line has no end
+};
+
+char *journal_text(const char *text)
+{
+    char *out = malloc(5 * strlen(text) + 1), *to = out;
+    while (out && *text) {
+        int length = lam_utf8_length(text, strnlen(text, 4));
+        if (length) {
+            memcpy(to, text, (size_t)length);
+            to += length;
+            text += length;
+        } else {
+            to += sprintf(to, "\xEF\xBF\xBD%02X", (unsigned char)*text);
+            text++;
+        }
+    }
+    if (out)
+        *to = 0;
+    return out;
+}
+
+static uint64_t hash_of(const char *output)
+{
+    struct xxh64 hash;
+    xxh64_start(&hash);
+    xxh64_add_text(&hash, output);
+    return xxh64_end(&hash);
+}
+
+// --- reading
+
+static struct entry *find_entry(const struct journal *j, uint64_t output)
+{
+    size_t at = output & (j->capacity - 1);
+    while (j->entries[at].line && j->entries[at].output != output)
+        at = (at + 1) & (j->capacity - 1);
+    return &j->entries[at];
+}
+
+static bool keep_line(struct journal *j, const char *output, const char *line)
+{
+    if (2 * (j->count + 1) > j->capacity) {
+        struct journal larger = *j;
+        larger.capacity = j->capacity ? 2 * j->capacity : 1024;
+        larger.entries = calloc(larger.capacity, sizeof *larger.entries);
+        if (!larger.entries)
+            return false;
+        for (size_t i = 0; i < j->capacity; i++)
+            if (j->entries[i].line)
+                *find_entry(&larger, j->entries[i].output) = j->entries[i];
+        free(j->entries);
+        *j = larger;
+    }
+    uint64_t hash = hash_of(output);
+    struct entry *entry = find_entry(j, hash);
+    j->count += !entry->line;
+    *entry = (struct entry){hash, line};
+    return true;
+}
+
+// Reads a whole file, with a zero after it. NULL: `errno`; 0: there is none.
+static char *read_text(const char *path, size_t *size)
+{
+    struct stat about;
+    int file = open(path, O_RDONLY | O_CLOEXEC);
+    char *text = file >= 0 && fstat(file, &about) == 0 ? malloc((size_t)about.st_size + 1) : NULL;
+    size_t used = 0;
+    ssize_t got = 1;
+    while (text && used < (size_t)about.st_size && got > 0) {
+        got = read(file, text + used, (size_t)about.st_size - used);
+        used += got > 0 ? (size_t)got : 0;
+    }
+    int reason = errno;
+    if (file >= 0)
+        close(file);
+    if (text)
+        text[used] = 0;
+    *size = used;
+    errno = file < 0 && reason == ENOENT ? 0 : reason;
+    return text;
+}
+
+// The options of the run whose line this is; NULL: it is no such line.
+static const char *options_of(const json_t *line) { return json_string_value(json_object_get(line, "options")); }
+
+// A line that is not JSON is a torn one, or of a run that went on after one: nobody counts on it.
+static bool read_lines(struct journal *j, size_t size, const char **options, json_t **last_run, lam_error *error)
+{
+    *options = NULL; // of the latest run
+    j->torn = size && j->text[size - 1] != '\n';
+    for (char *line = j->text, *end; (end = memchr(line, '\n', size - (size_t)(line - j->text))); line = end + 1) {
+        *end = 0;
+        json_t *record = json_loads(line, 0, NULL);
+        const char *output = json_string_value(json_object_get(record, "output"));
+        bool ok = !output || keep_line(j, output, line);
+        if (record && options_of(record)) {
+            json_decref(*last_run);
+            *last_run = json_incref(record);
+            *options = options_of(record);
+        }
+        json_decref(record);
+        if (!ok)
+            return complain(error, LAM_LIMIT, "out of memory");
+    }
+    return true;
+}
+
+// --- opening
+
+static bool write_all(int file, const char *text, size_t size)
+{
+    while (size) {
+        ssize_t wrote = write(file, text, size);
+        if (wrote < 0 && errno != EINTR)
+            return false;
+        text += wrote > 0 ? wrote : 0;
+        size -= wrote > 0 ? (size_t)wrote : 0;
+    }
+    return true;
+}
+
+// The line that begins a run.
+static bool begin_run(struct journal *j, const char *options, lam_error *error)
+{
+    char *clean = journal_text(options);
+    json_t *run =
+        clean ? json_pack("{s:s, s:s, s:s}", "lambent", lam_version(), "build", lam_build_info(), "options", clean)
+              : NULL;
+    bool ok = run || complain(error, LAM_LIMIT, "out of memory");
+    ok = ok && journal_add(j, run, error);
+    json_decref(run);
+    free(clean);
+    return ok;
+}
+
+static bool check_options(const char *path, const char *then, const char *options, lam_error *error)
+{
+    char *now = journal_text(options), difference[300];
+    if (!now)
+        return complain(error, LAM_LIMIT, "out of memory");
+    bool same = strcmp(then, now) == 0;
+    if (!same)
+        batch_options_difference(then, now, difference);
+    free(now);
+    return same ||
+           complain(error, LAM_BAD_ARGUMENT,
+                    "option '--resume': the journal %.100s is of other options: %.300s; without --resume all is "
+                    "drawn anew",
+                    path, difference);
+}
+
+// Takes up the journal that is there.
+static bool read_journal(struct journal *j, enum journal_way way, const char *options, lam_error *error)
+{
+    size_t size;
+    const char *then;
+    json_t *run = NULL;
+    j->text = read_text(j->path, &size);
+    if (!j->text)
+        return errno == 0 ||
+               complain(error, LAM_CANNOT_READ, "%s: cannot read the journal: %s", j->path, strerror(errno));
+    bool ok = read_lines(j, size, &then, &run, error);
+    if (ok && size && !then)
+        ok = complain(error, LAM_BAD_ARGUMENT, "%s: expected a journal of lambent, found another file", j->path);
+    if (ok && then && way == JOURNAL_RESUME)
+        ok = check_options(j->path, then, options, error);
+    json_decref(run);
+    return ok;
+}
+
+// A journal that is there is kept under another name; another file is not touched.
+static bool set_aside(const struct journal *j, lam_error *error)
+{
+    char *before = NULL, head[64] = "";
+    struct stat about;
+    if (stat(j->path, &about) != 0)
+        return true;
+    FILE *file = fopen(j->path, "r");
+    bool ours = about.st_size == 0 || (file && fgets(head, sizeof head, file) && strstr(head, "\"lambent\""));
+    if (file)
+        fclose(file);
+    if (!ours)
+        return complain(error, LAM_BAD_ARGUMENT, "%s: expected a journal of lambent, found another file", j->path);
+    bool ok = asprintf(&before, "%s.before", j->path) >= 0 || complain(error, LAM_LIMIT, "out of memory");
+    ok = ok && (rename(j->path, before) == 0 ||
+                complain(error, LAM_CANNOT_WRITE, "%s: cannot rename to %s: %s", j->path, before, strerror(errno)));
+    if (ok)
+        free(before);
+    return ok;
+}
+
+// Only one run at a time writes a journal: the lock is that of FILE.running, and ends with the process.
+static bool open_running(struct journal *j, int slots, lam_error *error)
+{
+    j->running = open(j->running_path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (j->running < 0)
+        return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", j->running_path, strerror(errno));
+    if (flock(j->running, LOCK_EX | LOCK_NB) != 0)
+        return complain(error, LAM_BAD_ARGUMENT, "%s: the journal is in use by another run", j->path);
+    size_t size;
+    j->was_running = read_text(j->running_path, &size);
+    j->was_slots = j->was_running ? size / SLOT : 0;
+    if (ftruncate(j->running, 0) != 0 || ftruncate(j->running, (off_t)slots * SLOT) != 0)
+        return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", j->running_path, strerror(errno));
+    return true;
+}
+
+struct journal *journal_open(const char *path, enum journal_way way, const char *options, int slots, lam_error *error)
+{
+    struct journal *j = calloc(1, sizeof *j);
+    if (j)
+        *j = (struct journal){.path = strdup(path), .file = -1, .running = -1};
+    bool ok = j && j->path && asprintf(&j->running_path, "%s.running", path) >= 0;
+    if (!ok)
+        complain(error, LAM_LIMIT, "out of memory");
+    ok = ok && output_make_folder(path, error) && open_running(j, slots, error) &&
+         (way == JOURNAL_START ? set_aside(j, error) : read_journal(j, way, options, error));
+    if (ok) {
+        j->file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+        ok = j->file >= 0 || complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno));
+    }
+    // A torn line is ended, so that the next one stands alone.
+    ok = ok && (!j->torn || write_all(j->file, "\n", 1) ||
+                complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno)));
+    ok = ok && begin_run(j, options, error);
+    if (ok)
+        return j;
+    journal_close(j, false);
+    return NULL;
+}
+
+// --- records
+
+json_t *journal_find(const struct journal *j, const char *output)
+{
+    char *clean = j->count ? journal_text(output) : NULL;
+    const struct entry *entry = clean ? find_entry(j, hash_of(clean)) : NULL;
+    json_t *record = entry && entry->line ? json_loads(entry->line, 0, NULL) : NULL;
+    free(clean);
+    return record;
+}
+
+char *journal_line(const json_t *record)
+{
+    char *text = json_dumps(record, JSON_COMPACT | JSON_REAL_PRECISION(9)), *line = NULL;
+    if (!text || asprintf(&line, "%s\n", text) < 0)
+        line = NULL;
+    free(text);
+    return line;
+}
+
+bool journal_add(struct journal *j, const json_t *record, lam_error *error)
+{
+    char *line = journal_line(record);
+    if (!line)
+        return complain(error, LAM_LIMIT, "out of memory");
+    bool ok = write_all(j->file, line, strlen(line)) ||
+              complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", j->path, strerror(errno));
+    free(line);
+    return ok;
+}
+
+// --- what is being drawn
+
+void journal_begin(struct journal *j, int slot, int process, const char *model)
+{
+    char text[SLOT];
+    size_t length = model ? strlen(model) : 0;
+    if (length + 20 > sizeof text) // such a path cannot be opened
+        length = 0;
+    memset(text, 0, length + 20);
+    memcpy(text, &process, sizeof process);
+    memcpy(text + sizeof process, model ? model : "", length);
+    // Where it cannot be written, a killed run is resumed without its models being drawn first.
+    if (pwrite(j->running, text, sizeof process + length + 1, (off_t)slot * SLOT) < 0)
+        return;
+}
+
+void journal_each_running(const struct journal *j, void (*visit)(void *user, const char *model, int process),
+                          void *user)
+{
+    for (size_t i = 0; i < j->was_slots; i++) {
+        const char *slot = j->was_running + i * SLOT;
+        int process;
+        memcpy(&process, slot, sizeof process);
+        const char *model = slot + sizeof process;
+        if (*model && memchr(model, 0, SLOT - sizeof process))
+            visit(user, model, process);
+    }
+}
+
+void journal_close(struct journal *j, bool done)
+{
+    if (!j)
+        return;
+    if (j->file >= 0)
+        close(j->file);
+    if (done && j->running >= 0)
+        unlink(j->running_path);
+    if (j->running >= 0)
+        close(j->running);
+    free(j->path);
+    free(j->running_path);
+    free(j->text);
+    free(j->entries);
+    free(j->was_running);
+    free(j);
+}

@@ -1,0 +1,46 @@
+// journal.h: a file with one JSON line for each picture that is done or has failed.
+//
+// A line is appended by one write() after its picture is in place, so that a run may end anywhere: at worst the last line is
+// torn, which is seen by its missing end. Beside the journal lies FILE.running while a run goes on: which models are being
+// drawn, by which process. A run that was killed leaves it behind.
+#ifndef JOURNAL_H
+#define JOURNAL_H
+
+#include <jansson.h>
+
+#include <lambent/base.h>
+
+struct journal;
+
+// How a journal is opened. START: a journal that is there is kept as FILE.before. RESUME and SAME: it is read, and lines are
+// added to it; for RESUME its options must be these.
+enum journal_way { JOURNAL_START, JOURNAL_RESUME, JOURNAL_SAME };
+
+// `options`: batch_options_text, and the names of the pictures. `slots`: the most models that are drawn at once. NULL:
+// LAM_BAD_ARGUMENT (other options; in use by another run), LAM_CANNOT_READ, LAM_CANNOT_WRITE, LAM_LIMIT.
+struct journal *journal_open(const char *path, enum journal_way way, const char *options, int slots, lam_error *error);
+
+// The latest line of a picture, by its path; NULL: none. The caller calls json_decref.
+json_t *journal_find(const struct journal *journal, const char *output);
+
+// Adds a record. One thread at a time. Error: LAM_CANNOT_WRITE.
+bool journal_add(struct journal *journal, const json_t *record, lam_error *error);
+
+// A record as its line, from malloc, with its line end; NULL: out of memory.
+char *journal_line(const json_t *record);
+
+// Says that a slot's model is being drawn by a process; NULL: nothing is.
+void journal_begin(struct journal *journal, int slot, int process, const char *model);
+
+// The models that a killed run was drawing, with the process that did; calls `visit` for each.
+void journal_each_running(const struct journal *journal, void (*visit)(void *user, const char *model, int process),
+                          void *user);
+
+// Closes it. `done`: the run came to its end, and nothing is being drawn. NULL is fine.
+void journal_close(struct journal *journal, bool done);
+
+// Text as JSON can hold it, from malloc: bytes that are not UTF-8 become U+FFFD and two hexadecimal digits. NULL: out of
+// memory.
+char *journal_text(const char *text);
+
+#endif

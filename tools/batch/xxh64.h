@@ -1,0 +1,27 @@
+// xxh64.h: XXH64, the hash of journals: of pictures, of models and of what a picture depends on. `xxh64sum` prints the same.
+#ifndef XXH64_H
+#define XXH64_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct xxh64 {
+    uint64_t lanes[4], size;
+    unsigned char rest[32]; // bytes that do not fill a stripe yet: size % 32
+};
+
+void xxh64_start(struct xxh64 *hash);
+void xxh64_add(struct xxh64 *hash, const void *bytes, size_t size);
+void xxh64_add_text(struct xxh64 *hash, const char *text); // with its closing zero; NULL: one byte 1
+uint64_t xxh64_end(const struct xxh64 *hash);
+
+// Of a file's bytes. False, with errno: it cannot be read, or is not a regular file.
+bool xxh64_file(const char *path, uint64_t *hash);
+
+// "xxh64:0123456789abcdef", and back. False: not of that form.
+enum { XXH64_TEXT = 24 };
+void xxh64_print(uint64_t hash, char text[XXH64_TEXT]);
+bool xxh64_parse(const char *text, uint64_t *hash);
+
+#endif

@@ -1,0 +1,98 @@
+// batch.c: the command `batch`: pictures of many models, with a journal.
+#include "command.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "batch_run.h"
+#include "batch_sources.h"
+#include "console.h"
+#include "json.h"
+#include "output.h"
+#include "report.h"
+
+static bool check(int operands, const struct options *o, lam_error *error)
+{
+    if (!operands && !o->lists.count)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "batch: no model given, expected files, folders, @FILE with a list of names, or - for names on "
+                        "standard input");
+    if (o->output && strcmp(o->output, "-") == 0)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "batch: pictures are files; name a folder, -o pictures/, or a pattern");
+    if (o->save_scene)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' goes only with a single model");
+    return render_check_options(o, error);
+}
+
+// --dry-run: which picture each model becomes.
+static bool print_mapping(const struct batch_plan *plan, lam_error *error)
+{
+    for (size_t i = 0; i < plan->count; i++)
+        for (int k = 0; k < plan->view_count; k++) {
+            char *output = batch_plan_output(plan, i, k);
+            if (!output)
+                return complain(error, LAM_LIMIT, "out of memory");
+            if (plan->options->json) {
+                struct json json = {.file = stdout};
+                json_open(&json, NULL, '{');
+                json_text(&json, "model", plan->models[i].path);
+                json_text(&json, "output", output);
+                json_close(&json, '}');
+                putc('\n', stdout);
+            } else {
+                printf("%s -> %s\n", plan->models[i].path, output);
+            }
+            free(output);
+        }
+    return true;
+}
+
+// The path of the journal, from malloc; *none: there is none.
+static char *journal_path(const struct batch_plan *plan, bool *none)
+{
+    const char *named = plan->options->journal;
+    *none = named && strcmp(named, "none") == 0;
+    if (named)
+        return strdup(named);
+    char *folder = batch_plan_folder(plan), *path = NULL;
+    if (!folder || asprintf(&path, "%slambent.jsonl", folder) < 0)
+        path = NULL;
+    free(folder);
+    return path;
+}
+
+static bool fill(struct batch_plan *plan, int count, char **operands, lam_error *error)
+{
+    const struct options *o = plan->options;
+    for (int i = 0; i < count; i++)
+        if (!batch_add_operand(plan, operands[i], error))
+            return false;
+    for (int i = 0; i < o->lists.count; i++)
+        if (!batch_add_list(plan, o->lists.items[i], error))
+            return false;
+    return batch_plan_check(plan, error);
+}
+
+int run_batch(int operand_count, char **operands, const struct options *options)
+{
+    lam_error error = {0};
+    struct batch_plan plan = {0};
+    bool none = false;
+    bool ok = check(operand_count, options, &error) && batch_plan_start(&plan, options, &error) &&
+              fill(&plan, operand_count, operands, &error);
+    if (ok && options->dry_run)
+        ok = print_mapping(&plan, &error);
+    char *journal = ok && !options->dry_run ? journal_path(&plan, &none) : NULL;
+    if (ok && !options->dry_run && !journal)
+        ok = complain(&error, LAM_LIMIT, "out of memory");
+    int code = 0;
+    if (!ok)
+        code = report_failure(&error, options);
+    else if (!options->dry_run)
+        code = batch_run(&plan, none ? NULL : journal, true);
+    free(journal);
+    batch_plan_free(&plan);
+    return code;
+}

@@ -1,0 +1,34 @@
+// html.c: text and addresses in HTML.
+#include "html.h"
+
+#include <string.h>
+
+void html_text(FILE *file, const char *text)
+{
+    for (const char *c = text ? text : ""; *c; c++)
+        switch (*c) {
+        case '&':
+            fputs("&amp;", file);
+            break;
+        case '<':
+            fputs("&lt;", file);
+            break;
+        case '>':
+            fputs("&gt;", file);
+            break;
+        case '"':
+            fputs("&quot;", file);
+            break;
+        default:
+            putc(*c, file);
+        }
+}
+
+void html_address(FILE *file, const char *path)
+{
+    for (const unsigned char *c = (const unsigned char *)path; *c; c++)
+        if ((*c >= '0' && *c <= '9') || (*c >= 'A' && *c <= 'Z') || (*c >= 'a' && *c <= 'z') || strchr("-_.~/", *c))
+            putc(*c, file);
+        else
+            fprintf(file, "%%%02X", *c);
+}

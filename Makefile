@@ -17,6 +17,7 @@ help:
 	@echo 'make test-long  what takes too long for make test: runs that are killed fifty times'
 	@echo 'make test-gl    the tests of OpenGL alone; names the driver that they ran on'
 	@echo 'make test-debian13  make demo and make test on a fresh Debian 13 root, in build-debian13/ (needs root)'
+	@echo 'make test-long  what takes too long for make test: other processors under qemu'
 	@echo 'make fuzz       fuzzes every reader and the drawing, a minute each (time=1200 targets="obj ply")'
 	@echo 'make bench      measures against other programs, into bench/results and docs/speed.md (BENCH=full: everything)'
 	@echo 'make bench-check         counts instructions, beside the recorded ones (part of make test)'
@@ -53,6 +54,11 @@ test-long:
 test-gl:
 	@scripts/setup.sh build test
 	@python3 tests/run.py gl
+
+test-long:
+	@scripts/setup.sh build test
+	@scripts/setup.sh long || true # optional: what is missing is skipped
+	@python3 tests/run.py long
 
 # Needs clang; builds in build-fuzz/, where the inputs found so far are kept (docs/fuzzing.md).
 fuzz:

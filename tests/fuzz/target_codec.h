@@ -6,6 +6,16 @@
 #include "pixels.h"
 #include "target.h"
 
+#include <dlfcn.h>
+
+// Opens a library that reading opens each time: that takes longer than most inputs.
+static inline void keep_open(const char *library)
+{
+    static void *handle;
+    if (!handle)
+        handle = dlopen(library, RTLD_NOW | RTLD_NODELETE);
+}
+
 // Invariant for every input: a picture, or an error with a sentence and no picture. Memory and time are limited. A format that
 // keeps more than 8 bits is read both ways.
 static inline void read_picture(const struct codec *codec, const uint8_t *data, size_t size, const char *name)

@@ -31,7 +31,11 @@ bool memory_failed(void) { return __atomic_load_n(&failed, __ATOMIC_SEQ_CST); }
 
 struct memory_held memory_held(void)
 {
+#ifdef WRAPPED
+    return (struct memory_held){0, __atomic_load_n(&mapped, __ATOMIC_SEQ_CST)};
+#else
     return (struct memory_held){__atomic_load_n(&blocks, __ATOMIC_SEQ_CST), __atomic_load_n(&mapped, __ATOMIC_SEQ_CST)};
+#endif
 }
 
 static int find_library(struct dl_phdr_info *library, size_t size, void *user)
@@ -204,3 +208,17 @@ ssize_t NAME(read)(int file, void *to, size_t size)
     ssize_t most = size ? allowed(size, offset < 0 ? 0 : offset) : 0; // a pipe has none
     return most <= 0 ? most : syscall(SYS_read, file, to, (size_t)most);
 }
+
+#ifdef WRAPPED // the names that headers give to two of them where offsets have 64 bits
+
+void *__wrap_mmap64(void *at, size_t size, int protection, int flags, int file, off_t offset);
+ssize_t __wrap_pread64(int file, void *to, size_t size, off_t offset);
+
+void *__wrap_mmap64(void *at, size_t size, int protection, int flags, int file, off_t offset)
+{
+    return __wrap_mmap(at, size, protection, flags, file, offset);
+}
+
+ssize_t __wrap_pread64(int file, void *to, size_t size, off_t offset) { return __wrap_pread(file, to, size, offset); }
+
+#endif

@@ -16,7 +16,8 @@ bool memory_failed(void);   // whether one has failed since then
 // Lambent's. It has been loaded.
 void memory_spare(const char *library);
 
-// What is held now: blocks that were not freed, and bytes that are mapped.
+// What is held now: blocks that were not freed, and bytes that are mapped. In builds with sanitizers, which search for leaks
+// themselves, blocks are not counted: some are the C library's until Lambent frees them.
 struct memory_held {
     long blocks, mapped;
 };

@@ -152,7 +152,7 @@ static int remove_files(void **state)
 // What a run gave.
 struct outcome {
     bool ok;
-    uint8_t pixels[4 * PIXELS];
+    _Alignas(16) uint8_t pixels[4 * PIXELS];
     int warnings;
     lam_error error;
     char last_warning[256];

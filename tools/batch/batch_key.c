@@ -12,11 +12,11 @@
 #include "json.h"
 #include "xxh64.h"
 
-// Options outside of the groups of the picture that change it, and options of those groups that do not; sides and sizes
-// belong to each picture.
-static const char *const also[] = {"files-inside", "device", "gl-device", NULL}, *const without[] = {
-                                                                                     "output", "save-scene", "size",
-                                                                                     "view", NULL};
+// Options outside of the groups of the picture that change it.
+static const char *const also[] = {"files-inside", "device", "gl-device", NULL};
+
+// Options of those groups that do not; sides and sizes belong to each picture, and a look is what its options are.
+static const char *const without[] = {"output", "save-scene", "size", "view", "durable", "look", NULL};
 
 static bool is_in(const char *const *names, const char *name)
 {

@@ -113,8 +113,11 @@ static enum picture_outcome look(const struct batch_unit *u, const struct batch 
     if (b->way == JOURNAL_SAME)
         return written && has_same_key(record, u, b, view) && is_untouched(record, u->outputs[view]) ? PICTURE_SAME
                                                                                                      : PICTURE_OPEN;
-    if (written)
-        return stat(u->outputs[view], &found) == 0 ? PICTURE_BEFORE : PICTURE_OPEN;
+    if (written) {
+        bool whole = stat(u->outputs[view], &found) == 0 &&
+                     found.st_size == json_integer_value(json_object_get(record, "bytes"));
+        return whole ? PICTURE_BEFORE : PICTURE_OPEN;
+    }
     *attempts = (uint16_t)json_integer_value(json_object_get(record, "attempt"));
     return *attempts > b->options->retry_failed ? PICTURE_FAILED_BEFORE : PICTURE_OPEN;
 }

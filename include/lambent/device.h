@@ -291,7 +291,7 @@ typedef struct lam_frame_report {
     double upload_ms, draw_ms, read_ms;
     // The OpenGL device: vertices, colours, lights, materials and environment sent in this frame.
     uint64_t bytes_uploaded;
-    uint64_t triangles;        // of the scene
+    uint64_t triangles;        // of the scene, and a ground's
     uint64_t triangles_binned; // that reached a tile
     uint64_t pixels_covered;   // by a triangle
     // Evaluations of the lighting: pixels, vertices or triangles. The OpenGL device counts only the processor's own.

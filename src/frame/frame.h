@@ -181,12 +181,6 @@ void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat
 // Whether shadow rays meet a draw's triangles.
 static inline bool frame_draw_casts(const struct frame_draw *draw) { return !draw->strokes && !draw->ground; }
 
-// The triangles of the scene, without the ground's.
-static inline uint32_t frame_scene_triangles(const struct frame *frame)
-{
-    return frame->ground.kind ? frame->ground.first_id : frame->triangle_count;
-}
-
 // A position of a draw's mesh in world space.
 static inline void frame_to_world(const struct frame_draw *draw, const float from[3], double to[3])
 {

@@ -6,7 +6,7 @@ DESTDIR ?=
 time    ?= 60
 MAKEFLAGS += --no-print-directory
 
-.PHONY: all demo test test-long fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall clean help
+.PHONY: all demo test test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall clean help
 
 all: $(build)/lambent
 
@@ -14,11 +14,11 @@ help:
 	@echo 'make            builds $(build)/lambent (missing Debian packages are installed first)'
 	@echo 'make demo       builds and renders the Utah teapot to out/demo.png'
 	@echo 'make test       builds and runs the whole test suite, both compilers, with sanitizers'
-	@echo 'make test-long  what takes too long for make test: runs that are killed fifty times'
+	@echo 'make test-long  what takes too long for make test: kills, 20,000 pictures, other processors under qemu'
 	@echo 'make test-gl    the tests of OpenGL alone; names the driver that they ran on'
 	@echo 'make test-debian13  make demo and make test on a fresh Debian 13 root, in build-debian13/ (needs root)'
-	@echo 'make test-long  what takes too long for make test: other processors under qemu'
 	@echo 'make fuzz       fuzzes every reader and the drawing, a minute each (time=1200 targets="obj ply")'
+	@echo 'make lint       cppcheck and clang-tidy over src and tools'
 	@echo 'make bench      measures against other programs, into bench/results and docs/speed.md (BENCH=full: everything)'
 	@echo 'make bench-check         counts instructions, beside the recorded ones (part of make test)'
 	@echo 'make bench-check-record  records them anew, where they were meant to change'
@@ -47,10 +47,6 @@ test:
 	@scripts/setup.sh build test
 	@python3 tests/run.py
 
-test-long:
-	@scripts/setup.sh build test
-	@python3 tests/run.py long
-
 test-gl:
 	@scripts/setup.sh build test
 	@python3 tests/run.py gl
@@ -59,6 +55,11 @@ test-long:
 	@scripts/setup.sh build test
 	@scripts/setup.sh long || true # optional: what is missing is skipped
 	@python3 tests/run.py long
+
+# Exceptions stand in tests/lint/cppcheck.txt and .clang-tidy, with their reasons.
+lint: $(build)/lambent
+	@scripts/setup.sh lint
+	@python3 tests/lint/lint.py $(build)
 
 # Needs clang; builds in build-fuzz/, where the inputs found so far are kept (docs/fuzzing.md).
 fuzz:

@@ -269,6 +269,7 @@ static int value_of(const struct build *m, const struct frame_draw_range *range,
     case GLSL_GROUND_PRODUCT:
         return put_product(out, &material->ambient.r, frame->hemispheres[index].ground);
     case GLSL_FIRST_PRODUCT:
+        // NOLINTNEXTLINE(bugprone-integer-division): whole texels of 16 bytes
         out[0] = (float)((size_t)number * glsl_products_bytes(&m->choices) / 16);
         return 1;
     case GLSL_OBJECT:

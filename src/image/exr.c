@@ -174,8 +174,10 @@ static exr_result_t write_chunks(const struct core *core, exr_context_t file, in
         for (int i = 0; result == EXR_ERR_SUCCESS && i < pipe.channel_count; i++) {
             exr_coding_channel_info_t *c = &pipe.channels[i];
             const float *from = channel_named(channels, count, c->channel_name);
-            if (!from)
+            if (!from) {
                 result = EXR_ERR_INVALID_ARGUMENT;
+                break;
+            }
             c->user_bytes_per_element = 4;
             c->user_data_type = EXR_PIXEL_FLOAT;
             c->user_pixel_stride = 16;

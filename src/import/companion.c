@@ -94,6 +94,7 @@ static char *join(struct arena *arena, const char *folder, const char *name)
     size_t length = strlen(folder), rest = strlen(name);
     char *path = arena_alloc(arena, length + rest + 1);
     if (path) {
+        // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the name follows, with its zero
         memcpy(path, folder, length);
         memcpy(path + length, name, rest + 1);
     }

@@ -77,9 +77,11 @@ static bool is_out_of_memory(void)
     if (!memory_limit)
         return false;
     size_t size = (size_t)memory_limit / 2;
+    // NOLINTNEXTLINE(bugprone-signal-handler,cert-sig30-c): a system call, and nothing else, in a process that ends
     void *more = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (more == MAP_FAILED)
         return true;
+    // NOLINTNEXTLINE(bugprone-signal-handler,cert-sig30-c): likewise
     munmap(more, size);
     return false;
 }

@@ -130,6 +130,7 @@ static bool build_scene(lam_scene *scene, lam_color_mode color, lam_error *error
         object.mesh = mesh;
         object.material = lam_scene_add_material(scene, &material, error);
         object.transform.m[0][3] = 2.2 * (i % COLUMNS - (COLUMNS - 1) * 0.5);
+        // NOLINTNEXTLINE(bugprone-integer-division): the row, a whole number
         object.transform.m[1][3] = 1.7 * ((ROWS - 1) * 0.5 - i / COLUMNS);
         if (object.material < 0 || lam_scene_add_object(scene, &object, error) < 0)
             return false;

@@ -77,6 +77,7 @@ char *shader_dialect_highp(const char *text)
     for (const char *word; out && (word = find_qualifier(text, &length)); text = word + length) {
         memcpy(out + at, text, (size_t)(word - text));
         at += (size_t)(word - text);
+        // NOLINTNEXTLINE(bugprone-not-null-terminated-result): in the middle of a text
         memcpy(out + at, "highp", 5);
         at += 5;
     }

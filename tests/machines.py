@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-ROOMS = ["base", "json", "image", "geometry", "environment", "texture", "scene", "shapes", "import", "scene_file", "load", "frame", "rays", "occlusion", "device", "cpu"]
+ROOMS = ["base", "json", "image", "geometry", "environment", "texture", "scene", "shapes", "import", "scene_file", "load", "frame", "rays", "edges", "occlusion", "device", "cpu"]
 INCLUDES = ["include", "src/lighting"] + [os.path.relpath(path, ROOT) for room in ROOMS
                                          for path, _, _ in os.walk(os.path.join(ROOT, "src", room))]
 FLAGS = ["-std=gnu11", "-O2", "-D_GNU_SOURCE", "-DNDEBUG", "-ffp-contract=off", "-fno-math-errno", "-Wall", "-Werror", "-Wno-psabi", "-c", '-DLAMBENT_LIBDIR="lib"']
@@ -31,10 +31,11 @@ def sources(machine):
     files = []
     for room in ROOMS:
         files += sorted(glob.glob(os.path.join(ROOT, "src", room, "**", "*.c"), recursive=True))
-    skipped = LEFT_OUT + machine["without"] + ["kernels.c", "environment_kernels.c", "corner_fan_simd.c", "position_simd.c"]
+    skipped = LEFT_OUT + machine["without"] + ["kernels.c", "environment_kernels.c", "corner_fan_simd.c", "position_simd.c", "edge_rays.c"]
     for_each = [("src/cpu/kernels.c", kernel) for kernel in machine["kernels"]]
     for_each += [("src/environment/environment_kernels.c", ("scalar", 4))]
     for_each += [("src/geometry/normals/%s_simd.c" % name, ("scalar", 1)) for name in ("corner_fan", "position")]
+    for_each += [("src/edges/edge_rays.c", ("scalar", 1))]
     return [(f, []) for f in files if os.path.basename(f) not in skipped] + [
         (os.path.join(ROOT, path), ["-DISA=" + isa, "-DLANES=%d" % lanes]) for path, (isa, lanes) in for_each]
 

@@ -216,6 +216,25 @@ typedef enum lam_ground {
 // The name of a kind of ground: "off", "shadow". A static string; NULL out of range.
 LAM_API const char *lam_ground_name(lam_ground ground);
 
+// Edges of surfaces that are drawn as lines (docs/edges.md). Bits.
+typedef enum lam_edges {
+    LAM_EDGES_CREASE = 1,     // two faces meet at more than lam_draw_params.edge_angle_rad, or more than two faces meet
+    LAM_EDGES_BOUNDARY = 2,   // one face ends there
+    LAM_EDGES_SILHOUETTE = 4, // one of its two faces is seen from the front, the other from behind
+    LAM_EDGES_ALL = 7,
+} lam_edges;
+
+// What becomes of the parts of edges that lie behind surfaces.
+typedef enum lam_hidden_lines {
+    LAM_HIDDEN_LINES_REMOVE = 0, // left out
+    LAM_HIDDEN_LINES_DASH,       // dashed
+    LAM_HIDDEN_LINES_SHOW,       // as if the surfaces were not there
+    LAM_HIDDEN_LINES_COUNT
+} lam_hidden_lines;
+
+// The name of a treatment of hidden lines: "remove", "dash". A static string; NULL out of range.
+LAM_API const char *lam_hidden_lines_name(lam_hidden_lines lines);
+
 // How a frame is drawn. All zero is the default.
 typedef struct lam_draw_params {
     int samples; // per pixel: 1, 2, 4, 8 or 16; 0: lam_default_samples
@@ -271,7 +290,19 @@ typedef struct lam_draw_params {
     lam_ground ground;     // CPU device alone; others refuse it (LAM_UNSUPPORTED)
     // Linear; of COLOR, and of the bright squares of CHECKER, whose others have 0.45 of it. CHECKER: all zero is 0.6.
     lam_rgb ground_color;
-    LAM_RESERVED(22);
+    // Lines over the picture (LAM_OUTPUT_PICTURE alone): the edges of all faces, those of the file's polygons where the mesh
+    // knows them (lam_mesh.inner_edges), and feature edges, LAM_EDGES_…. Their coverage of each pixel is computed from the
+    // distance to its centre, whatever `samples` is; light, exposure and tone do not change their colours. A surface hides the
+    // edges behind it where its opacity is at least ½ and no light goes through it (docs/edges.md).
+    bool wireframe;
+    bool no_surfaces; // surfaces hide lines, but are not drawn: lines and points alone
+    unsigned edges;
+    lam_hidden_lines hidden_lines;
+    float edge_angle_rad;              // of LAM_EDGES_CREASE, 0…π; 0: 40°
+    float wireframe_width, edge_width; // pixels, up to 1000; 0: 1 and 1.5
+    // Linear, not premultiplied. All zero: black, and white with no_surfaces over a background darker than 0.18.
+    lam_rgba wireframe_color, edge_color;
+    LAM_RESERVED(15);
 } lam_draw_params;
 
 // The times of a frame in milliseconds, and counts.
@@ -306,7 +337,10 @@ typedef struct lam_frame_report {
     bool ground;   // the camera sees a ground
     // With one: its height along the scene's up axis, and the side of a checker's squares, model units. Else 0.
     double ground_height, ground_square;
-    LAM_RESERVED(8);
+    double edges_ms;      // finding the edges that are drawn and what of them is in sight; hierarchy_ms apart
+    uint64_t edges_drawn; // of meshes that are inside of the picture, hidden ones too
+    uint64_t edge_rays;   // from points of edges to the eye
+    LAM_RESERVED(5);
 } lam_frame_report;
 
 // Draws the scene as the camera sees it into `image`, which the caller made with the size and pixel format

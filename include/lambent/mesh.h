@@ -91,7 +91,11 @@ typedef struct lam_mesh {
 
     uint32_t line_count;  // lines of a mesh of lines
     uint32_t point_count; // points of a mesh of points
-    LAM_RESERVED(31);
+
+    // One for each triangle: bit k (of 0, 1, 2) is set where the edge from its corner k to the next was made by cutting a
+    // polygon into triangles. The wireframe leaves such edges out. NULL: every edge is the model's own.
+    const uint8_t *inner_edges;
+    LAM_RESERVED(30);
 } lam_mesh;
 
 // Parameters of a built-in shape. All zero: the shape's defaults.

@@ -95,7 +95,9 @@ typedef struct lam_load_params {
     const char *animation;
     // Seconds; before the first and after the last key of a channel it has that key's values. Finite.
     double time_s;
-    LAM_RESERVED(11);
+    // OBJ and PLY: keeps which edges cutting polygons into triangles made (lam_mesh.inner_edges), for wireframes.
+    bool polygon_edges;
+    LAM_RESERVED(10);
 } lam_load_params;
 
 // Loads a model file into a new scene: its meshes, materials and lights, and an object for each mesh. Where everything is

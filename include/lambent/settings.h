@@ -16,6 +16,9 @@ typedef enum lam_setting_type {
     LAM_SETTING_WHOLE,    // an int
     LAM_SETTING_NUMBER,   // a float
     LAM_SETTING_RGB,      // a lam_rgb
+    LAM_SETTING_RGBA,     // a lam_rgba
+    LAM_SETTING_ANGLE,    // a float in radians; `min`, `max` and `standard` are degrees, as scene files have them
+    LAM_SETTING_WORDS,    // an int of bits, each a word of lam_setting.word
 } lam_setting_type;
 
 // A setting of lam_draw_params. A member of 0 stands for the default.
@@ -23,11 +26,11 @@ typedef struct lam_setting {
     const char *key; // in scene files; an option has - in place of _
     lam_setting_type type;
     size_t offset; // of the member in lam_draw_params
-    // The range of WHOLE and NUMBER, and the default.
+    // The range of WHOLE, NUMBER and ANGLE, and the default.
     double min, max, standard;
     bool zero;             // WHOLE, NUMBER: 0 may be written too, whatever `min` is
     bool zero_is_negative; // NUMBER: a written 0 is −1 in the member, where 0 is the default
-    // The words of WORD: the one with this index and its value; NULL past the end. Of several words for one value the
+    // The words of WORD and WORDS: the one with this index and its value; NULL past the end. Of several words for one value the
     // first is written.
     const char *(*word)(int index, int *value);
     const char *summary; // one sentence

@@ -25,7 +25,6 @@ struct cpu_device {
     struct thread_bins *bins;
     struct frame_memory memory;
     struct visible_buffers visible;
-    struct hierarchy_memory hierarchy;
     struct light_pattern light_pattern;
     float decode_srgb[256], decode_linear[256];
 };
@@ -35,7 +34,7 @@ static uint64_t cpu_memory(const struct lam_device *base)
     const struct cpu_device *device = (const struct cpu_device *)base;
     const struct visible_buffers *visible = &device->visible;
     uint64_t bytes = frame_memory_bytes(&device->memory) + visible->sets.capacity + visible->normals.capacity +
-                     visible->fragment_stores.capacity + hierarchy_bytes(&device->hierarchy);
+                     visible->fragment_stores.capacity;
     for (int i = 0; i < device->thread_count; i++)
         bytes += thread_bytes(&device->threads[i], &device->bins[i]);
     return bytes;
@@ -53,7 +52,6 @@ static void cpu_free(struct lam_device *base)
     buffer_free(&device->visible.sets);
     buffer_free(&device->visible.normals);
     buffer_free(&device->visible.fragment_stores);
-    hierarchy_free(&device->hierarchy);
     free(device);
 }
 
@@ -182,12 +180,12 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     uint64_t clock = now_ns();
     bool built = false;
     if (frame_has_rays(frame) &&
-        !(cpu.shade.hierarchy = hierarchy_of_frame(&device->hierarchy, frame, device->pool, call, &built, error)))
+        !(cpu.shade.hierarchy = hierarchy_of_frame(&base->hierarchy, frame, device->pool, call, &built, error)))
         return false;
     if (frame->shadows && device->light_pattern.count != frame->shadow_samples)
         light_pattern_fill(&device->light_pattern, frame->shadow_samples);
     cpu.shade.light_pattern = &device->light_pattern;
-    base->report.hierarchy_ms = built ? milliseconds_since(&clock) : 0;
+    base->report.hierarchy_ms += built ? milliseconds_since(&clock) : 0;
     cpu.kernels->resolve_empty(&cpu.target);
     if (!lam_output_is_light(frame->output))
         output_empty(&cpu.target);
@@ -262,7 +260,7 @@ lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error)
     device->base.isa = isa;
     device->base.threads = pool_threads(pool);
     device->kernels = kernels;
-    device->pool = pool;
+    device->pool = device->base.pool = pool;
     device->thread_count = pool_threads(pool);
     device->threads = threads;
     device->bins = bins;

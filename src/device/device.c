@@ -8,6 +8,52 @@
 
 #include <string.h>
 
+// Memory that a device of any type keeps.
+static uint64_t own_memory(const lam_device *device)
+{
+    return device->frame.storage.capacity + hierarchy_bytes(&device->hierarchy) + edges_bytes(&device->edges);
+}
+
+// Finds the edges that are drawn over the picture.
+static bool find_edges(lam_device *device, struct call_control *call, lam_error *error)
+{
+    static const int lanes[LAM_ISA_COUNT] = {16, 1, 4, 8, 16, 4};
+    lam_frame_report *report = &device->report;
+    uint64_t start = now_ns();
+    bool built;
+    const struct hierarchy *hierarchy =
+        hierarchy_of_frame(&device->hierarchy, &device->frame, device->pool, call, &built, error);
+    uint64_t found = now_ns();
+    report->hierarchy_ms = built ? (double)(found - start) * 1e-6 : 0;
+    struct edge_counts counts = {0};
+    if (!hierarchy ||
+        !edges_find(&device->edges, &device->frame, hierarchy, lanes[device->isa], device->pool, call, &counts, error))
+        return false;
+    report->edges_drawn = counts.drawn;
+    report->edge_rays = counts.rays;
+    report->edges_ms = (double)(now_ns() - found) * 1e-6;
+    return true;
+}
+
+// Draws the frame, and edges over it. Where surfaces are not drawn, they hide edges all the same: the frame is built once
+// with them and once without.
+static bool draw_frame(lam_device *device, const lam_scene *scene, const lam_camera *camera,
+                       const lam_draw_params *params, lam_image *target, struct call_control *call, lam_error *error)
+{
+    if (device->frame.draws_edges && !find_edges(device, call, error))
+        return false;
+    lam_draw_params lines = *params;
+    lines.ground = LAM_GROUND_NONE;
+    if (params->no_surfaces &&
+        !frame_build(&device->frame, scene, camera, &lines, target->width, target->height, call, error))
+        return false;
+    if (!device->type->draw(device, &device->frame, target, call, error))
+        return false;
+    if (device->frame.draws_edges)
+        edges_blend(&device->edges, &device->frame, target, device->pool);
+    return true;
+}
+
 bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
               lam_image *image, const lam_control *control, lam_error *error)
 {
@@ -27,12 +73,15 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
     struct call_control call;
     call_start(&call, control);
     // Memory that the device holds already counts towards the budget.
-    uint64_t held = device->type->memory(device) + device->frame.storage.capacity;
+    uint64_t held = device->type->memory(device) + own_memory(device);
     memset(&device->report, 0, sizeof device->report);
     if (!call_charge(&call, held))
         return call_memory_error(&call, held, error);
     uint64_t state = float_state_enter();
-    bool ok = frame_build(&device->frame, scene, camera, &drawn, image->width, image->height, &call, error);
+    drawn.no_surfaces &= drawn.output == LAM_OUTPUT_PICTURE;
+    lam_draw_params whole = drawn;
+    whole.no_surfaces = false;
+    bool ok = frame_build(&device->frame, scene, camera, &whole, image->width, image->height, &call, error);
     device->report.frame_ms = (double)(now_ns() - call.start_ns) * 1e-6;
     device->report.triangles = device->frame.triangle_count;
     device->report.depth_near = (double)device->frame.depth_near;
@@ -52,9 +101,9 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
         device->report.ground_height = v3_dot(ground->middle, ground->up);
         device->report.ground_square = ground->kind == LAM_GROUND_CHECKER ? ground->square : 0;
     }
-    ok = ok && device->type->draw(device, &device->frame, &target, &call, error);
+    ok = ok && draw_frame(device, scene, camera, &drawn, &target, &call, error);
     device->report.total_ms = (double)(now_ns() - call.start_ns) * 1e-6;
-    device->report.memory_bytes = device->type->memory(device) + device->frame.storage.capacity;
+    device->report.memory_bytes = device->type->memory(device) + own_memory(device);
     float_state_leave(state);
     if (ok)
         call_progress(&call, 1, "frame");
@@ -78,5 +127,7 @@ void lam_device_free(lam_device *device)
     if (!device)
         return;
     frame_free(&device->frame);
+    hierarchy_free(&device->hierarchy);
+    edges_free(&device->edges);
     device->type->free(device);
 }

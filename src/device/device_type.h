@@ -3,8 +3,10 @@
 #ifndef DEVICE_TYPE_H
 #define DEVICE_TYPE_H
 
+#include "edges.h"
 #include "frame.h"
 
+struct pool;
 struct recorder;
 
 struct device_type {
@@ -25,7 +27,10 @@ struct lam_device {
     char name[96];
     lam_isa isa; // AUTO and 0 threads for devices to which neither applies
     int threads;
+    struct pool *pool; // NULL: it works on the calling thread alone
     struct frame frame;
+    struct hierarchy_memory hierarchy; // of edges, and of the CPU device's shadows
+    struct edge_memory edges;
     struct recorder *recorder; // records one pixel (recorder.h); NULL: none
     lam_frame_report report;
 };

@@ -198,8 +198,11 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
     *out = (lam_explanation){.x = x, .y = y, .width = width, .height = height, .format = format};
     struct recorder recorder = {.out = out};
     arena_start(&recorder.arena, NULL);
+    lam_draw_params surfaces = params ? *params : (lam_draw_params){0}; // lines over them have no light
+    surfaces.wireframe = surfaces.no_surfaces = false;
+    surfaces.edges = 0;
     device->recorder = &recorder;
-    bool ok = lam_draw(device, scene, camera, params, &image, control, error);
+    bool ok = lam_draw(device, scene, camera, &surfaces, &image, control, error);
     device->recorder = NULL;
     lam_image_free(&image);
     explanation->arena = recorder.arena;

@@ -61,6 +61,8 @@ bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const lam_came
     drawn.light_cutoff = -1;
     drawn.ground = LAM_GROUND_NONE;
     drawn.shadows |= params && params->ground; // as a ground has them
+    drawn.wireframe = drawn.no_surfaces = false;
+    drawn.edges = 0;
     int longer = width > height ? width : height;
     if (longer > SIDE_MAX) {
         width = (int)((int64_t)width * SIDE_MAX / longer);

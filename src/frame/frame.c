@@ -542,7 +542,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     for (int i = 0; i < scene->objects.count; i++) {
         const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
         uint64_t triangles = mesh_is_strokes(mesh) ? 2 * (uint64_t)mesh_items(mesh) : mesh->triangle_count;
-        if (!triangles)
+        if (!triangles || (params->no_surfaces && !mesh_is_strokes(mesh)))
             continue;
         if (next + triangles > TRIANGLES_MAX)
             return fail(error, LAM_LIMIT, "the scene has more than %u triangles", TRIANGLES_MAX);
@@ -587,7 +587,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->pixel_size =
         rounded(2 * (frame->orthographic ? camera->ortho_half_height : math_tan(0.5 * camera->fovy_rad)) / height);
     set_occlusion(frame, scene, params, physical);
-    if (frame_has_rays(frame))
+    frame_edges_build(frame, params, &view, &pixel);
+    if (frame_has_rays(frame) || frame->draws_edges)
         frame_rays_build(frame, scene, &view);
     return true;
 }

@@ -90,6 +90,18 @@ struct frame_ground {
     struct buffer memory;
 };
 
+// The edges of surfaces that the frame draws as lines (src/edges).
+enum { EDGE_STYLE_WIREFRAME = 0, EDGE_STYLE_FEATURE, EDGE_STYLES };
+struct frame_edges {
+    bool wireframe;
+    unsigned features; // LAM_EDGES_…
+    lam_hidden_lines hidden;
+    double min_cosine; // between the normals of two faces that make no crease
+    double width[EDGE_STYLES];
+    lam_rgba color[EDGE_STYLES]; // linear, not premultiplied
+    double pixel[4][4];          // world space to pixels, as frame_draw.pixel
+};
+
 struct frame {
     struct scene_token *token; // the scene's; not retained
     int width, height;
@@ -109,6 +121,8 @@ struct frame {
     bool flat_terminator;
     int shadow_samples;        // of a light with a radius
     double eye_to_world[3][4]; // with rays only
+    bool draws_edges;          // then `edges` is set
+    struct frame_edges edges;
     lam_output output;
     // Largest sum, as a fraction of the encoded range, of the lights that a point may skip; 0: no light is skipped.
     float light_cutoff;
@@ -169,7 +183,7 @@ bool frame_params_check(const lam_draw_params *params, lam_error *error);
 // The reflection model that lights a material; never AUTO.
 lam_reflection frame_reflection(const struct frame *frame, const lam_material *material);
 
-// Whether rays are sent from lit points.
+// Whether rays are sent from lit points; edges send others (draws_edges).
 static inline bool frame_has_rays(const struct frame *frame)
 {
     return frame->shadows || frame->occlusion == LAM_OCCLUSION_RAYS;
@@ -177,6 +191,9 @@ static inline bool frame_has_rays(const struct frame *frame)
 
 // Fills in what rays need of draws and lights, once those are built, and whether any light casts shadows.
 void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view);
+
+// Decides about edges, and fills in what they need; `pixel`: eye space to pixels.
+void frame_edges_build(struct frame *frame, const lam_draw_params *params, const lam_mat4 *view, const lam_mat4 *pixel);
 
 // Whether shadow rays meet a draw's triangles.
 static inline bool frame_draw_casts(const struct frame_draw *draw) { return !draw->strokes && !draw->ground; }

@@ -27,6 +27,23 @@ bool frame_camera_check(const lam_camera *camera, lam_error *error)
     return true;
 }
 
+static bool edges_check(const lam_draw_params *params, lam_error *error)
+{
+    if (params->edges > LAM_EDGES_ALL || (unsigned)params->hidden_lines >= LAM_HIDDEN_LINES_COUNT)
+        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: edges or hidden_lines is out of its range");
+    if (!(params->edge_angle_rad >= 0 && (double)params->edge_angle_rad <= PI + 1e-6))
+        return fail(error, LAM_BAD_ARGUMENT, "edge_angle is %g°, expected 0° to 180°",
+                    math_degrees((double)params->edge_angle_rad));
+    for (int i = 0; i < 8; i++) {
+        const lam_rgba *color = i < 4 ? &params->wireframe_color : &params->edge_color;
+        float channel = (&color->r)[i % 4];
+        if (!(channel >= 0 && channel <= (i % 4 == 3 ? 1 : 3e38f)))
+            return fail(error, LAM_BAD_ARGUMENT, "%s_color: a channel is %g, expected a number of at least 0%s",
+                        i < 4 ? "wireframe" : "edge", (double)channel, i % 4 == 3 ? " and at most 1" : "");
+    }
+    return true;
+}
+
 bool frame_params_check(const lam_draw_params *params, lam_error *error)
 {
     if (!check_reserved("lam_draw_params", params, error))
@@ -49,11 +66,14 @@ bool frame_params_check(const lam_draw_params *params, lam_error *error)
     if ((unsigned)params->stage > LAM_STAGE_FRAGMENT || (unsigned)params->viewer > LAM_VIEWER_INFINITE ||
         (unsigned)params->flat_normal > LAM_FLAT_NORMAL_VERTEX)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: stage, viewer or flat_normal is out of its range");
-    const double sizes[2] = {(double)params->line_width, (double)params->point_size};
-    for (int i = 0; i < 2; i++)
+    static const char *const names[] = {"line_width", "point_size", "wireframe_width", "edge_width"};
+    const float sizes[] = {params->line_width, params->point_size, params->wireframe_width, params->edge_width};
+    for (int i = 0; i < 4; i++)
         if (!(sizes[i] >= 0 && sizes[i] <= 1000))
-            return fail(error, LAM_BAD_ARGUMENT, "%s is %g, expected pixels from 0 to 1000",
-                        i ? "point_size" : "line_width", sizes[i]);
+            return fail(error, LAM_BAD_ARGUMENT, "%s is %g, expected pixels from 0 to 1000", names[i],
+                        (double)sizes[i]);
+    if (!edges_check(params, error))
+        return false;
     if ((unsigned)params->occlusion >= LAM_OCCLUSION_COUNT)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: occlusion %d is not one of lam_occlusion",
                     (int)params->occlusion);

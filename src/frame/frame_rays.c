@@ -89,6 +89,6 @@ void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat
     memcpy(frame->eye_to_world, eye_to_world.m, sizeof frame->eye_to_world);
     if (frame->shadows)
         place_lights(frame, scene, &eye_to_world);
-    for (int i = 0; i < frame->draw_count && frame_has_rays(frame); i++)
+    for (int i = 0; i < frame->draw_count && (frame_has_rays(frame) || frame->draws_edges); i++)
         place_draw(&frame->draws[i], scene, &eye_to_world);
 }

@@ -30,4 +30,16 @@ void triangulator_stop(struct triangulator *scratch);
 bool triangulate(struct triangulator *scratch, const float *positions, const uint32_t *corners, uint32_t count,
                  uint32_t *triples);
 
+// The edges of one of these triples that no polygon of `count` corners has: bit k, that from its corner k to the next
+// (lam_mesh.inner_edges).
+static inline uint8_t triangulated_inner_edges(const uint32_t triple[3], uint32_t count)
+{
+    uint8_t inner = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t a = triple[k], b = triple[(k + 1) % 3], apart = a < b ? b - a : a - b;
+        inner |= (uint8_t)((apart != 1 && apart != count - 1) << k);
+    }
+    return inner;
+}
+
 #endif

@@ -98,7 +98,7 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
     const struct hierarchy *h = hierarchy_of_frame(&device->hierarchy, frame, NULL, f->call, &built, error);
     if (!h)
         return false;
-    device->base.report.hierarchy_ms = built ? (double)(now_ns() - start) * 1e-6 : 0;
+    device->base.report.hierarchy_ms += built ? (double)(now_ns() - start) * 1e-6 : 0;
     // Triangles are counted in floats, and in texels of a texture.
     size_t triangles = (size_t)NODE * h->node_count, places = triangles + (size_t)TRIANGLE * (h->triangle_count + 1);
     size_t texels = places + h->triangle_count / 4 + 1, rows = (texels + WIDTH - 1) / WIDTH;

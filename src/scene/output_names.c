@@ -51,3 +51,9 @@ int lam_draw_lights(const lam_scene *scene, lam_rig rig, lam_light *lights, int 
         lights[count + i] = rig_lights[i];
     return count + rig_count;
 }
+
+const char *lam_hidden_lines_name(lam_hidden_lines lines)
+{
+    static const char *const words[LAM_HIDDEN_LINES_COUNT] = {"remove", "dash", "show"};
+    return (unsigned)lines < LAM_HIDDEN_LINES_COUNT ? words[lines] : NULL;
+}

@@ -146,6 +146,7 @@ static bool copy_mesh(struct lam_scene *scene, lam_mesh *mesh)
               copy_array(scene, &mesh->colors, mesh->color_count, color_size) &&
               copy_array(scene, &mesh->color_indices, corners, 4) &&
               copy_array(scene, &mesh->smoothing_groups, mesh->triangle_count, 4) &&
+              copy_array(scene, &mesh->inner_edges, mesh->triangle_count, 1) &&
               copy_array(scene, &mesh->parts, mesh->part_count, sizeof *parts);
     parts = (lam_part *)(uintptr_t)mesh->parts;
     for (uint32_t i = 0; ok && i < mesh->part_count; i++)

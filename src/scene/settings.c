@@ -47,6 +47,14 @@ static const char *ground_word(int index, int *value)
     return lam_ground_name((lam_ground)index);
 }
 
+static const char *hidden_lines_word(int index, int *value)
+{
+    *value = index;
+    return lam_hidden_lines_name((lam_hidden_lines)index);
+}
+
+WORDS(edges_word, {"crease", LAM_EDGES_CREASE}, {"boundary", LAM_EDGES_BOUNDARY}, {"silhouette", LAM_EDGES_SILHOUETTE})
+
 #define MEMBER(kind, member) .type = LAM_SETTING_##kind, .offset = offsetof(lam_draw_params, member)
 
 static const lam_setting rows[] = {
@@ -91,6 +99,23 @@ static const lam_setting rows[] = {
      .summary = "Width of a model's lines in pixels."},
     {"point_size", MEMBER(NUMBER, point_size), .min = 0.01, .max = 1000, .standard = 3,
      .summary = "Sides in pixels of the squares that a model's points are drawn as."},
+    {"wireframe", MEMBER(FLAG, wireframe), .summary = "The edges of all faces are drawn as lines over the picture."},
+    {"wireframe_width", MEMBER(NUMBER, wireframe_width), .min = 0.01, .max = 1000, .standard = 1,
+     .summary = "Width of the wireframe's lines in pixels."},
+    {"wireframe_color", MEMBER(RGBA, wireframe_color),
+     .summary = "Of the wireframe. Default: black, and white without surfaces over a dark background."},
+    {"edges", MEMBER(WORDS, edges), .word = edges_word,
+     .summary = "Feature edges that are drawn as lines over the picture."},
+    {"edge_angle", MEMBER(ANGLE, edge_angle_rad), .min = 0.001, .max = 180, .standard = 40,
+     .summary = "Creases are edges whose faces meet at more than this, degrees."},
+    {"edge_width", MEMBER(NUMBER, edge_width), .min = 0.01, .max = 1000, .standard = 1.5,
+     .summary = "Width of feature edges in pixels."},
+    {"edge_color", MEMBER(RGBA, edge_color),
+     .summary = "Of feature edges. Default: black, and white without surfaces over a dark background."},
+    {"hidden_lines", MEMBER(WORD, hidden_lines), .word = hidden_lines_word,
+     .summary = "What becomes of the parts of edges behind surfaces."},
+    {"surfaces", MEMBER(NOT_FLAG, no_surfaces),
+     .summary = "false: lines alone are drawn; surfaces hide them all the same."},
 };
 _Static_assert(COUNT_OF(rows) <= LAM_SETTINGS_MAX, "more rows than lam_picture_settings.draw_present has bits");
 
@@ -111,10 +136,14 @@ static size_t member_size(const lam_setting *setting)
     case LAM_SETTING_NOT_FLAG:
         return sizeof(bool);
     case LAM_SETTING_NUMBER:
+    case LAM_SETTING_ANGLE:
         return sizeof(float);
+    case LAM_SETTING_RGBA:
+        return sizeof(lam_rgba);
     case LAM_SETTING_RGB:
         return sizeof(lam_rgb);
     case LAM_SETTING_WORD:
+    case LAM_SETTING_WORDS:
     case LAM_SETTING_WHOLE:
         break;
     }
@@ -123,7 +152,7 @@ static size_t member_size(const lam_setting *setting)
 
 bool lam_setting_is_default(const lam_setting *setting, const lam_draw_params *params)
 {
-    static const char zero[sizeof(lam_rgb)];
+    static const char zero[sizeof(lam_rgba)];
     return memcmp((const char *)params + setting->offset, zero, member_size(setting)) == 0;
 }
 

@@ -5,6 +5,7 @@
 #include "json_parse.h"
 #include "linear.h"
 
+#include <stdio.h>
 #include <string.h>
 
 // --- is it one?
@@ -123,6 +124,30 @@ static bool read_camera(struct scene_reader *r, const json_t *root)
     return true;
 }
 
+// A list of words, whose bits are set.
+static bool read_words(struct scene_reader *r, const json_t *root, const lam_setting *setting, int *bits)
+{
+    const json_t *list = json_object_get(root, setting->key);
+    char known[160] = "";
+    int value;
+    bool ok = json_is_array(list);
+    *bits = 0;
+    for (size_t i = 0; ok && i < json_array_size(list); i++) {
+        const char *text = json_string_value(json_array_get(list, i)), *word;
+        int at = 0;
+        while ((word = setting->word(at, &value)) && (!text || strcmp(word, text) != 0))
+            at++;
+        ok = word != NULL;
+        *bits |= ok ? value : 0;
+    }
+    const char *word;
+    for (int at = 0; (word = setting->word(at, &value)); at++) {
+        size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s\"%s\"", at ? ", " : "", word);
+    }
+    return ok || fail_place(r, KEY_OF(NULL, setting->key), "expected a list of some of %s", known);
+}
+
 // One row of the table of settings.
 static bool read_setting(struct scene_reader *r, const json_t *root, const lam_setting *setting)
 {
@@ -137,6 +162,17 @@ static bool read_setting(struct scene_reader *r, const json_t *root, const lam_s
         return take_bool(r, NULL, root, setting->key, member);
     case LAM_SETTING_RGB:
         return take_rgb(r, NULL, root, setting->key, member);
+    case LAM_SETTING_RGBA:
+        return take_rgba(r, NULL, root, setting->key, member);
+    case LAM_SETTING_WORDS:
+        return read_words(r, root, setting, member);
+    case LAM_SETTING_ANGLE: {
+        double angle = 0;
+        if (!take_number(r, NULL, root, setting->key, setting->min, setting->max, &angle))
+            return false;
+        *(float *)member = (float)math_radians(angle);
+        return true;
+    }
     case LAM_SETTING_NOT_FLAG: {
         bool on = true;
         if (!take_bool(r, NULL, root, setting->key, &on))

@@ -63,6 +63,7 @@ static bool import_file(struct scene_reader *r, const struct model_wanted *wante
     params.color = r->color;
     params.format = NULL;
     params.normals = wanted->normals;
+    params.polygon_edges |= r->settings->draw.wireframe || r->settings->draw.edges;
     params.crease_angle_rad = wanted->crease_angle_rad;
     params.scene = wanted->scene;
     params.variant = wanted->variant;

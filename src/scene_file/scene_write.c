@@ -527,6 +527,29 @@ static bool put_environment(struct scene_writer *w, json_t *root, const lam_pict
     return true;
 }
 
+// Degrees with the fewest decimals that come back as the same float of radians.
+static json_t *angle_float(float radians)
+{
+    double plain = math_degrees((double)radians), power = 1;
+    for (int decimals = 0; decimals <= 12; decimals++, power *= 10) {
+        double shorter = (double)(int64_t)(plain * power + 0.5) / power;
+        if ((float)math_radians(shorter) == radians)
+            return number(shorter);
+    }
+    return number(plain);
+}
+
+static json_t *words_of(struct scene_writer *w, const lam_setting *setting, int bits)
+{
+    json_t *list = json_array();
+    const char *word;
+    int value;
+    for (int i = 0; (word = setting->word(i, &value)); i++)
+        if (bits & value)
+            append(w, list, json_string(word));
+    return list;
+}
+
 // A row of the table of settings. Defaults that are no words are left out: reading them changes nothing.
 static void put_setting(struct scene_writer *w, json_t *root, const lam_setting *setting, const lam_draw_params *draw)
 {
@@ -540,8 +563,12 @@ static void put_setting(struct scene_writer *w, json_t *root, const lam_setting 
         value = json_boolean(setting->type == LAM_SETTING_FLAG);
     else if (setting->type == LAM_SETTING_WHOLE)
         value = json_integer(*(const int *)member);
-    else if (setting->type == LAM_SETTING_RGB)
-        value = color(w, member, 3);
+    else if (setting->type == LAM_SETTING_RGB || setting->type == LAM_SETTING_RGBA)
+        value = color(w, member, setting->type == LAM_SETTING_RGB ? 3 : 4);
+    else if (setting->type == LAM_SETTING_WORDS)
+        value = words_of(w, setting, *(const int *)member);
+    else if (setting->type == LAM_SETTING_ANGLE)
+        value = angle_float(*(const float *)member);
     else
         value = number_float(*(const float *)member > 0 ? *(const float *)member : 0);
     put(w, root, setting->key, value);

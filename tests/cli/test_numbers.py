@@ -192,7 +192,7 @@ class Sentences(Case):
 
 # Options whose default is not a value that can be given, with what stands there.
 NOT_VALUES = {"output", "quality", "color", "view", "camera", "light", "material", "back-material", "cull", "segments", "environment", "reflectivity", "threads",
-              "gl-device", "time-limit", "memory-limit", "triangle-limit", "pixel-limit", "file-limit", "json-depth-limit", "allow-path", "show", "up", "reflection", "isa", "device", "repeat", "scene", "variant", "animation", "time", "views", "sizes", "journal"}
+              "gl-device", "edges", "time-limit", "memory-limit", "triangle-limit", "pixel-limit", "file-limit", "json-depth-limit", "allow-path", "show", "up", "reflection", "isa", "device", "repeat", "scene", "variant", "animation", "time", "views", "sizes", "journal"}
 # What else to give so that the option matters, and another value of it.
 CONTEXT = {
     "sandbox": ([], None), "retry-failed": ([], None), "size": ([], "64"), "samples": ([], "16"), "exposure": ([], "1"), "tone": ([], "aces"), "tone": ([], "aces"), "crease-angle": ([], "20"), "compress": ([], None),
@@ -203,6 +203,8 @@ CONTEXT = {
     "anisotropy": (["floor.obj"], "8"), "line-width": (["lines.obj"], "3"), "point-size": (["lines.obj"], "5"), "viewer": ([], "infinite"), "normals": ([], "facet"),
     "shadow-terminator": (["--shadows", "--light", "point:position=2r/3r/1r"], "off"),
     "shadow-samples": (["--shadows", "--light", "point:position=2r/3r/1r,radius=0.5"], "3"),
+    "wireframe-width": (["--wireframe"], "2"), "wireframe-color": (["--wireframe"], "red"), "edge-angle": (["--edges", "crease"], "20"),
+    "edge-width": (["--edges", "all"], "3"), "edge-color": (["--edges", "all"], "red"), "hidden-lines": (["--wireframe"], "show"), "surfaces": ([], "off"),
     "ground": ([], "checker"), "ao": ([], "off"), "ao-radius": ([], "0.3"), "ao-samples": (["--ao", "rays"], "16"),
     "environment-rotation": (["--environment", "studio", "--reflectivity", "0.5"], "90"),
 }

@@ -448,6 +448,15 @@ static void test_writing(void **unused)
                                .shadows = true,
                                .flat_terminator = true,
                                .shadow_samples = 5,
+                               .wireframe = true,
+                               .no_surfaces = true,
+                               .edges = LAM_EDGES_CREASE | LAM_EDGES_SILHOUETTE,
+                               .hidden_lines = LAM_HIDDEN_LINES_SHOW,
+                               .edge_angle_rad = 0.71234567f,
+                               .edge_width = 1.7f,
+                               .wireframe_width = 0.3f,
+                               .edge_color = {0.1f, 0.2f, 1.0f / 3, 0.5f},
+                               .wireframe_color = {0, 0, 0, 1},
                                .ground = LAM_GROUND_COLOR,
                                .ground_color = {0.1f, 1.0f / 3, 0},
                                .occlusion = LAM_OCCLUSION_RAYS,
@@ -465,6 +474,12 @@ static void test_writing(void **unused)
             *(float *)member = (float)(setting->min + (setting->max - setting->min) / 7);
         else if (setting->type == LAM_SETTING_WHOLE)
             *(int *)member = (int)setting->max;
+        else if (setting->type == LAM_SETTING_ANGLE)
+            *(float *)member = 0.71234567f;
+        else if (setting->type == LAM_SETTING_WORDS)
+            *(int *)member = 5;
+        else if (setting->type == LAM_SETTING_RGBA)
+            *(lam_rgba *)member = (lam_rgba){0.1f, 0, 1.0f / 3, 0.5f};
         else if (setting->type == LAM_SETTING_WORD)
             assert_non_null(setting->word(1, member));
         else
@@ -498,6 +513,10 @@ static void test_writing(void **unused)
                 t.draw.light_cutoff < 0 && t.draw.reference == 64);
     assert_true(t.draw.ground == LAM_GROUND_COLOR);
     assert_memory_equal(&t.draw.ground_color, &s.draw.ground_color, sizeof s.draw.ground_color);
+    assert_true(t.draw.wireframe && t.draw.no_surfaces && t.draw.edges == s.draw.edges &&
+                t.draw.hidden_lines == LAM_HIDDEN_LINES_SHOW && t.draw.edge_width == 1.7f &&
+                t.draw.wireframe_width == 0.3f && t.draw.edge_angle_rad == s.draw.edge_angle_rad);
+    assert_memory_equal(&t.draw.wireframe_color, &s.draw.wireframe_color, 2 * sizeof s.draw.edge_color);
     assert_true(t.draw.shadows && t.draw.flat_terminator && t.draw.shadow_samples == 5);
     assert_true(t.draw.occlusion == LAM_OCCLUSION_RAYS && t.draw.occlusion_radius == 0.3f &&
                 t.draw.occlusion_samples == 9);

@@ -81,13 +81,17 @@ static void print_words(const lam_setting *setting)
 {
     const char *word, *standard = "";
     int value;
-    printf("\"enum\": [");
+    bool list = setting->type == LAM_SETTING_WORDS;
+    printf("%s\"enum\": [", list ? "\"type\": \"array\", \"items\": {" : "");
     for (int i = 0; (word = setting->word(i, &value)); i++) {
         printf("%s\"%s\"", i ? ", " : "", word);
         if (value == 0 && !*standard)
             standard = word;
     }
-    printf("], \"default\": \"%s\"", standard);
+    if (list)
+        printf("]}, \"default\": []");
+    else
+        printf("], \"default\": \"%s\"", standard);
 }
 
 static void print_settings(void)
@@ -97,6 +101,7 @@ static void print_settings(void)
         printf("%s    \"%s\": {", i ? ",\n" : "", setting->key);
         switch (setting->type) {
         case LAM_SETTING_WORD:
+        case LAM_SETTING_WORDS:
             print_words(setting);
             break;
         case LAM_SETTING_FLAG:
@@ -104,10 +109,12 @@ static void print_settings(void)
             printf("\"type\": \"boolean\", \"default\": %s", setting->type == LAM_SETTING_FLAG ? "false" : "true");
             break;
         case LAM_SETTING_RGB:
-            printf("\"$ref\": \"#/$defs/color3\"");
+        case LAM_SETTING_RGBA:
+            printf("\"$ref\": \"#/$defs/color%d\"", setting->type == LAM_SETTING_RGB ? 3 : 4);
             break;
         case LAM_SETTING_WHOLE:
         case LAM_SETTING_NUMBER:
+        case LAM_SETTING_ANGLE:
             printf("\"type\": \"%s\", \"minimum\": %.10g, \"maximum\": %.10g, \"default\": %.10g",
                    setting->type == LAM_SETTING_WHOLE ? "integer" : "number", setting->zero ? 0 : setting->min,
                    setting->max, setting->standard);

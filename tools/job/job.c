@@ -198,6 +198,7 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
                                                : o->has_time ? "0"
                                                              : NULL,
                                   .time_s = o->time_s,
+                                  .polygon_edges = o->draw.wireframe || o->draw.edges,
                                   .normals_when_drawn = draws_once(job)};
         job->scene = lam_scene_load(job->model, &params, &control, error);
         if (job->scene)

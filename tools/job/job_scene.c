@@ -242,6 +242,14 @@ bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *er
 
 // --- drawing
 
+// A colour that was checked with the command line, else another.
+static lam_rgba color_or(const char *text, int mode, lam_rgba otherwise)
+{
+    lam_rgba color;
+    lam_error unused;
+    return text && lam_color_parse(text, (lam_color_mode)mode, &color, &unused) ? color : otherwise;
+}
+
 lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
 {
     lam_draw_params draw = o->draw;
@@ -251,6 +259,8 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
     draw.color = (lam_color_mode)o->color_mode;
     draw.exposure = o->exposure_kind == EXPOSURE_LITERAL ? o->exposure : 0;
     draw.rig = rig;
+    draw.edge_color = color_or(o->edge_color, o->color_mode, draw.edge_color);
+    draw.wireframe_color = color_or(o->wireframe_color, o->color_mode, draw.wireframe_color);
     lam_rgba ground;
     lam_error unused; // the colour was checked with the command line
     if (o->ground_color && lam_color_parse(o->ground_color, (lam_color_mode)o->color_mode, &ground, &unused))

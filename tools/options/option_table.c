@@ -180,6 +180,20 @@ static const struct word rig_words[] = {
     {"lecture", LAM_RIG_LECTURE, "a point light at 1r/2r/3r: ambient 0.1, diffuse and specular 1, attenuation 1/0/0"},
     {NULL, 0, NULL}};
 
+static const struct word edge_words[] = {{"all", LAM_EDGES_ALL, NULL},
+                                         {"crease", LAM_EDGES_CREASE, "where faces meet at an angle"},
+                                         {"boundary", LAM_EDGES_BOUNDARY, "where a surface ends"},
+                                         {"silhouette", LAM_EDGES_SILHOUETTE, "between front and back"},
+                                         {NULL, 0, NULL}};
+
+static const struct word hidden_words[] = {{"remove", LAM_HIDDEN_LINES_REMOVE, "left out"},
+                                           {"dash", LAM_HIDDEN_LINES_DASH, "dashed"},
+                                           {"show", LAM_HIDDEN_LINES_SHOW, "as if the surfaces were not there"},
+                                           {NULL, 0, NULL}};
+
+static const struct word surface_words[] = {
+    {"on", 0, "they are drawn"}, {"off", 1, "lines and points alone are"}, {NULL, 0, NULL}};
+
 static const struct word terminator_words[] = {
     {"on", 0, "shadow rays start where the normals say that the curved surface lies"},
     {"off", 1, "shadow rays start on the flat triangles: the terminator of a coarse smooth mesh shows them"},
@@ -552,6 +566,41 @@ const struct option option_table[] = {
      "Points of a light with a radius that each lit point is tested with.",
      "Their share that is in sight is the share of the light that arrives.", .store = store_integer,
      .others = "soft-shadow-samples light-samples", FIELD(draw.shadow_samples), .min = 1, .max = 256},
+    {"wireframe", 'w', GROUP_SHADING, NULL, NULL, "Draw the edges of all faces as lines over the picture.",
+     "Edges behind surfaces are left out (`--hidden-lines`), and so are those that cut the polygons of OBJ and PLY "
+     "files "
+     "into triangles. `--surfaces off` draws the lines alone. Lines are smooth whatever `--samples` says, and keep "
+     "their "
+     "colour and width: light, exposure, tone and distance do not change them. `docs/edges.md` has pictures.",
+     .store = store_switch, .others = "wire mesh mesh-lines show-edges polygons topology", FIELD(draw.wireframe)},
+    {"wireframe-width", 0, GROUP_SHADING, "PIXELS", "1", "The width of the wireframe's lines.", NULL,
+     .store = store_float, .others = "wire-width", FIELD(draw.wireframe_width), .min = 0.01, .max = 1000},
+    {"wireframe-color", 0, GROUP_SHADING, "COLOR", "black", "The colour of the wireframe.",
+     "With `--surfaces off` over a dark background it is white by default. An alpha below 1 lets the surfaces through.",
+     .kind = VALUE_COLOR, .store = store_color, .others = "wire-color", FIELD(wireframe_color)},
+    {"edges", 0, GROUP_SHADING, "KINDS", "none",
+     "Draw feature edges as lines: all, or some of crease,boundary,silhouette.",
+     "`crease`: two faces meet at more than `--edge-angle`, or more than two faces meet; `boundary`: a surface ends; "
+     "`silhouette`: one of its two faces is seen from the front and the other from behind. "
+     "`--edges all --surfaces off` is a technical drawing.",
+     edge_words, .store = store_words, .others = "edge feature-edges outline outlines contour toon lineart line-art",
+     FIELD(draw.edges)},
+    {"edge-angle", 0, GROUP_SHADING, "DEGREES", "40", "Creases are edges whose faces meet at more than this.", NULL,
+     .store = store_angle, .others = "feature-angle sharp-angle", FIELD(draw.edge_angle_rad), .min = 0.001, .max = 180},
+    {"edge-width", 0, GROUP_SHADING, "PIXELS", "1.5", "The width of feature edges.", NULL, .store = store_float,
+     .others = "outline-width", FIELD(draw.edge_width), .min = 0.01, .max = 1000},
+    {"edge-color", 0, GROUP_SHADING, "COLOR", "black", "The colour of feature edges.",
+     "With `--surfaces off` over a dark background it is white by default.", .kind = VALUE_COLOR, .store = store_color,
+     .others = "outline-color", FIELD(edge_color)},
+    {"hidden-lines", 0, GROUP_SHADING, "HOW", "remove", "Edges behind surfaces: remove, dash or show.",
+     "What is hidden is decided by rays from each edge to the eye: exact, so that no line is broken where it runs "
+     "along a "
+     "surface. A surface hides what is behind it where its opacity is at least 0.5, and glass hides nothing.",
+     hidden_words, .store = store_word, .others = "hidden-line dashed see-through xray x-ray",
+     FIELD(draw.hidden_lines)},
+    {"surfaces", 0, GROUP_SHADING, "SWITCH", "on", "Whether surfaces are drawn: on, or off for lines alone.",
+     "Surfaces that are not drawn hide lines all the same.", surface_words, .store = store_word_flag,
+     .others = "faces lines-only no-surfaces hide-surfaces", FIELD(draw.no_surfaces)},
     {"gl1", 0, GROUP_SHADING, NULL, NULL, "Light as OpenGL 1: colours clamped, shininess to 128, ambient attenuated.",
      "For comparison with old programs: vertex colours are clamped to 0...1 before interpolation, the shininess "
      "is at most 128, and the ambient light of a light is attenuated and limited to its cone.",

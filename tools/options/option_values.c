@@ -186,6 +186,16 @@ bool store_float(const struct option *option, const char *value, struct options 
     return true;
 }
 
+// Degrees, stored in radians.
+bool store_angle(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    float *angle = field_of(options, option->field);
+    if (!store_float(option, value, options, error))
+        return false;
+    *angle = (float)radians((double)*angle);
+    return true;
+}
+
 // 0 is a cutoff too: nothing is left out.
 bool store_cutoff(const struct option *option, const char *value, struct options *options, lam_error *error)
 {

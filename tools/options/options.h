@@ -66,7 +66,8 @@ struct options {
 
     // Shading
     bool has_shading;
-    const char *ground_color; // of LAM_GROUND_COLOR, as written; NULL: draw.ground_color
+    const char *ground_color;                 // of LAM_GROUND_COLOR, as written; NULL: draw.ground_color
+    const char *edge_color, *wireframe_color; // as written; NULL: those of `draw`
     bool two_sided, one_sided, show_lights;
     int cull; // lam_cull
     bool has_cull;
@@ -288,6 +289,7 @@ bool store_path(const struct option *, const char *, struct options *, lam_error
 bool store_seconds(const struct option *, const char *, struct options *, lam_error *);      // double, or none
 bool store_count(const struct option *, const char *, struct options *, lam_error *);        // uint64_t
 bool store_float(const struct option *, const char *, struct options *, lam_error *);        // float
+bool store_angle(const struct option *, const char *, struct options *, lam_error *);        // float, from degrees
 bool store_cutoff(const struct option *, const char *, struct options *, lam_error *);       // float; 0 is stored as -1
 bool store_word_flag(const struct option *, const char *, struct options *, lam_error *);    // bool, words of 0 and 1
 bool store_exposure(const struct option *, const char *, struct options *, lam_error *);     // double, or auto

@@ -109,6 +109,8 @@ void report_table(const struct job *job)
         time_row("    lighting", frame->lighting_ms);
         time_row("    resolve", frame->resolve_ms);
     }
+    if (frame->edges_ms > 0)
+        time_row("  edges", frame->edges_ms);
     if (job->times.frames > 1)
         say_plain("  %d frames, the median one above; %.2f to %.2f ms\n", job->times.frames, job->times.frame_min,
                   job->times.frame_max);
@@ -229,6 +231,7 @@ static void json_times(struct json *json, const struct job_times *times)
     json_ms(json, "normals", frame->normals_ms);
     json_ms(json, "occlusion", frame->occlusion_ms);
     json_ms(json, "hierarchy", frame->hierarchy_ms);
+    json_ms(json, "edges", frame->edges_ms);
     json_ms(json, "tiles", frame->tiles_ms);
     json_ms(json, "coverage", frame->coverage_ms);
     json_ms(json, "lighting", frame->lighting_ms);

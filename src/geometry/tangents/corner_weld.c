@@ -24,9 +24,9 @@ struct item_bits {
 
 static void copy_bits(uint32_t *to, const float *from, int count)
 {
-    float canonical[3];
+    float canonical[3] = {0};
     for (int i = 0; i < count; i++)
-        canonical[i] = from[i] + 0.0f; // −0 becomes 0
+        canonical[i] = from ? from[i] + 0.0f : 0; // −0 becomes 0
     memcpy(to, canonical, (size_t)count * sizeof *to);
 }
 
@@ -36,8 +36,8 @@ static void bits_of(const lam_mesh *mesh, bool by_vertex, uint32_t item, struct 
     uint32_t n = by_vertex ? item : mesh_element(mesh->normal_indices, mesh->indices, item);
     uint32_t t = by_vertex ? item : mesh_element(mesh->texcoord_indices, mesh->indices, item);
     copy_bits(out->numbers, mesh->positions + 3 * (size_t)p, 3);
-    copy_bits(out->numbers + 3, mesh->normals + 3 * (size_t)n, 3);
-    copy_bits(out->numbers + 6, mesh->texcoords + 2 * (size_t)t, 2);
+    copy_bits(out->numbers + 3, mesh->normals ? mesh->normals + 3 * (size_t)n : NULL, 3);
+    copy_bits(out->numbers + 6, mesh->texcoords ? mesh->texcoords + 2 * (size_t)t : NULL, 2);
     out->item = item;
 }
 

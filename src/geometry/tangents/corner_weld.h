@@ -27,7 +27,7 @@ static inline uint32_t corner_weld_of(const struct corner_weld *weld, size_t cor
     return weld->first[weld->vertices ? weld->vertices[corner] : (uint32_t)corner];
 }
 
-// Numbers are compared as floats: −0 equals 0. The mesh has normals and texture coordinates. n·log n steps at worst, n
+// Numbers are compared as floats: −0 equals 0. Normals and texture coordinates that the mesh lacks are all equal. n·log n steps at worst, n
 // for files that were not made to collide. `memory` holds the result and the scratch memory.
 bool corner_weld(struct corner_weld *weld, const lam_mesh *mesh, struct arena *memory, struct call_control *call,
                  lam_error *error);

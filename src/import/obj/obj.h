@@ -110,6 +110,7 @@ struct obj {
     struct obj_polygon *polygons;
     struct obj_statement *statements;
     uint32_t *smoothing_groups;
+    uint8_t *inner_edges; // as lam_mesh.inner_edges; NULL: not asked for, or no polygons
     lam_part *parts;
     uint32_t part_count;
     const char *object_name;       // if the file has one object; else NULL

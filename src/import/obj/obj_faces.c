@@ -44,6 +44,8 @@ static bool triangulate_polygon(struct triangulation *triangulation, struct obj_
     memcpy(corners, obj->indices + first, count * sizeof *corners);
     if (!triangulate(&triangulation->triangulators[thread], obj->positions, corners, count, triples))
         return false;
+    for (uint32_t i = 0; obj->inner_edges && i < count - 2; i++)
+        obj->inner_edges[polygon.first_triangle + i] = triangulated_inner_edges(triples + 3 * (size_t)i, count);
     reorder_corners(obj->indices + first, corners, triples, corner_count);
     if (obj->texcoord_indices) {
         memcpy(corners, obj->texcoord_indices + first, count * sizeof *corners);
@@ -80,6 +82,11 @@ bool obj_triangulate_polygons(struct obj *obj, lam_error *error)
     struct call_control *call = obj->source->call;
     size_t threads = (size_t)pool_threads(obj->source->pool);
     struct triangulation triangulation = {.obj = obj};
+    if (obj->source->params->polygon_edges) {
+        obj->inner_edges = arena_alloc_zeroed(&obj->scene->arena, obj->total.triangles);
+        if (!obj->inner_edges)
+            return call_memory_error(call, (size_t)obj->total.triangles, error);
+    }
     triangulation.triangulators = arena_array(&obj->memory, threads, sizeof *triangulation.triangulators);
     triangulation.scratch = arena_array(&obj->memory, threads, sizeof *triangulation.scratch);
     if (!triangulation.triangulators || !triangulation.scratch)

@@ -49,6 +49,7 @@ static bool add_mesh(struct obj *obj, lam_error *error)
         .color_count = obj->colors ? (uint32_t)total->positions : 0,
         .colors_format = obj->colors ? LAM_COLORS_LINEAR_F32 : LAM_COLORS_NONE,
         .smoothing_groups = obj->smoothing_groups,
+        .inner_edges = obj->inner_edges,
         .parts = obj->part_count ? obj->parts : NULL,
         .part_count = obj->part_count,
     };

@@ -22,7 +22,8 @@ struct polygons {
     const float *positions;
     uint32_t *first_triangles; // of each piece
     uint32_t *indices;
-    uint32_t *face_of; // each triangle's face; NULL: not needed
+    uint32_t *face_of;    // each triangle's face; NULL: not needed
+    uint8_t *inner_edges; // as lam_mesh.inner_edges; NULL: not needed
 };
 
 static uint32_t corners_of(const struct ply_table *faces, size_t face)
@@ -47,9 +48,12 @@ static bool triangulate_piece(void *user, size_t index, lam_error *error)
         uint32_t *out = polygons->indices + 3 * triangle;
         if (count == 3)
             memcpy(out, corners, 3 * sizeof *out);
-        else if ((done = triangulate(&triangulator, polygons->positions, corners, count, out)))
+        else if ((done = triangulate(&triangulator, polygons->positions, corners, count, out))) {
+            for (uint32_t i = 0; polygons->inner_edges && i < count - 2; i++)
+                polygons->inner_edges[triangle + i] = triangulated_inner_edges(out + 3 * (size_t)i, count);
             for (uint32_t i = 0; i < 3 * (count - 2); i++)
                 out[i] = corners[out[i]];
+        }
         for (uint32_t i = 0; polygons->face_of && i < count - 2; i++)
             polygons->face_of[triangle + i] = (uint32_t)face;
         triangle += count - 2;
@@ -90,9 +94,15 @@ static bool triangulate_polygons(struct polygons *polygons, bool want_faces, str
         polygons->face_of = arena_array(&scene->arena, triangles, sizeof *polygons->face_of);
     if (!polygons->indices || (want_faces && !polygons->face_of))
         return call_memory_error(source->call, triangles * 4 * sizeof *polygons->indices, error);
+    if (source->params->polygon_edges && triangles > faces->count - degenerate) {
+        polygons->inner_edges = arena_alloc_zeroed(&scene->arena, triangles);
+        if (!polygons->inner_edges)
+            return call_memory_error(source->call, triangles, error);
+    }
     if (!parallel_rows_run(source, pieces, triangulate_piece, polygons, error))
         return false;
     mesh->indices = polygons->indices;
+    mesh->inner_edges = polygons->inner_edges;
     mesh->triangle_count = (uint32_t)triangles;
     return true;
 }

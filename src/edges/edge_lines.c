@@ -1,0 +1,316 @@
+// edge_lines.c: pieces of work of the edges: which are drawn, what of them is in the picture, and what of that is in sight.
+#include "edge_pieces.h"
+
+#include "fail.h"
+#include "linear.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    POINTS_PER_LINE = 32768,
+    POINTS = 2 * POINTS_PER_LINE,
+    HALVINGS = 4, // where a line goes out of sight is found to 1/32 of a pixel
+};
+
+// Of one thread.
+struct scratch {
+    struct edge_line lines[EDGE_PIECE];
+    struct edge_point points[POINTS];
+    uint8_t hidden[POINTS];
+    // Where a line goes in or out of sight: between the shares from and to.
+    struct change {
+        double from, to;
+        uint8_t hidden; // at `from`
+    } changes[POINTS];
+    struct edge_point middles[POINTS];
+    uint8_t middle_hidden[POINTS];
+    uint32_t line_count, point_count;
+};
+
+size_t edge_scratch_bytes(void) { return (sizeof(struct scratch) + 63) / 64 * 64; }
+
+// --- which edges
+
+static double dot(const double a[3], const double b[3]) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
+
+static void position(const struct edge_piece *piece, uint32_t corner, double p[3])
+{
+    const lam_mesh *mesh = piece->draw->mesh;
+    frame_to_world(piece->draw, mesh->positions + 3 * (size_t)(mesh->indices ? mesh->indices[corner] : corner), p);
+    ray_point(piece->view->hierarchy, p, p);
+}
+
+// A triangle's normal of any length, in the hierarchy's space and on the side that its winding says, and whether that faces the eye.
+static bool faces_eye(const struct edge_piece *piece, uint32_t triangle, double n[3])
+{
+    const struct edge_view *view = piece->view;
+    double p[3][3], to_eye[3];
+    for (uint32_t k = 0; k < 3; k++)
+        position(piece, 3 * triangle + k, p[k]);
+    for (int i = 0, j = 1, k = 2; i < 3; j = k, k = i++) {
+        n[i] = (p[1][j] - p[0][j]) * (p[2][k] - p[0][k]) - (p[1][k] - p[0][k]) * (p[2][j] - p[0][j]);
+        to_eye[i] = view->frame->orthographic ? view->eye[i] : view->eye[i] - p[0][i];
+    }
+    for (int i = 0; i < 3 && piece->draw->mirrored; i++)
+        n[i] = -n[i];
+    return dot(n, to_eye) > 0;
+}
+
+static bool is_culled(const struct frame_draw *draw, bool front)
+{
+    return draw->cull == (front ? LAM_CULL_FRONT : LAM_CULL_BACK);
+}
+
+// The style that an edge is drawn in; −1: it is not.
+static int style_of(const struct edge_piece *piece, const struct mesh_edge *edge)
+{
+    const struct frame_edges *edges = &piece->view->frame->edges;
+    int plain = edges->wireframe && !(edge->kind & EDGE_INNER) ? EDGE_STYLE_WIREFRAME : -1;
+    bool culls = piece->draw->cull != LAM_CULL_NONE;
+    if (!edges->features && !culls)
+        return plain;
+    double a[3], b[3];
+    bool front[2] = {faces_eye(piece, edge->corner / 3, a), false};
+    front[1] = edge->kind & EDGE_OPEN ? front[0] : faces_eye(piece, edge->other / 3, b);
+    if (culls && !(edge->kind & EDGE_SHARED) && is_culled(piece->draw, front[0]) && is_culled(piece->draw, front[1]))
+        return -1;
+    unsigned kinds = 0;
+    if (edge->kind & (EDGE_OPEN | EDGE_SHARED)) {
+        kinds = edge->kind & EDGE_OPEN ? LAM_EDGES_BOUNDARY : LAM_EDGES_CREASE;
+    } else {
+        double turn = edge->kind & EDGE_ALIKE ? -1 : 1, size = math_sqrt(dot(a, a)) * math_sqrt(dot(b, b));
+        kinds |= size > 0 && turn * dot(a, b) < edges->min_cosine * size ? LAM_EDGES_CREASE : 0;
+    }
+    if (edge->kind & EDGE_INNER)
+        kinds = 0;
+    if (!(edge->kind & (EDGE_OPEN | EDGE_SHARED)) && front[0] != (edge->kind & EDGE_ALIKE ? !front[1] : front[1]))
+        kinds |= LAM_EDGES_SILHOUETTE;
+    return kinds & edges->features ? EDGE_STYLE_FEATURE : plain;
+}
+
+// --- what of them is in the picture
+
+// Cuts a line off where a·q falls below 0; `a` at its two ends. False: nothing is left of 0 … 1.
+static bool cut(double at_0, double at_1, double range[2])
+{
+    if (at_0 >= 0 && at_1 >= 0)
+        return true;
+    if (!(at_0 >= 0) && !(at_1 >= 0))
+        return false;
+    double t = at_0 / (at_0 - at_1);
+    if (at_0 >= 0)
+        range[1] = t < range[1] ? t : range[1];
+    else
+        range[0] = t > range[0] ? t : range[0];
+    return range[0] < range[1];
+}
+
+// A position's place in the window: X·w, Y·w, z, w.
+static void to_window(const struct edge_view *view, const double p[3], double q[4])
+{
+    const struct hierarchy *h = view->hierarchy;
+    for (int row = 0; row < 4; row++) {
+        const double *m = view->frame->edges.pixel[row];
+        double world[3];
+        for (int i = 0; i < 3; i++)
+            world[i] = p[i] / h->scale + h->centre[i];
+        q[row] = dot(m, world) + m[3];
+    }
+}
+
+// The height of a triangle over a line, pixels, from the corner that the line has not; a great one where that is not before the eye.
+static double height_over(const struct edge_piece *piece, uint32_t corner, const struct edge_line *line)
+{
+    double p[3], q[4];
+    position(piece, edge_end(edge_end(corner)), p);
+    to_window(piece->view, p, q);
+    if (!(q[3] > 1e-30) || !(line->length > 0))
+        return 1e30;
+    double dx = q[0] / q[3] - line->x[0], dy = q[1] / q[3] - line->y[0];
+    double across = (line->x[1] - line->x[0]) * dy - (line->y[1] - line->y[0]) * dx;
+    return (across < 0 ? -across : across) / line->length;
+}
+
+// Where both triangles at an edge of the wireframe are narrower than FADE widths, the line is drawn thinner, in proportion, down to
+// the share 1/FADE: a fine mesh is an even grey, and not a black that hides the surface.
+enum { FADE = 5 };
+static double half_width(const struct edge_piece *piece, const struct mesh_edge *edge, const struct edge_line *line)
+{
+    double width = piece->view->frame->edges.width[line->style];
+    if (line->style != EDGE_STYLE_WIREFRAME)
+        return width / 2;
+    double a = height_over(piece, edge->corner, line), b = height_over(piece, edge->other, line);
+    double share = (a > b ? a : b) / (FADE * width), least = 1.0 / FADE;
+    return (share < least ? least : share < 1 ? share : 1) * width / 2;
+}
+
+// Sets up the line of an edge, but for its points. False: it is outside of the picture.
+static bool set_line(const struct edge_piece *piece, const struct mesh_edge *edge, int style, struct edge_line *line)
+{
+    const struct edge_view *view = piece->view;
+    const struct frame_edges *edges = &view->frame->edges;
+    double p[2][3], q[2][4], range[2] = {0, 1}, margin = edges->width[style] + 1;
+    position(piece, edge->corner, p[0]);
+    position(piece, edge_end(edge->corner), p[1]);
+    for (int k = 0; k < 2; k++)
+        to_window(view, p[k], q[k]);
+    double tiny[2] = {q[0][3] - 1e-30, q[1][3] - 1e-30}; // w > 0
+    double right = view->window[0] + margin, below = view->window[1] + margin;
+    if (!cut(tiny[0], tiny[1], range) || !cut(q[0][2] + q[0][3], q[1][2] + q[1][3], range) ||
+        !cut(q[0][3] - q[0][2], q[1][3] - q[1][2], range) ||
+        !cut(q[0][0] + margin * q[0][3], q[1][0] + margin * q[1][3], range) ||
+        !cut(q[0][1] + margin * q[0][3], q[1][1] + margin * q[1][3], range) ||
+        !cut(right * q[0][3] - q[0][0], right * q[1][3] - q[1][0], range) ||
+        !cut(below * q[0][3] - q[0][1], below * q[1][3] - q[1][1], range))
+        return false;
+    for (int k = 0; k < 2; k++) {
+        double t = range[k], w = q[0][3] + (q[1][3] - q[0][3]) * t;
+        line->inverse_w[k] = 1 / w;
+        for (int i = 0; i < 3; i++)
+            line->over_w[k][i] = (p[0][i] + (p[1][i] - p[0][i]) * t) / w;
+        line->x[k] = (q[0][0] + (q[1][0] - q[0][0]) * t) / w;
+        line->y[k] = (q[0][1] + (q[1][1] - q[0][1]) * t) / w;
+        line->whole[k] = t == (k ? 1 : 0);
+    }
+    double dx = line->x[1] - line->x[0], dy = line->y[1] - line->y[0];
+    line->length = math_sqrt(dx * dx + dy * dy);
+    line->style = style;
+    line->half = half_width(piece, edge, line);
+    line->start = 0;
+    return true;
+}
+
+// --- what of that is in sight
+
+static bool add_part(struct edge_piece *piece, const struct edge_line *line, double from, double to)
+{
+    struct edge_stroke stroke = {.half = line->half, .style = line->style};
+    const double ends[2] = {from, to};
+    for (int k = 0; k < 2; k++) {
+        stroke.x[k] = line->x[0] + (line->x[1] - line->x[0]) * ends[k];
+        stroke.y[k] = line->y[0] + (line->y[1] - line->y[0]) * ends[k];
+        stroke.round[k] = line->whole[k] && ends[k] == k;
+    }
+    return edge_stroke_add(piece->strokes, stroke, piece->view->loop->call);
+}
+
+// Dashes of 5 widths and gaps of 3, widths below a pixel taken as one.
+static bool add_dashes(struct edge_piece *piece, const struct edge_line *line, double from, double to)
+{
+    double width = piece->view->frame->edges.width[line->style], unit = width > 1 ? width : 1, period = 8 * unit;
+    double first = line->start + from * line->length, last = line->start + to * line->length;
+    for (int64_t n = (int64_t)(first / period); (double)n * period < last; n++) {
+        double a = (double)n * period, b = a + 5 * unit;
+        a = a > first ? a : first;
+        b = b < last ? b : last;
+        double x = a == first ? from : (a - line->start) / line->length,
+               y = b == last ? to : (b - line->start) / line->length;
+        if (a < b && !add_part(piece, line, x, y))
+            return false;
+    }
+    return true;
+}
+
+static bool add_run(struct edge_piece *piece, const struct edge_line *line, double from, double to, bool hidden)
+{
+    if (!hidden)
+        return add_part(piece, line, from, to);
+    return piece->view->frame->edges.hidden != LAM_HIDDEN_LINES_DASH || add_dashes(piece, line, from, to);
+}
+
+// Halves the stretches in which lines change, all of them side by side.
+static void narrow_changes(struct edge_piece *piece, struct scratch *s, uint32_t count)
+{
+    for (int round = 0; round < HALVINGS; round++) {
+        for (uint32_t i = 0; i < count; i++)
+            s->middles[i].share = 0.5 * (s->changes[i].from + s->changes[i].to);
+        piece->rays_of(piece->view, s->lines, s->middles, count, s->middle_hidden);
+        piece->rays += count;
+        for (uint32_t i = 0; i < count; i++) {
+            if (s->middle_hidden[i] == s->changes[i].hidden)
+                s->changes[i].from = s->middles[i].share;
+            else
+                s->changes[i].to = s->middles[i].share;
+        }
+    }
+}
+
+// Decides about the lines at hand, and draws them.
+static bool flush(struct edge_piece *piece, struct scratch *s)
+{
+    uint32_t changes = 0;
+    if (s->point_count) {
+        piece->rays_of(piece->view, s->lines, s->points, s->point_count, s->hidden);
+        piece->rays += s->point_count;
+        for (uint32_t l = 0; l < s->line_count; l++) {
+            const struct edge_line *line = &s->lines[l];
+            for (uint32_t i = line->first; i + 1 < line->first + line->count; i++)
+                if (s->hidden[i] != s->hidden[i + 1]) {
+                    s->middles[changes].line = l;
+                    s->changes[changes++] = (struct change){s->points[i].share, s->points[i + 1].share, s->hidden[i]};
+                }
+        }
+        narrow_changes(piece, s, changes);
+    }
+    bool ok = should_continue(piece->view->loop);
+    for (uint32_t l = 0, next = 0; l < s->line_count && ok; l++) {
+        const struct edge_line *line = &s->lines[l];
+        bool hidden = line->count && s->hidden[line->first];
+        double from = 0;
+        for (; next < changes && s->middles[next].line == l && ok; next++, hidden = !hidden) {
+            double to = 0.5 * (s->changes[next].from + s->changes[next].to);
+            ok = add_run(piece, line, from, to, hidden);
+            from = to;
+        }
+        ok = ok && add_run(piece, line, from, 1, hidden);
+    }
+    s->line_count = s->point_count = 0;
+    return ok;
+}
+
+bool edge_piece_draw(struct edge_piece *piece, void *memory)
+{
+    struct scratch *s = memory;
+    bool shows_all = piece->view->frame->edges.hidden == LAM_HIDDEN_LINES_SHOW;
+    s->line_count = s->point_count = 0;
+    for (uint32_t e = 0; e < piece->count; e++) {
+        struct edge_line *line = &s->lines[s->line_count];
+        int style = style_of(piece, &piece->edges[e]);
+        if (style < 0 || !set_line(piece, &piece->edges[e], style, line))
+            continue;
+        piece->drawn++;
+        line->first = s->point_count;
+        line->count = 0;
+        if (!shows_all) {
+            // One point for each pixel of its length, each in the middle of its share.
+            line->count = line->length < 1                 ? 1
+                          : line->length < POINTS_PER_LINE ? (uint32_t)(line->length + 0.5)
+                                                           : POINTS_PER_LINE;
+            for (uint32_t i = 0; i < line->count; i++)
+                s->points[s->point_count++] = (struct edge_point){s->line_count, (i + 0.5) / line->count};
+        }
+        s->line_count++;
+        if (s->point_count > POINTS - POINTS_PER_LINE && !flush(piece, s))
+            return false;
+    }
+    return flush(piece, s);
+}
+
+bool edge_stroke_add(struct edge_strokes *strokes, struct edge_stroke stroke, struct call_control *call)
+{
+    if (strokes->count == strokes->capacity) {
+        size_t capacity = strokes->capacity ? 2 * strokes->capacity : 1024;
+        if (!call_charge(call, (capacity - strokes->capacity) * sizeof stroke))
+            return false;
+        struct edge_stroke *list = realloc(strokes->list, capacity * sizeof *list);
+        if (!list) {
+            call_refund(call, (capacity - strokes->capacity) * sizeof stroke);
+            return false;
+        }
+        strokes->list = list;
+        strokes->capacity = capacity;
+    }
+    strokes->list[strokes->count++] = stroke;
+    return true;
+}

@@ -1,0 +1,103 @@
+// edge_rays.c: which points of edges are hidden, by LANES rays at a time to the eye. Compiled for several instruction sets.
+//
+// An edge lies in the planes of its own triangles, and of others where faces touch: those are not in its way, and neither is any
+// triangle whose plane is not farther from the point than positions of files are rounded by. So no line breaks where it runs
+// along a surface, and nothing else is drawn through one.
+#include "edge_lines.h"
+
+#include "layer_kinds.h"
+#include "opacity.h"
+#include "ray_lanes.h"
+
+// In the hierarchy's space, whose larger half side is ½ to 1: floats have 2⁻²⁴ of their own size, coordinates up to 16
+// times the size of the model (lam_mesh.origin), and text files six digits.
+#define ROUNDING 0x1p-19
+
+#define JOIN_(a, b) a##_##b
+#define JOIN(a, b)  JOIN_(a, b)
+
+// Whether what is seen of a triangle there hides what is behind it.
+static bool is_solid(const struct edge_view *view, const struct ray_triangle *triangle, const struct ray_lanes *ray,
+                     const struct ray_view *seen, int lane, double facing)
+{
+    const struct frame *frame = view->frame;
+    const struct frame_draw_range *range = &frame->ranges[frame_range_of(frame, triangle->number)];
+    const struct frame_draw *draw = &frame->draws[range->draw];
+    bool back = (facing < 0) != draw->mirrored;
+    if (draw->cull == (back ? LAM_CULL_BACK : LAM_CULL_FRONT))
+        return false;
+    if (!range->passes_rays)
+        return true;
+    if (frame_layers(frame, frame->materials[back ? range->back : range->front]) & LAYER_TRANSMISSION)
+        return false;
+    _Alignas(64) double weights[3][LANES] = {{0}};
+    crosses(triangle, ray, seen, 1u << lane, weights, NULL);
+    double sum = (weights[0][lane] + weights[1][lane]) + weights[2][lane];
+    return ray_opacity(frame, triangle->number, back, (float)(weights[1][lane] / sum),
+                       (float)(weights[2][lane] / sum)) >= 0.5f;
+}
+
+static unsigned hides(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
+                      const struct ray_view *seen, unsigned lanes)
+{
+    const struct edge_view *view = user;
+    const double(*p)[3] = triangle->p;
+    double a[3], b[3], n[3], least = 0;
+    for (int i = 0; i < 3; i++) {
+        a[i] = p[1][i] - p[0][i];
+        b[i] = p[2][i] - p[0][i];
+    }
+    for (int i = 0, j = 1, k = 2; i < 3; j = k, k = i++) {
+        n[i] = a[j] * b[k] - a[k] * b[j];
+        least += n[i] * n[i];
+    }
+    least *= ROUNDING * ROUNDING;
+    unsigned hidden = 0;
+    for (unsigned rest = lanes; rest; rest &= rest - 1) {
+        int lane = __builtin_ctz(rest);
+        double away = 0, facing = 0;
+        for (int i = 0; i < 3; i++) {
+            away += (ray->origin[i][lane] - p[0][i]) * n[i];
+            facing += ray->direction[i][lane] * n[i];
+        }
+        if (away * away > least && (view->every_hides || is_solid(view, triangle, ray, seen, lane, facing)))
+            hidden |= 1u << lane;
+    }
+    return hidden;
+}
+
+static void set_ray(struct ray_lanes *ray, int lane, const struct edge_view *view, const struct edge_line *line,
+                    double share)
+{
+    double w = 1 / ((1 - share) * line->inverse_w[0] + share * line->inverse_w[1]);
+    double depth = view->near_[3], toward = 0;
+    for (int i = 0; i < 3; i++) {
+        double p = ((1 - share) * line->over_w[0][i] + share * line->over_w[1][i]) * w;
+        double d = view->frame->orthographic ? view->eye[i] : view->eye[i] - p;
+        ray->origin[i][lane] = p;
+        ray->direction[i][lane] = d;
+        depth += view->near_[i] * p;
+        toward -= view->near_[i] * d;
+    }
+    ray->end[lane] = toward > 0 ? depth / toward : (double)__builtin_inf(); // at the near plane
+    ray->own[lane] = NO_TRIANGLE;
+}
+
+edge_rays JOIN(edge_rays, ISA);
+void JOIN(edge_rays, ISA)(const struct edge_view *view, const struct edge_line *lines, const struct edge_point *points,
+                          size_t count, uint8_t *hidden)
+{
+    struct ray_lanes ray;
+    for (size_t i = 0; i < count; i += LANES) {
+        int active = count - i < LANES ? (int)(count - i) : LANES;
+        if (i % 1024 == 0 && !should_continue(view->loop))
+            return;
+        for (int k = 0; k < LANES; k++) {
+            const struct edge_point *point = &points[k < active ? i + (size_t)k : i];
+            set_ray(&ray, k, view, &lines[point->line], point->share);
+        }
+        unsigned hit = any_hit(view->hierarchy, &ray, (unsigned)((1u << active) - 1), hides, (void *)(uintptr_t)view);
+        for (int k = 0; k < active; k++)
+            hidden[i + (size_t)k] = hit >> k & 1;
+    }
+}

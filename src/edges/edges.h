@@ -1,0 +1,47 @@
+// edges.h: edges of surfaces as lines over a finished picture: wireframes and feature edges.
+//
+// Both devices draw the same lines: what is in sight is decided by rays from points of an edge to the eye (edge_rays.h), and
+// a line's coverage of a pixel by the distance from its centre. docs/edges.md has the rules.
+#ifndef EDGES_H
+#define EDGES_H
+
+#include "hierarchy.h"
+#include "mesh_edges.h"
+
+struct edge_stroke;
+
+// A list that one thread fills.
+struct edge_strokes {
+    struct edge_stroke *list;
+    size_t count, capacity;
+};
+
+// Kept from frame to frame.
+struct edge_memory {
+    // The edges of the draws' meshes, in the order of the draws, and of which meshes.
+    struct buffer edges, sources;
+    int source_count;
+    struct scene_token *token; // held; NULL: none are listed
+    struct edge_strokes *strokes;
+    struct buffer scratch; // of the threads
+    int thread_count;
+    struct buffer coverage[EDGE_STYLES]; // one float for each pixel
+    bool styles[EDGE_STYLES];            // that the last frame has
+};
+
+struct edge_counts {
+    uint64_t drawn, rays;
+};
+
+// Finds the lines of a frame with draws_edges: the coverage of its pixels. `hierarchy`: the frame's. `lanes`: the most that
+// rays may use.
+bool edges_find(struct edge_memory *memory, const struct frame *frame, const struct hierarchy *hierarchy, int lanes,
+                struct pool *pool, struct call_control *call, struct edge_counts *counts, lam_error *error);
+
+// Blends the lines that were found over the picture of the same frame, of any format: in linear light, the wireframe first.
+void edges_blend(const struct edge_memory *memory, const struct frame *frame, lam_image *image, struct pool *pool);
+
+void edges_free(struct edge_memory *memory);
+uint64_t edges_bytes(const struct edge_memory *memory);
+
+#endif

@@ -1,0 +1,120 @@
+// mesh_edges.c: each edge is looked at from the lower one of its two welded ends: all that lead from there to higher ones, in
+// both directions, sorted by the other end.
+#include "mesh_edges.h"
+
+#include "corner_weld.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { CHECK_INTERVAL = 1 << 14 }; // ends between two checks of the call
+
+// An edge at the end at hand: the other end in the upper half; then the corner that it leads from, in whichever direction.
+static uint64_t edge_key(uint32_t other_end, uint32_t corner) { return (uint64_t)other_end << 32 | corner; }
+
+static int by_value(const void *a, const void *b)
+{
+    uint64_t x, y;
+    memcpy(&x, a, sizeof x);
+    memcpy(&y, b, sizeof y);
+    return (x > y) - (x < y);
+}
+
+static void sort_keys(uint64_t *keys, uint32_t count)
+{
+    if (count > 24) {
+        qsort(keys, count, sizeof *keys, by_value);
+        return;
+    }
+    for (uint32_t i = 1; i < count; i++) {
+        uint64_t key = keys[i];
+        uint32_t at = i;
+        for (; at > 0 && keys[at - 1] > key; at--)
+            keys[at] = keys[at - 1];
+        keys[at] = key;
+    }
+}
+
+static bool is_inner(const lam_mesh *mesh, uint32_t corner)
+{
+    return mesh->inner_edges && mesh->inner_edges[corner / 3] >> (corner % 3) & 1;
+}
+
+// The edge of `count` corners that lead along it.
+static struct mesh_edge edge_of(const lam_mesh *mesh, const struct corner_weld *weld, const uint64_t *keys,
+                                uint32_t count)
+{
+    struct mesh_edge edge = {.corner = (uint32_t)keys[0], .other = (uint32_t)keys[count > 1 ? 1 : 0]};
+    bool inner = true;
+    for (uint32_t i = 0; i < count; i++)
+        inner &= is_inner(mesh, (uint32_t)keys[i]);
+    edge.kind = (inner ? EDGE_INNER : 0) | (count == 1 ? EDGE_OPEN : 0) | (count > 2 ? EDGE_SHARED : 0);
+    if (count == 2 && corner_weld_of(weld, edge.corner) == corner_weld_of(weld, edge.other))
+        edge.kind |= EDGE_ALIKE;
+    return edge;
+}
+
+// The ends of the edge from a corner on, the lower first. False: the triangle has equal corners.
+static bool ends_of(const struct corner_weld *weld, uint32_t corner, uint32_t *low, uint32_t *high)
+{
+    uint32_t first = corner - corner % 3;
+    uint32_t v[3] = {corner_weld_of(weld, first), corner_weld_of(weld, first + (size_t)1),
+                     corner_weld_of(weld, first + (size_t)2)};
+    uint32_t a = v[corner % 3], b = v[(corner + 1) % 3];
+    *low = a < b ? a : b;
+    *high = a < b ? b : a;
+    return v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
+}
+
+static uint32_t list_edges(const lam_mesh *mesh, struct mesh_edge *edges, struct arena *memory,
+                           struct call_control *call, bool *failed, lam_error *error)
+{
+    struct corner_weld weld;
+    lam_mesh positions = {.positions = mesh->positions,
+                          .vertex_count = mesh->vertex_count,
+                          .indices = mesh->indices,
+                          .triangle_count = mesh->triangle_count};
+    size_t corners = 3 * (size_t)mesh->triangle_count;
+    *failed = true;
+    if (!corner_weld(&weld, &positions, memory, call, error))
+        return 0;
+    uint32_t *starts = arena_alloc_zeroed(memory, ((size_t)weld.items + 1) * sizeof *starts), low, high, count = 0;
+    uint64_t *keys = arena_array(memory, corners, sizeof *keys);
+    if (!starts || !keys) {
+        call_memory_error(call, corners * (sizeof *keys + sizeof *starts), error);
+        return 0;
+    }
+    for (uint32_t c = 0; c < corners; c++)
+        if (ends_of(&weld, c, &low, &high))
+            starts[low + 1]++;
+    for (size_t v = 0; v < weld.items; v++)
+        starts[v + 1] += starts[v];
+    for (uint32_t c = 0; c < corners; c++) // starts advance to the ends
+        if (ends_of(&weld, c, &low, &high))
+            keys[starts[low]++] = edge_key(high, c);
+    for (uint32_t v = 0, from = 0; v < weld.items; v++) {
+        uint32_t to = starts[v];
+        if (v % CHECK_INTERVAL == 0 && !call_should_continue(call)) {
+            call_error(call, error);
+            return 0;
+        }
+        sort_keys(keys + from, to - from);
+        for (uint32_t next; from < to; from = next) {
+            for (next = from + 1; next < to && keys[next] >> 32 == keys[from] >> 32; next++)
+                ;
+            edges[count++] = edge_of(mesh, &weld, keys + from, next - from);
+        }
+    }
+    *failed = false;
+    return count;
+}
+
+uint32_t mesh_edges(const lam_mesh *mesh, struct mesh_edge *edges, struct call_control *call, bool *failed,
+                    lam_error *error)
+{
+    struct arena memory;
+    arena_start(&memory, call);
+    uint32_t count = list_edges(mesh, edges, &memory, call, failed, error);
+    arena_free(&memory);
+    return count;
+}

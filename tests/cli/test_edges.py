@@ -1,0 +1,68 @@
+# test_edges.py: --wireframe, --edges and what belongs to them.
+import json
+import unittest
+
+from harness import Case, pixel
+
+QUAD = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n"
+FRONT = ("-s", "64", "-b", "white", "--azimuth", "0", "--elevation", "0")
+
+
+class Edges(Case):
+    def model(self, name="quad.obj", text=QUAD):
+        (self.folder / name).write_text(text)
+        self.given.add(name)
+        return name
+
+    def test_polygons_have_no_diagonals(self):
+        plain = self.png(self.model(), *FRONT)
+        lines = self.png(self.model(), *FRONT, "--wireframe")
+        self.assertNotEqual(lines, plain)
+        self.assertEqual(pixel(lines, 32, 32), pixel(plain, 32, 32))
+        cut = self.png(self.model("cut.obj", QUAD.replace("f 1 2 3 4", "f 1 2 3\nf 1 3 4")), *FRONT, "--wireframe")
+        self.assertLess(pixel(cut, 32, 32)[0], pixel(plain, 32, 32)[0])
+
+    def test_lines_alone(self):
+        alone = self.png(self.model(), *FRONT, "--wireframe", "--surfaces", "off")
+        self.assertEqual(pixel(alone, 32, 32), (255, 255, 255, 255))
+        self.assertEqual(self.png(self.model(), *FRONT, "--edges", "boundary", "--edge-width", "1", "--surfaces", "off"), alone)
+        dark = self.png(self.model(), *FRONT, "-b", "black", "--edges", "all", "--surfaces", "off")
+        self.assertEqual(pixel(dark, 32, 32), (0, 0, 0, 255))
+        self.assertEqual(max(pixel(dark, x, 32)[0] for x in range(64)), 255)
+
+    def test_scene_file(self):
+        edges = {"wireframe": True, "edges": ["crease", "silhouette"], "edge_color": [1, 0, 0, 1], "edge_width": 2, "edge_angle": 30, "hidden_lines": "dash",
+                 "surfaces": False}
+        scene = {"lambent": 1, "image": {"size": [96, 96]}, **edges, "objects": [{"file": self.model()}, {"shape": "cube"}]}
+        (self.folder / "a.json").write_text(json.dumps(scene))
+        self.given.add("a.json")
+        first = self.png("a.json", "--save-scene", "saved.json")
+        saved = json.loads((self.folder / "saved.json").read_text())
+        self.assertEqual({key: saved.get(key) for key in edges}, edges)
+        self.assertEqual(self.png("saved.json"), first)
+        self.assertNotEqual(self.png("a.json", "--hidden-lines", "remove"), first)
+        self.assertNotEqual(self.png("a.json", "--surfaces", "on"), first)
+        for key, value, says in (("edges", ["corner"], "crease"), ("edges", "crease", "crease"), ("hidden_lines", "dots", "dash"), ("edge_width", 0, "edge_width")):
+            (self.folder / "b.json").write_text(json.dumps({**scene, key: value}))
+            self.given.add("b.json")
+            self.bad(2, "b.json", says=says, leaves=["saved.json"])
+
+    def test_reported(self):
+        told = json.loads(self.good("cube", "-s", "64", "--edges", "all", "--json", "-o", "c.png").stdout)
+        self.assertGreater(told["times_ms"]["steps"]["edges"], 0)
+        self.assertEqual(self.good("cube", "-s", "64", "--edges", "all", "--surfaces", "off", "-o", "d.png").stderr.count(b"\n"), 1)  # no warning
+
+    def test_mistakes(self):
+        self.bad(1, "cube", "--edges", "corners", says="crease")
+        self.bad(1, "cube", "--edge-width", "0", says="--edge-width")
+        self.bad(1, "cube", "--wireframe-color", "nocolor", says="nocolor")
+
+    def test_opengl_has_the_same_lines(self):
+        if not [d for d in json.loads(self.good("devices", "--json").stdout)["gl"] if d["reason"] is None]:
+            self.skipTest("no OpenGL here")
+        words = ("teapot", "--segments", "16", "-s", "96", "-b", "white", "--wireframe", "--edges", "all", "--hidden-lines", "dash", "--surfaces", "off")
+        self.assertEqual(self.png(*words, "--device", "gl"), self.png(*words, "--device", "cpu"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -38,7 +38,11 @@ static int print_warnings(const struct job *job, bool print)
 
 static const char nothing_seen[] = "the picture shows no part of the model";
 
-static bool sees_nothing(const struct job *job) { return job->written && !job->times.frame.pixels_covered; }
+static bool sees_nothing(const struct job *job)
+{
+    const lam_frame_report *frame = &job->times.frame;
+    return job->written && !frame->pixels_covered && !frame->edges_drawn;
+}
 
 // True if a sentence begins with the name, in which it shows control characters as '?'.
 static bool names(const char *sentence, const char *name)

@@ -70,7 +70,7 @@ struct frame_memory {
     struct buffer lights;    // the rows of light_bounds
     struct buffer bins;      // heads of all threads' bins
     struct buffer reference; // directions
-    struct buffer occlusion; // rows of struct screen_occlusion, or a struct occlusion_pattern
+    struct buffer occlusion; // planes of struct screen_occlusion, or a struct occlusion_pattern
     struct light_bounds light_bounds;
     struct environment_samples samples;
 };

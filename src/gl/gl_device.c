@@ -236,8 +236,8 @@ static bool draw_parts(struct gl_frame *f, lam_error *error)
             f->width = f->image->width - f->left < max ? f->image->width - f->left : max;
             f->height = f->image->height - f->top < max ? f->image->height - f->top : max;
             uint64_t clock = now_ns();
-            if (f->occlusion)
-                occlusion_send(f);
+            if (f->occlusion && !occlusion_send(f, error))
+                return false;
             if (!passes_draw(f, error))
                 return false;
             f->gl->Finish();
@@ -335,7 +335,8 @@ static uint64_t gl_memory(const struct lam_device *base)
     const struct gl_device *device = (const struct gl_device *)base;
     uint64_t bytes = device->scratch.capacity + device->runs.capacity + device->pixels.capacity +
                      device->draw_calls.capacity + device->environment_bytes + device->target_bytes +
-                     device->shadow_bytes + device->occlusion.capacity + hierarchy_bytes(&device->hierarchy);
+                     device->shadow_bytes + device->occlusion.capacity + device->occlusion_rows.capacity +
+                     hierarchy_bytes(&device->hierarchy);
     const struct gl_light_buffer *lists[] = {&device->lights, &device->products};
     for (int i = 0; i < 2; i++)
         bytes += lists[i]->shadow.capacity + lists[i]->next.capacity + lists[i]->size;
@@ -370,6 +371,7 @@ static void gl_free(struct lam_device *base)
     gl_context_free(&device->context);
     buffer_free(&device->scratch);
     buffer_free(&device->occlusion);
+    buffer_free(&device->occlusion_rows);
     buffer_free(&device->runs);
     buffer_free(&device->pixels);
     buffer_free(&device->draw_calls);

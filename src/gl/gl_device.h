@@ -214,7 +214,8 @@ struct gl_device {
     float copy_factor_value;
     GLuint query;
     struct gl_targets targets;
-    struct buffer occlusion;  // rows of struct screen_occlusion
+    struct buffer occlusion; // planes of struct screen_occlusion
+    struct buffer occlusion_rows;
     GLuint occlusion_texture; // of the part that is drawn
     struct gl_light_buffer lights, products;
     struct lam_environment *environment; // retained; its faces are in environment_texture
@@ -338,7 +339,7 @@ void vertex_lighting_free(struct gl_device *device);
 bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct screen_occlusion *occlusion,
                     lam_error *error);
 // Uploads the part that is drawn.
-void occlusion_send(struct gl_frame *f);
+bool occlusion_send(struct gl_frame *f, lam_error *error);
 
 // --- gl_programs.c
 // Returns the program of the choices, compiled on first use. NULL on failure.

@@ -20,17 +20,23 @@ bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct scree
         const float *row = (const float *)((const char *)distances->pixels + (size_t)y * distances->stride);
         for (int x = 0; x < occlusion->width; x++)
             if (row[4 * x + 3] > 0)
-                occlusion->depth[(size_t)y * (size_t)occlusion->stride + (size_t)x] = row[4 * x];
+                occlusion->depth[screen_pixel(occlusion, x, y)] = row[4 * x];
     }
     screen_occlusion_find(occlusion, &occlusion_kernels, NULL, f->call);
     return call_should_continue(f->call) || call_error(f->call, error);
 }
 
-void occlusion_send(struct gl_frame *f)
+bool occlusion_send(struct gl_frame *f, lam_error *error)
 {
     struct gl_device *device = f->device;
     const struct gl *gl = f->gl;
     const struct screen_occlusion *o = f->occlusion;
+    if (!buffer_reserve(&device->occlusion_rows, (size_t)f->width * (size_t)f->height * sizeof(float), f->call, error))
+        return false;
+    float *rows = device->occlusion_rows.data;
+    for (int y = 0; y < f->height; y++)
+        for (int x = 0; x < f->width; x++)
+            rows[(size_t)y * (size_t)f->width + (size_t)x] = o->unoccluded[screen_pixel(o, f->left + x, f->top + y)];
     bool fresh = !device->occlusion_texture;
     if (fresh)
         gl->GenTextures(1, &device->occlusion_texture);
@@ -40,9 +46,7 @@ void occlusion_send(struct gl_frame *f)
         gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     }
-    gl->PixelStorei(GL_UNPACK_ROW_LENGTH, o->stride);
-    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, f->width, f->height, 0, GL_RED, GL_FLOAT,
-                   o->unoccluded + (size_t)f->top * (size_t)o->stride + (size_t)f->left);
-    gl->PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, f->width, f->height, 0, GL_RED, GL_FLOAT, rows);
     device->base.report.bytes_uploaded += (uint64_t)f->width * (uint64_t)f->height * sizeof(float);
+    return true;
 }

@@ -4,30 +4,42 @@
 #include "call_control.h"
 #include "pool.h"
 
-enum { PLANES = 6, LANES_MAX = 16 };
+enum { LANES_MAX = 16 };
 
+// Rows have LANES_MAX floats more at either end, planes of cells stand in front of those of pixels.
 bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct buffer *storage,
                             struct call_control *call, lam_error *error)
 {
-    int stride = (frame->width + 2 * LANES_MAX - 1) / LANES_MAX * LANES_MAX;
-    size_t plane = (size_t)stride * (size_t)frame->height + LANES_MAX;
-    if (!buffer_reserve(storage, PLANES * plane * sizeof(float), call, error))
+    int step = (int64_t)frame->width * frame->height > SCREEN_FINE ? 2 : 1;
+    int across = (frame->width + step - 1) / step, down = (frame->height + step - 1) / step;
+    int stride = (across + LANES_MAX - 1) / LANES_MAX * LANES_MAX + 2 * LANES_MAX;
+    size_t plane = (size_t)stride * (size_t)down, pixels = (size_t)(step * step) * plane, cells = step > 1 ? plane : 0;
+    if (!buffer_reserve(storage, (4 * plane + cells + 2 * pixels) * sizeof(float), call, error))
         return false;
-    float *at = storage->data;
+    float *at = storage->data, *depth = at + 4 * plane;
+    for (size_t i = 0; i < 4 * plane; i++) // beside the cells a filter reads numbers, which do not count
+        at[i] = 0;
+    for (size_t i = 0; i < cells + pixels; i++)
+        depth[i] = SCREEN_EMPTY;
+    at += LANES_MAX;
+    depth += LANES_MAX;
     *occlusion = (struct screen_occlusion){.width = frame->width,
                                            .height = frame->height,
+                                           .step = step,
+                                           .grid_width = across,
+                                           .grid_height = down,
                                            .stride = stride,
+                                           .plane = plane,
                                            .orthographic = frame->orthographic,
                                            .pixel_size = frame->pixel_size,
                                            .radius = frame->occlusion_radius,
-                                           .depth = at,
-                                           .slope_x = at + plane,
-                                           .slope_y = at + 2 * plane,
-                                           .noisy = at + 3 * plane,
-                                           .smoothed = at + 4 * plane,
-                                           .unoccluded = at + 5 * plane};
-    for (size_t i = 0; i < plane; i++)
-        occlusion->depth[i] = SCREEN_EMPTY;
+                                           .slope_x = at,
+                                           .slope_y = at + plane,
+                                           .noisy = at + 2 * plane,
+                                           .smoothed = at + 3 * plane,
+                                           .cell_depth = depth,
+                                           .depth = depth + cells,
+                                           .unoccluded = depth + cells + pixels};
     return true;
 }
 
@@ -41,7 +53,7 @@ static void run_rows(void *user, size_t index, int thread)
 {
     (void)thread;
     const struct pass *pass = user;
-    int first = (int)index * OCCLUSION_ROWS, height = pass->occlusion->height;
+    int first = (int)index * OCCLUSION_ROWS, height = pass->occlusion->grid_height;
     if (call_should_continue(pass->call))
         pass->rows(pass->occlusion, first, first + OCCLUSION_ROWS < height ? first + OCCLUSION_ROWS : height);
 }
@@ -49,8 +61,11 @@ static void run_rows(void *user, size_t index, int thread)
 void screen_occlusion_find(struct screen_occlusion *occlusion, const struct occlusion_kernels *kernels,
                            struct pool *pool, struct call_control *call)
 {
-    size_t pieces = ((size_t)occlusion->height + OCCLUSION_ROWS - 1) / OCCLUSION_ROWS;
+    size_t pieces = ((size_t)occlusion->grid_height + OCCLUSION_ROWS - 1) / OCCLUSION_ROWS;
+    if (occlusion->step > 1)
+        pool_run(pool, pieces, run_rows, &(struct pass){occlusion, kernels->cell_rows, call});
     pool_run(pool, pieces, run_rows, &(struct pass){occlusion, kernels->occlude_rows, call});
     pool_run(pool, pieces, run_rows, &(struct pass){occlusion, kernels->smooth_rows_across, call});
     pool_run(pool, pieces, run_rows, &(struct pass){occlusion, kernels->smooth_rows_down, call});
+    pool_run(pool, pieces, run_rows, &(struct pass){occlusion, kernels->pixel_rows, call});
 }

@@ -14,36 +14,58 @@
 
 struct pool;
 
-// Rows of `stride` floats, one for each row of the picture, with room for LANES_MAX more after the last pixel.
+// The grid of cells that occlusion is found for: the picture's pixels or, in pictures of more than SCREEN_FINE pixels, cells of
+// two by two of them, which take a quarter of the time; their pixels then have the mean of the cells around that lie on
+// the same surface.
 struct screen_occlusion {
-    int width, height, stride;
+    int width, height;           // of the picture
+    int step;                    // 1, or 2: pixels to a side of a cell
+    int grid_width, grid_height; // cells; those at the picture's edge may have one pixel less
+    int stride;                  // floats from row to row of a plane
+    size_t plane;                // floats from plane to plane
     bool orthographic;
     float pixel_size; // of a pixel in eye units, at distance 1 or, where orthographic, everywhere
     float radius;     // within which surfaces occlude, eye units
-    // Distance in front of the eye of the surface at each pixel, SCREEN_EMPTY where there is none. To be filled by the
-    // caller, with SCREEN_EMPTY beside the picture (screen_occlusion_start does that).
+    // Distance in front of the eye of the surface at each pixel, SCREEN_EMPTY where there is none: a plane for each pixel of
+    // a cell (screen_pixel). To be filled by the caller, with SCREEN_EMPTY beside the picture (screen_occlusion_start
+    // does that).
     float *depth;
-    // Of the surface at each pixel, found with its occlusion: how the distance grows from pixel to pixel.
+    float *cell_depth; // of each cell: the first of its pixels that shows a surface
+    // Of the surface of each cell, found with its occlusion: how the distance grows from cell to cell.
     float *slope_x, *slope_y;
     float *noisy, *smoothed; // before the filter, and after its first pass
-    float *unoccluded;       // the result: 1 where all light from around arrives … 0 where none does
+    float *unoccluded; // the result, in the order of `depth`: 1 where all light from around arrives … 0 where none does
 };
 
-#define SCREEN_EMPTY 1.0e30f
+// Farther than any surface; its square is a float.
+#define SCREEN_EMPTY 1.0e17f
 
-// Rows of a piece of parallel work.
-enum { OCCLUSION_ROWS = 16 };
+enum {
+    SCREEN_FINE = 512 * 512,
+    OCCLUSION_ROWS = 16, // of a piece of parallel work
+};
+
+// Where a pixel is in `depth` and `unoccluded`.
+static inline size_t screen_pixel(const struct screen_occlusion *o, int x, int y)
+{
+    int half = o->step - 1;
+    return (size_t)((y & half) * 2 + (x & half)) * o->plane + (size_t)(y >> half) * (size_t)o->stride +
+           (size_t)(x >> half);
+}
 
 // Sets up a picture's rows in `storage`, without any surface.
 bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct buffer *storage,
                             struct call_control *call, lam_error *error);
 
-// The steps (screen_occlusion.inc, compiled for each instruction set): for rows from `first` to before `end` the occlusion
-// of each pixel, then the two passes of its filter. Each step takes all rows before the next begins.
+// The steps (screen_occlusion.inc, compiled for each instruction set), for rows of cells from `first` to before `end`: the
+// depth of each cell (with step 2), its occlusion, the two passes of its filter, and its pixels. Each step takes all rows
+// before the next begins.
 struct occlusion_kernels {
+    void (*cell_rows)(const struct screen_occlusion *occlusion, int first, int end);
     void (*occlude_rows)(const struct screen_occlusion *occlusion, int first, int end);
     void (*smooth_rows_across)(const struct screen_occlusion *occlusion, int first, int end);
     void (*smooth_rows_down)(const struct screen_occlusion *occlusion, int first, int end);
+    void (*pixel_rows)(const struct screen_occlusion *occlusion, int first, int end);
 };
 
 // Finds `unoccluded` from `depth`, by several threads (`pool` NULL: one). It ends early, unfinished, where the call should

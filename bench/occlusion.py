@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""occlusion.py: how far ambient occlusion from the screen is from that by rays.
+
+    occlusion.py LAMBENT [MODEL…]       a line for each model, by default all of the folder of real models (paths.py), and for all together
+    occlusion.py LAMBENT --write        writes the table of docs/lighting/occlusion.md
+
+Differences (screen − rays) of `--show ao` at the covered pixels of the fitted view, one sample a pixel, at two sizes, since pictures of more than 512² pixels have
+cells of two by two pixels. Bytes are the same everywhere, and so are these numbers."""
+import array
+import concurrent.futures
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+import paths
+
+SIZES, RAYS = (256, 640), 64
+PAGE = os.path.join(paths.ROOT, "docs", "lighting", "occlusion.md")
+KINDS = ("obj", "stl", "ply", "glb")
+
+
+def models():
+    """The first of each folder of each format; broken files and those that only test a reader are too small to count."""
+    for kind in KINDS:
+        for folder, _, names in sorted(os.walk(os.path.join(paths.REAL_MODELS, kind))):
+            found = [os.path.join(folder, name) for name in sorted(names) if name.lower().endswith("." + kind)]
+            yield from [path for path in found if 10000 < os.path.getsize(path) < 4000000 and "draco" not in path][:1]
+
+
+def channel(lambent, model, folder, size, *words):
+    """The first channel of a picture of numbers, one for each pixel; None: the model cannot be drawn."""
+    path = os.path.join(folder, "a.pfm")
+    done = subprocess.run([lambent, model, "-q", "-s", str(size), "--samples", "1", "--threads", "1", *words, "-o", path], stderr=subprocess.DEVNULL)
+    if done.returncode:
+        return None
+    with open(path, "rb") as file:
+        return array.array("f", file.read().split(b"\n", 3)[3])[::3]
+
+
+def differences(lambent, model, size):
+    with tempfile.TemporaryDirectory() as folder:
+        depth = channel(lambent, model, folder, size, "--show", "depth")
+        if depth is None:
+            return None
+        rays = channel(lambent, model, folder, size, "--show", "ao", "--ao", "rays", "--ao-samples", str(RAYS))
+        screen = channel(lambent, model, folder, size, "--show", "ao", "--ao", "screen")
+        return array.array("f", [s - r for s, r, d in zip(screen, rays, depth) if d > 0])
+
+
+def summary(values):
+    """Mean of the sizes, 50th, 90th and 99th percentile of them, mean with the sign."""
+    sizes, count = sorted(map(abs, values)), len(values)
+    return (sum(sizes) / count, sizes[count // 2], sizes[count * 9 // 10], sizes[count * 99 // 100], sum(values) / count)
+
+
+def row(name, s):
+    return "| %s | %.3f | %.3f | %.3f | %.3f | %+.3f |" % (name, *s)
+
+
+def table(lambent, given):
+    """Each model counts the same: the figures of all are means over the models."""
+    yield "| | mean | p50 | p90 | p99 | bias |"
+    yield "|---|---|---|---|---|---|"
+    for size in SIZES:
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            found = list(pool.map(lambda model: differences(lambent, model, size), given))
+        rows = sorted(((summary(d), os.path.basename(m)) for d, m in zip(found, given) if d), reverse=True)
+        everything = tuple(sum(s[i] for s, _ in rows) / len(rows) for i in range(5))
+        yield row("%d models at %d²" % (len(rows), size), everything)
+        for s, name in rows[: 5 if len(given) > 8 else len(given)]:
+            yield row("%s, %d²" % (name, size), s)
+
+
+def main():
+    lambent, write = os.path.abspath(sys.argv[1]), "--write" in sys.argv
+    given = [m for m in sys.argv[2:] if m != "--write"] or list(models())
+    lines = []
+    for line in table(lambent, given):
+        print(line, flush=True)
+        lines.append(line)
+    if write:
+        begin, end = "<!-- difference: made by bench/occlusion.py -->\n", "<!-- end of difference -->"
+        with open(PAGE, encoding="utf-8") as file:
+            text = file.read()
+        text = re.sub(re.escape(begin) + ".*?" + end, lambda _: begin + "\n".join(lines) + "\n" + end, text, flags=re.S)
+        with open(PAGE, "w", encoding="utf-8") as file:
+            file.write(text)
+
+
+if __name__ == "__main__":
+    main()

@@ -147,6 +147,9 @@ typedef struct lam_mat4 {
 // The identity.
 LAM_API lam_mat4 lam_mat4_identity(void);
 
+// The right-handed rotation about an axis through the origin, of any length but 0. The same bytes on every machine.
+LAM_API lam_mat4 lam_mat4_rotation(lam_vec3 axis, double angle_rad);
+
 // The version of the library, "major.minor.patch". A static string.
 LAM_API const char *lam_version(void);
 

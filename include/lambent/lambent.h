@@ -18,6 +18,7 @@
 #ifndef LAMBENT_LAMBENT_H
 #define LAMBENT_LAMBENT_H
 
+#include "animation.h"
 #include "base.h"
 #include "camera.h"
 #include "caption.h"

@@ -280,7 +280,7 @@ LAM_API const char *lam_scene_warning(const lam_scene *scene, int index);
 // memory and from standard input none of their own. Valid until the scene is freed; NULL out of range.
 LAM_API const char *lam_scene_file(const lam_scene *scene, int index);
 
-// Adds a warning, which is copied. After the 64th none is kept.
+// Adds a warning, which is copied, unless the scene has the same sentence. After the 64th none is kept.
 LAM_API void lam_scene_add_warning(lam_scene *scene, const char *text);
 
 // The box around the triangles of all objects, in world space. False, and all zero, for a scene without triangles.
@@ -326,6 +326,14 @@ LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, lam_light 
 // maps; drawing does not. `control` may be NULL. On failure some meshes may have tangents and others not. Errors: LAM_LIMIT,
 // LAM_CANCELLED.
 LAM_API bool lam_scene_make_tangents(lam_scene *scene, const lam_control *control, lam_error *error);
+
+// Remembers the scene as it is, and brings it back to that as often as wanted: its meshes, materials, objects, lights,
+// ambient light and up axis, whatever was added or changed since. Environment and warnings stay as they are. For pictures
+// of one model that differ in a few things: the model is loaded once, and devices keep what they made of it. What was
+// added since takes memory until the scene is freed. A second mark takes the place of the first. False: LAM_BAD_ARGUMENT
+// (reset: nothing is marked), LAM_LIMIT.
+LAM_API bool lam_scene_mark(lam_scene *scene, lam_error *error);
+LAM_API bool lam_scene_reset(lam_scene *scene, lam_error *error);
 
 // Light from everywhere, added to that of the ambient lights (La_global). Default 0.
 LAM_API void lam_scene_set_ambient(lam_scene *scene, lam_rgb ambient);

@@ -53,6 +53,12 @@ extern const struct codec codec_png, codec_ppm, codec_pfm, codec_exr, codec_jpeg
 // of this file name does.
 const struct codec *codec_of(const uint8_t *bytes, size_t size, const char *name);
 
+// False: LAM_BAD_ARGUMENT.
+bool save_params_check(const lam_save_params *params, lam_error *error);
+
+// The threads that encode a picture; NULL: this thread alone. `threads` as in lam_save_params.
+struct pool *encoding_pool(const lam_image *image, int threads);
+
 // Whether a header's size can be read; no memory is taken for others. LAM_LIMIT (lam_control.pixel_limit).
 bool picture_size_check(const struct picture_file *file, uint32_t width, uint32_t height, lam_error *error);
 

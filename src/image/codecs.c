@@ -69,33 +69,46 @@ static const struct codec *codec_for(const char *path, lam_error *error)
     return codec;
 }
 
+struct pool *encoding_pool(const lam_image *image, int threads)
+{
+    // Starting a thread takes as long as encoding some thousand pixels: none gets fewer than 65536.
+    const int64_t max_threads = (int64_t)image->width * image->height >> 16;
+    if (threads == 0)
+        threads = processor_count();
+    if (threads > max_threads)
+        threads = (int)max_threads;
+    return threads > 1 ? pool_make(threads) : NULL;
+}
+
+bool save_params_check(const lam_save_params *params, lam_error *error)
+{
+    if (!check_reserved("lam_save_params", params, error))
+        return false;
+    if (params->threads < 0 || params->threads > MAX_THREADS)
+        return fail(error, LAM_BAD_ARGUMENT, "threads: %d, expected 0 to %d", params->threads, MAX_THREADS);
+    if (params->quality < 0 || params->quality > 100)
+        return fail(error, LAM_BAD_ARGUMENT, "quality: %lld, expected 1 to 100, or 0 for the format's own",
+                    (long long)params->quality);
+    return true;
+}
+
 static bool encode(const struct codec *codec, const lam_image *image, const lam_save_params *params, lam_bytes *out,
                    lam_error *error)
 {
     static const lam_save_params plain = {0};
     if (!params)
         params = &plain;
-    if (!image_check(image, "image", error) || !check_reserved("lam_save_params", params, error))
+    if (!image_check(image, "image", error) || !save_params_check(params, error))
         return false;
     if (working_format(image->format) != codec->pixels)
         return fail(error, LAM_BAD_ARGUMENT, "image: %s is made from %s, the picture has %s", codec->title,
                     codec->pixels == LAM_RGBA8 ? "bytes (LAM_RGBA8)" : "floats (LAM_RGBA32F)",
                     format_is_float(image->format) ? "floats" : "bytes");
-    if (params->threads < 0 || params->threads > MAX_THREADS)
-        return fail(error, LAM_BAD_ARGUMENT, "threads: %d, expected 0 to %d", params->threads, MAX_THREADS);
-    if (params->quality < 0 || params->quality > 100)
-        return fail(error, LAM_BAD_ARGUMENT, "quality: %lld, expected 1 to 100, or 0 for the format's own",
-                    (long long)params->quality);
     lam_image working;
     if (!image_working(image, &working, error))
         return false;
     uint64_t state = float_state_enter();
-    // Starting a thread takes as long as encoding some thousand pixels: none gets fewer than 65536.
-    int64_t max_threads = (int64_t)image->width * image->height >> 16;
-    int threads = params->threads ? params->threads : processor_count();
-    if (threads > max_threads)
-        threads = (int)max_threads;
-    struct pool *pool = threads > 1 ? pool_make(threads) : NULL; // NULL: this thread alone
+    struct pool *pool = encoding_pool(image, params->threads);
     bool ok = codec->write(&working, params, pool, out, error);
     pool_free(pool);
     float_state_leave(state);

@@ -6,6 +6,7 @@
 #include "dynamic_library.h"
 #include "fail.h"
 #include "little_endian.h"
+#include "webp_library.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -19,37 +20,24 @@ static bool webp_probe(const uint8_t *bytes, size_t size)
 
 #ifdef HAVE_WEBP
 
-#include <webp/decode.h>
-#include <webp/encode.h>
+#define NEEDED "the Debian package libwebp7 has it"
 
-#define LIBRARY "libwebp.so.7"
-#define NEEDED  "the Debian package libwebp7 has it"
-
-// The functions that are used here: each is a member of struct library with the type of its own declaration.
-#define FUNCTIONS(each)                                                                                                \
-    each(WebPGetFeaturesInternal) each(WebPINewRGB) each(WebPIUpdate) each(WebPIDelete) each(WebPConfigInitInternal)   \
-        each(WebPPictureInitInternal) each(WebPPictureImportRGBA) each(WebPEncode) each(WebPPictureFree)
-
-struct library {
-    void *handle;
-#define MEMBER(name) __typeof__(&name) name;
-    FUNCTIONS(MEMBER)
-};
-
-// `file` begins messages; NULL: none does.
-static bool open_library(struct library *webp, const char *file, lam_error *error)
+bool webp_open(struct webp_library *webp, const char *file, lam_error *error)
 {
     const char *name = file ? file : "", *colon = file ? ": " : "";
-    *webp = (struct library){.handle = library_open(LIBRARY, false, NULL)};
+    *webp = (struct webp_library){.handle = library_open(WEBP_LIBRARY, false, NULL)};
     if (!webp->handle)
-        return fail(error, LAM_UNSUPPORTED, "%s%sWebP needs " LIBRARY ", which is not installed; " NEEDED, name, colon);
+        return fail(error, LAM_UNSUPPORTED, "%s%sWebP needs " WEBP_LIBRARY ", which is not installed; " NEEDED, name,
+                    colon);
     bool all = true;
 #define LOOK_UP(name) all = all && library_find(webp->handle, #name, &webp->name);
-    FUNCTIONS(LOOK_UP)
+    WEBP_FUNCTIONS(LOOK_UP)
     if (all)
         return true;
     library_close(webp->handle);
-    return fail(error, LAM_UNSUPPORTED, "%s%s" LIBRARY " lacks functions that libwebp 1.0 has; " NEEDED, name, colon);
+    webp->handle = NULL;
+    return fail(error, LAM_UNSUPPORTED, "%s%s" WEBP_LIBRARY " lacks functions that libwebp 1.0 has; " NEEDED, name,
+                colon);
 }
 
 // --- reading
@@ -70,7 +58,7 @@ static bool fail_status(const struct picture_file *file, int status, lam_error *
 }
 
 // The file piece by piece; after each, all rows that it completes are there.
-static bool decode(const struct library *webp, const struct picture_file *file, lam_image *image, lam_error *error)
+static bool decode(const struct webp_library *webp, const struct picture_file *file, lam_image *image, lam_error *error)
 {
     size_t stride = 4 * (size_t)image->width;
     WebPIDecoder *decoder = webp->WebPINewRGB(MODE_RGBA, image->pixels, stride * (size_t)image->height, (int)stride);
@@ -99,7 +87,8 @@ static bool has_memory(size_t own, lam_error *error)
     return true;
 }
 
-static bool read_with(const struct library *webp, const struct picture_file *file, lam_image *image, lam_error *error)
+static bool read_with(const struct webp_library *webp, const struct picture_file *file, lam_image *image,
+                      lam_error *error)
 {
     WebPBitstreamFeatures features;
     int status = webp->WebPGetFeaturesInternal(file->bytes, file->size, &features, WEBP_DECODER_ABI_VERSION);
@@ -130,8 +119,8 @@ static bool read_with(const struct library *webp, const struct picture_file *fil
 
 static bool webp_read(const struct picture_file *file, lam_image *image, lam_error *error)
 {
-    struct library webp;
-    if (!open_library(&webp, file->name, error))
+    struct webp_library webp;
+    if (!webp_open(&webp, file->name, error))
         return false;
     bool ok = read_with(&webp, file, image, error);
     library_close(webp.handle);
@@ -139,6 +128,13 @@ static bool webp_read(const struct picture_file *file, lam_image *image, lam_err
 }
 
 // --- writing
+
+bool webp_check_size(int width, int height, lam_error *error)
+{
+    return (width <= WEBP_MAX_DIMENSION && height <= WEBP_MAX_DIMENSION) ||
+           fail(error, LAM_LIMIT, "WebP: a picture of %d×%d pixels, expected at most %d on a side", width, height,
+                WEBP_MAX_DIMENSION);
+}
 
 struct sink {
     uint8_t *bytes; // from malloc
@@ -163,7 +159,7 @@ static int write_sink(const uint8_t *bytes, size_t size, const WebPPicture *pict
     return 1;
 }
 
-static int report_progress(int percent, const WebPPicture *picture)
+int webp_report_progress(int percent, const WebPPicture *picture)
 {
     (void)percent;
     return call_should_continue(picture->user_data);
@@ -182,33 +178,35 @@ static bool fail_encoding(const WebPPicture *picture, const struct sink *sink, l
 }
 
 // Lossless with the colours of fully transparent pixels as they are, or at a quality.
-static bool set_quality(const struct library *webp, int quality, WebPConfig *config)
+bool webp_configure(const struct webp_library *webp, int quality, WebPConfig *config, WebPPicture *picture,
+                    lam_error *error)
 {
-    if (!webp->WebPConfigInitInternal(config, WEBP_PRESET_DEFAULT, (float)quality, WEBP_ENCODER_ABI_VERSION))
-        return false;
+    if (!webp->WebPConfigInitInternal(config, WEBP_PRESET_DEFAULT, (float)quality, WEBP_ENCODER_ABI_VERSION) ||
+        !webp->WebPPictureInitInternal(picture, WEBP_ENCODER_ABI_VERSION))
+        return fail(error, LAM_UNSUPPORTED,
+                    "WebP: " WEBP_LIBRARY " is not of the version that this build was made for");
     config->lossless = quality == 0 || quality == 100;
     if (config->lossless)
         config->quality = 75; // the effort
     config->exact = config->lossless;
+    picture->use_argb = config->lossless;
     return true;
 }
 
-static bool encode(const struct library *webp, const lam_image *image, const lam_save_params *params, struct sink *sink,
-                   lam_error *error)
+static bool encode(const struct webp_library *webp, const lam_image *image, const lam_save_params *params,
+                   struct sink *sink, lam_error *error)
 {
     WebPConfig config;
     WebPPicture picture;
-    if (!set_quality(webp, (int)params->quality, &config) ||
-        !webp->WebPPictureInitInternal(&picture, WEBP_ENCODER_ABI_VERSION))
-        return fail(error, LAM_UNSUPPORTED, "WebP: " LIBRARY " is not of the version that this build was made for");
+    if (!webp_configure(webp, (int)params->quality, &config, &picture, error))
+        return false;
     struct call_control call;
     call_start(&call, params->control);
     picture.width = image->width;
     picture.height = image->height;
-    picture.use_argb = config.lossless;
     picture.writer = write_sink;
     picture.custom_ptr = sink;
-    picture.progress_hook = report_progress;
+    picture.progress_hook = webp_report_progress;
     picture.user_data = &call;
     bool ok = (call_should_continue(&call) && webp->WebPPictureImportRGBA(&picture, image->pixels, 4 * image->width) &&
                webp->WebPEncode(&config, &picture)) ||
@@ -221,12 +219,11 @@ static bool webp_write(const lam_image *image, const lam_save_params *params, st
                        lam_error *error)
 {
     (void)pool;
-    if (image->width > WEBP_MAX_DIMENSION || image->height > WEBP_MAX_DIMENSION)
-        return fail(error, LAM_LIMIT, "WebP: a picture of %d×%d pixels, expected at most %d on a side", image->width,
-                    image->height, WEBP_MAX_DIMENSION);
-    struct library webp;
+    if (!webp_check_size(image->width, image->height, error))
+        return false;
+    struct webp_library webp;
     struct sink sink = {0};
-    if (!open_library(&webp, NULL, error))
+    if (!webp_open(&webp, NULL, error))
         return false;
     bool ok = encode(&webp, image, params, &sink, error);
     library_close(webp.handle);

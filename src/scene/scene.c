@@ -321,6 +321,9 @@ const char *lam_scene_file(const lam_scene *scene, int index)
 
 void lam_scene_add_warning(lam_scene *scene, const char *text)
 {
+    for (int i = 0; scene && text && i < scene->warnings.count; i++)
+        if (strcmp(((const char **)scene->warnings.items)[i], text) == 0)
+            return;
     if (scene && text)
         scene_warn(scene, "%s", text);
 }

@@ -92,7 +92,8 @@ struct lam_scene {
     uint64_t object_items; // triangles, lines and points of all objects that were added
     // The crease angle of meshes whose normals are left to the device; 0: all meshes have normals.
     double deferred_crease_rad;
-    bool shared_arrays; // meshes may have arrays in common: none is changed in place
+    struct scene_mark *mark; // the state of lam_scene_reset; NULL: none
+    bool shared_arrays;      // meshes may have arrays in common: none is changed in place
 };
 
 // As lam_scene_make, but allocations are charged to `call` (may be NULL) until scene_built.

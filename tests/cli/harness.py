@@ -87,14 +87,22 @@ def covered(picture):
     return min(columns), inside[0] // width, max(columns) + 1, inside[-1] // width + 1
 
 
-def read_png(data):
-    """Decodes an 8-bit PNG without a palette or interlacing to RGBA, checking every chunk."""
+def png_chunks(data):
+    """The chunks of a PNG, (kind, body), checked."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n", data[:20]
-    at, packed, texts = 8, b"", {}
+    at = 8
     while at < len(data):
         length, kind = struct.unpack(">I4s", data[at:at + 8])
         body = data[at + 8:at + 8 + length]
         assert zlib.crc32(kind + body) == struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0], kind
+        yield kind, body
+        at += 12 + length
+
+
+def read_png(data):
+    """Decodes an 8-bit PNG without a palette or interlacing to RGBA, checking every chunk."""
+    packed, texts = b"", {}
+    for kind, body in png_chunks(data):
         if kind == b"IHDR":
             width, height, depth, color, _, _, interlace = struct.unpack(">IIBBBBB", body)
             assert depth == 8 and color in (0, 2, 4, 6) and interlace == 0
@@ -103,8 +111,12 @@ def read_png(data):
         elif kind == b"tEXt":
             name, text = body.split(b"\0", 1)
             texts[name.decode()] = text.decode()
-        at += 12 + length
     assert texts.get("Software", "").startswith("lambent"), texts
+    return width, height, decode_png(width, height, color, packed)
+
+
+def decode_png(width, height, color, packed):
+    """The RGBA pixels of a PNG's zlib stream."""
     step = {0: 1, 4: 2, 2: 3, 6: 4}[color]
     raw, rows, before = zlib.decompress(packed), bytearray(), bytes(width * step)
     assert len(raw) == height * (width * step + 1)
@@ -116,7 +128,7 @@ def read_png(data):
         for x in range(0, width * step, step):
             rows += row[x:x + 1] * 3 if step < 3 else row[x:x + 3]
             rows += row[x + step - 1:x + step] if step % 2 == 0 else b"\xff"
-    return width, height, bytes(rows)
+    return bytes(rows)
 
 
 def write_png(width, height, pixels):

@@ -62,12 +62,14 @@ class Words(Case):
                               (("--environment", "st"), ["studio", ":files"]), (("-o", "x"), [":files"]), (("--output=x",), [":files"]),
                               (("--size", ""), []), (("compare", "x.obj", "--across", "view=f"), ["view=front"]),
                               (("compare", "--across", "color=red,na"), ["color=red,navy"]), (("compare", "--across", "crea"), ["crease-angle="]),
+                              (("--sweep", "azi"), ["azimuth="]), (("--sweep", "light.e"), ["light.elevation="]), (("--sweep", "metal"), ["metallic="]),
                               (("compare", "--sheet", "te"), ["terms"]), (("--sheet", "te"), []), (("--font=",), [])):
             self.assertEqual(self.words(*words), wanted, words)
 
     def test_candidates_are_right(self):
         """Every word that is offered for a value is accepted there."""
         options = self.words("-")
+        needs = {"--turntable-light": ["--turntable", 2]}  # options that others go with
         tried = 0
         for option in options:
             for word in self.words(option + "="):
@@ -75,7 +77,7 @@ class Words(Case):
                 if word == ":files" or word[-1] in ":=" or option in ("--device", "--isa") or (option, word) == ("--show", "all"):
                     continue
                 tried += 1
-                self.assertNotEqual(self.run_program("sphere", "-s", 4, "-o", "-", option, word).returncode, 1, (option, word))
+                self.assertNotEqual(self.run_program("sphere", "-s", 4, "-o", "-", option, word, *needs.get(option, ())).returncode, 1, (option, word))
         self.assertGreater(tried, 120)
         # A key is one: a wrong value is named, not the key.
         for option, start in (("--material", ""), ("--camera", ""), *(("--light", kind + ":") for kind in ("point", "spot", "directional", "hemisphere", "ambient"))):

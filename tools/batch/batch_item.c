@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <time.h>
 
+#include "animate.h"
 #include "batch_key.h"
 #include "console.h"
 #include "exit_codes.h"
@@ -324,7 +325,8 @@ static void draw(struct reading *r)
     } else {
         lam_error error = {0};
         job.output = item->outputs[0];
-        bool ok = job_run(&job, &progress, &error);
+        bool ok =
+            animation_wanted(job.options) ? animation_run(&job, &progress, &error) : job_run(&job, &progress, &error);
         progress_end(&progress);
         finish_picture(r, &job, 0, ok, &error);
     }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "animate_frame.h"
 #include "console.h"
 #include "output.h"
 
@@ -29,8 +30,10 @@ static bool make_pattern(struct batch_plan *plan, lam_error *error)
     } else {
         return true;
     }
-    return plan->pattern ? output_name_check(plan->pattern, NAME_VIEW | NAME_SIZE, error)
-                         : complain(error, LAM_LIMIT, "out of memory");
+    return plan->pattern
+               ? output_name_check(plan->pattern,
+                                   NAME_VIEW | NAME_SIZE | (animation_wanted(plan->options) ? NAME_FRAME : 0), error)
+               : complain(error, LAM_LIMIT, "out of memory");
 }
 
 static bool check_together(const struct options *o, lam_error *error)
@@ -99,7 +102,8 @@ char *batch_plan_output(const struct batch_plan *plan, size_t index, int view)
                                  .root = model->root,
                                  .view = lam_side_name((lam_side)(v->side >= 0 ? v->side : plan->options->view)),
                                  .width = v->width,
-                                 .height = v->height};
+                                 .height = v->height,
+                                 .frame = OUTPUT_FRAME_OPEN};
     return output_path_of(plan->pattern ? plan->pattern : plan->options->output, &words);
 }
 

@@ -4,10 +4,11 @@
 #include <string.h>
 
 #define ABOUT (1u << GROUP_ABOUT)
-// The options of a picture of a model.
+// The options of a picture of a model. `render` alone makes several of one model.
 #define ALL                                                                                                            \
-    (((1u << GROUP_COUNT) - 1) & ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | 1u << GROUP_SHEET |    \
-                                   1u << GROUP_CHECK | 1u << GROUP_SHADER | 1u << GROUP_BATCH))
+    (((1u << GROUP_COUNT) - 1) &                                                                                       \
+     ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | 1u << GROUP_SHEET | 1u << GROUP_CHECK |            \
+       1u << GROUP_SHADER | 1u << GROUP_BATCH | 1u << GROUP_ANIMATION))
 
 static const struct own_default compare_defaults[] = {
     {"output", "MODEL-SHEET.png"}, {"size", "480x400 each"}, {"background", SHEET_BACKGROUND}, {NULL, NULL}};
@@ -24,10 +25,11 @@ static const struct own_default materials_defaults[] = {
 const struct command command_table[] = {
     [COMMAND_render] = {"render", "MODEL...",
                         "Light models and write a picture of each. The word itself may be left out.",
-                        ALL | 1u << GROUP_BATCH, .min_operands = 1, .max_operands = -1},
+                        ALL | 1u << GROUP_BATCH | 1u << GROUP_ANIMATION, .min_operands = 1, .max_operands = -1},
     [COMMAND_batch] = {"batch", "[MODEL|FOLDER|@LIST|-]...",
                        "Draw many models: of folders and all below them, of lists, of standard input; with a journal.",
-                       ALL | 1u << GROUP_BATCH, .min_operands = 0, .max_operands = -1, .defaults = batch_defaults},
+                       ALL | 1u << GROUP_BATCH | 1u << GROUP_ANIMATION, .min_operands = 0, .max_operands = -1,
+                       .defaults = batch_defaults},
     [COMMAND_compare] = {"compare", "MODEL",
                          "Draw one labelled sheet of pictures: methods, lights or terms side by side.",
                          (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET,
@@ -120,6 +122,9 @@ const struct example examples[] = {
     {"lambent batch models/ -o 'thumbs/{dir}/{stem}.png'", "all models of a folder and below it, with a journal",
      false},
     {"lambent - -o - < part.stl > part.png", "from standard input to standard output", false},
+    {"lambent koala.obj --turntable 36 --fps 12", "an animated PNG in which the model turns", false},
+    {"lambent koala.obj --sweep light.azimuth=0..360 -o 'light-{frame}.png'", "36 pictures, the light all around",
+     false},
     {"lambent koala.obj --json", "what was read, the camera, and the time of each step", false},
     {"lambent info ship.glb", "what is in it: size, triangles, materials, animations", false},
     {"lambent compare koala.obj --sheet terms", "the terms of the sum side by side, with captions", false},

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "animate.h"
 #include "batch_run.h"
 #include "batch_sources.h"
 #include "console.h"
@@ -41,7 +42,7 @@ bool render_check_options(const struct options *o, lam_error *error)
         return complain(error, LAM_BAD_ARGUMENT, "options '--camera' and '--%s' cannot be used together", view);
     if (o->two_sided && o->one_sided)
         return complain(error, LAM_BAD_ARGUMENT, "options '--two-sided' and '--one-sided' cannot be used together");
-    if (!check_stage(o, error))
+    if (!check_stage(o, error) || !animation_check(o, error))
         return false;
     if (o->quiet && o->verbose)
         return complain(error, LAM_BAD_ARGUMENT, "options '--quiet' and '--verbose' cannot be used together");

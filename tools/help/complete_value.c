@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "sheet.h"
+#include "sweep_option.h"
 
 void complete_offer(const struct typed_word *typed, const char *word, const char *ending, const char *summary)
 {
@@ -170,6 +171,21 @@ static void complete_varied(const struct typed_word *typed)
     }
 }
 
+// "KEY=" of --sweep.
+static void complete_swept(const struct typed_word *typed)
+{
+    static const char *const others[] = {"rotate.x",      "rotate.y",        "rotate.z",
+                                         "light.azimuth", "light.elevation", "light.intensity"};
+    for (const struct option *o = option_table; o->name; o++)
+        if (sweep_takes_option(o))
+            complete_offer(typed, o->name, "=", o->summary);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        complete_offer(typed, others[i], "=", NULL);
+    for (int i = 0; lam_material_key(i); i++)
+        if (!option_find(lam_material_key(i)))
+            complete_offer(typed, lam_material_key(i), "=", NULL);
+}
+
 void complete_value(const struct option *option, const struct typed_word *typed)
 {
     if (option->words)
@@ -199,6 +215,9 @@ void complete_value(const struct option *option, const struct typed_word *typed)
         return;
     case VALUE_VARIED:
         complete_varied(typed);
+        return;
+    case VALUE_SWEPT:
+        complete_swept(typed);
         return;
     }
 }

@@ -33,6 +33,14 @@ const struct topic topics[] = {
     {"lights", "Lights", BIT(LIGHTS), TOPIC_LIGHT_FIELDS, NULL},
     {"materials", "Materials", BIT(MATERIALS), TOPIC_MATERIAL_FIELDS, NULL},
     {"shading", "Shading", BIT(SHADING), TOPIC_NO_TABLE, NULL},
+    {"animations", "Animations", BIT(ANIMATION), TOPIC_NO_TABLE,
+     "`lambent MODEL --turntable 36` and `lambent MODEL --sweep light.azimuth=0..360` draw several pictures of one "
+     "model, "
+     "which is read once. They go into one animated PNG or WebP that loops for ever, as the ending of `-o` says, or "
+     "with "
+     "`{frame}` in the name into a file each. A frame is the picture that its options give by themselves; the camera "
+     "and "
+     "an automatic exposure are those of the first."},
     {"sheets", "Sheets", BIT(SHEET) | BIT(CAPTIONS), TOPIC_NO_TABLE,
      "`lambent compare MODEL` writes one PNG with several pictures of a model and a caption under each: `lambent "
      "MODEL` draws the same picture with the options printed in grey under the title and under the caption. "

@@ -1,5 +1,5 @@
 // job.c: the steps from a model to a picture.
-#include "job.h"
+#include "job_steps.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "animate_frame.h"
 #include "command.h"
 #include "console.h"
 #include "environment_option.h"
@@ -46,8 +47,7 @@ static lam_view view_of(const struct options *o)
     return view;
 }
 
-// Fills the control of the next library call: remaining time, memory limit, interrupt flag, progress bar.
-static bool control_of(const struct job *job, struct progress *progress, lam_control *control, lam_error *error)
+bool job_control(const struct job *job, struct progress *progress, lam_control *control, lam_error *error)
 {
     const struct options *o = job->options;
     *control = limits_control(o);
@@ -58,7 +58,8 @@ static bool control_of(const struct job *job, struct progress *progress, lam_con
         return complain(error, LAM_CANCELLED, "%s: interrupted", job->model);
     double whole = control->time_limit_s;
     if (whole > 0) {
-        control->time_limit_s = whole - (clock_ms() - job->times.start) / 1e3;
+        double start = job->times.frame_start > 0 && !(o->time_limit_s > 0) ? job->times.frame_start : job->times.start;
+        control->time_limit_s = whole - (clock_ms() - start) / 1e3;
         if (!(control->time_limit_s > 0))
             return complain(error, LAM_LIMIT, "%s: the time limit of %.10g s was reached (--time-limit)", job->model,
                             whole);
@@ -139,7 +140,7 @@ static bool draws_once(const struct job *job)
     if (job->device && lam_device_isa(job->device) == LAM_ISA_AUTO) // an OpenGL device
         return false;
     bool tangents = lam_reflection_describe(o->draw.reflection)->tangents;
-    return o->repeat == 1 && !show_is_all(o) && !tangents && job->view_count <= 1;
+    return o->repeat == 1 && !show_is_all(o) && !tangents && job->view_count <= 1 && !job->animation;
 }
 
 // Under flat and Gouraud shading most maps are left out.
@@ -178,7 +179,7 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     const struct options *o = job->options;
     lam_control control;
     progress_phase(progress, 0, 0.5);
-    if (!control_of(job, progress, &control, error))
+    if (!job_control(job, progress, &control, error))
         return false;
     if (lam_shape_find(job->model) >= 0) {
         job->scene = make_shape(job->model, o, &control, error);
@@ -258,23 +259,30 @@ static void choose_view(struct job *job, const struct job_view *view)
         job->own.view = view->side;
 }
 
+lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct options *o)
+{
+    lam_view view = view_of(o);
+    lam_vec3 axis;
+    return job_turn_axis(o, &axis) ? lam_camera_fit_turning(scene, centre, axis, o->width, o->height, &view)
+                                   : lam_camera_fit(scene, o->width, o->height, &view);
+}
+
 // Fits the camera before the model is turned: one fit serves every angle. A camera in words aims at the turned model.
 static void fit_camera(struct job *job, const struct model_sphere *sphere, bool side_is_given)
 {
     const struct options *o = job->options;
-    lam_view view = view_of(o);
-    lam_vec3 axis;
+    if (animation_camera(job, &job->camera))
+        return;
     if (scene_settings_has_camera(job) && !side_is_given)
         job->camera = job->settings.camera;
-    else if (!o->camera && job_turn_axis(o, &axis))
-        job->camera = lam_camera_fit_turning(job->scene, sphere->centre, axis, o->width, o->height, &view);
     else if (!o->camera)
-        job->camera = lam_camera_fit(job->scene, o->width, o->height, &view);
+        job->camera = job_fit_camera(job->scene, sphere->centre, o);
 }
 
 static bool place_camera_and_turn(struct job *job, const struct model_sphere *sphere, lam_error *error)
 {
     const struct options *o = job->options;
+    lam_camera same;
     double start = clock_ms();
     for (int i = job->view_count - 1; i >= 0; i--) { // the first one is in place then
         choose_view(job, &job->views[i]);
@@ -283,9 +291,11 @@ static bool place_camera_and_turn(struct job *job, const struct model_sphere *sp
     }
     if (!job->view_count)
         fit_camera(job, sphere, false);
-    job->times.camera = clock_ms() - start;
+    job->times.camera += clock_ms() - start;
     if (!job_turn(job, sphere, error))
         return false;
+    if (animation_camera(job, &same))
+        return true;
     if (o->camera && !strchr(o->camera, '=') && !find_camera(job, error))
         return false;
     if (o->camera && strchr(o->camera, '='))
@@ -330,8 +340,8 @@ static bool fit_exposure(struct job *job, lam_draw_params *draw, int width, int 
     if (draw->light_cutoff == 0)
         draw->light_cutoff = -1;
     job->exposure_fitted = true;
-    return control_of(job, NULL, &control, error) && lam_exposure_fit(job->device, job->scene, &job->camera, draw,
-                                                                      width, height, &control, &draw->exposure, error);
+    return job_control(job, NULL, &control, error) && lam_exposure_fit(job->device, job->scene, &job->camera, draw,
+                                                                       width, height, &control, &draw->exposure, error);
 }
 
 static int by_total(const void *a, const void *b)
@@ -340,8 +350,8 @@ static int by_total(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// Draws --repeat frames and keeps the report of the median frame (the faster of the two in the middle).
-static bool draw(struct job *job, struct progress *progress, lam_error *error)
+bool job_draw_frames(struct job *job, double from, double span, int count, lam_frame_report *reports,
+                     struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
     job->draw = draw_params_of(o, job->rig);
@@ -349,25 +359,38 @@ static bool draw(struct job *job, struct progress *progress, lam_error *error)
     if (!show_option_apply(o->show, job->scene, &job->draw, error) ||
         !fit_exposure(job, &job->draw, o->width, o->height, error))
         return false;
-    lam_frame_report *reports = calloc((size_t)o->repeat, sizeof *reports);
-    if (!reports)
-        return complain(error, LAM_LIMIT, "out of memory");
     bool ok = true;
-    for (int i = 0; ok && i < o->repeat; i++) {
+    for (int i = 0; ok && i < count; i++) {
         lam_control control;
-        progress_phase(progress, 0.5 + 0.5 * i / o->repeat, 0.5 / o->repeat);
-        ok = control_of(job, progress, &control, error) &&
+        progress_phase(progress, from + span * i / count, span / count);
+        ok = job_control(job, progress, &control, error) &&
              lam_draw(job->device, job->scene, &job->camera, &job->draw, &job->image, &control, error);
         if (ok)
             lam_device_report(job->device, &reports[i]);
     }
-    if (ok) {
-        qsort(reports, (size_t)o->repeat, sizeof *reports, by_total);
-        job->times.frame = reports[(o->repeat - 1) / 2];
-        job->times.frame_min = reports[0].total_ms;
-        job->times.frame_max = reports[o->repeat - 1].total_ms;
-        job->times.frames = o->repeat;
-    }
+    return ok;
+}
+
+// The median frame is the faster of the two in the middle.
+void job_time_frames(struct job *job, lam_frame_report *reports, int count)
+{
+    qsort(reports, (size_t)count, sizeof *reports, by_total);
+    job->times.frame = reports[(count - 1) / 2];
+    job->times.frame_min = reports[0].total_ms;
+    job->times.frame_max = reports[count - 1].total_ms;
+    job->times.frames = count;
+}
+
+// Draws --repeat frames.
+static bool draw(struct job *job, struct progress *progress, lam_error *error)
+{
+    const int count = job->options->repeat;
+    lam_frame_report *reports = calloc((size_t)count, sizeof *reports);
+    if (!reports)
+        return complain(error, LAM_LIMIT, "out of memory");
+    bool ok = job_draw_frames(job, 0.5, 0.5, count, reports, progress, error);
+    if (ok)
+        job_time_frames(job, reports, count);
     free(reports);
     return ok;
 }
@@ -375,28 +398,35 @@ static bool draw(struct job *job, struct progress *progress, lam_error *error)
 // Whether 8 bits hold sRGB-encoded colours.
 static bool is_color(lam_output output) { return lam_output_is_light(output) || output == LAM_OUTPUT_BASE_COLOR; }
 
-static bool write_output(struct job *job, lam_error *error)
+lam_save_params job_save_params(const struct job *job, const lam_control *control)
+{
+    const struct options *o = job->options;
+    return (lam_save_params){.background = {job->background.r, job->background.g, job->background.b},
+                             .threads = o->threads,
+                             .control = control,
+                             .compress = (lam_compress)o->compress,
+                             .quality = o->quality,
+                             .durable = o->durable,
+                             .raw = o->color_mode == LAM_COLOR_RAW || !is_color(show_option_what(o->show))};
+}
+
+bool job_write(struct job *job, lam_error *error)
 {
     lam_control control;
-    if (!control_of(job, NULL, &control, error))
+    if (!job_control(job, NULL, &control, error))
         return false;
-    const struct options *o = job->options;
     double start = clock_ms();
-    lam_save_params params = {.background = {job->background.r, job->background.g, job->background.b},
-                              .threads = o->threads,
-                              .control = &control,
-                              .compress = (lam_compress)o->compress,
-                              .quality = o->quality,
-                              .durable = o->durable,
-                              .raw = o->color_mode == LAM_COLOR_RAW || !is_color(show_option_what(o->show))};
+    lam_save_params params = job_save_params(job, &control);
     bool ok;
-    if (show_is_all(o)) {
+    uint64_t bytes = 0;
+    if (show_is_all(job->options)) {
         ok = output_make_folder(job->output, error) && show_all_write(job, &control, error);
-        job->bytes = ok ? output_size(job->output) : 0;
+        bytes = ok ? output_size(job->output) : 0;
     } else {
-        ok = output_save(&job->image, job->output, &params, &job->bytes, error);
+        ok = output_save(&job->image, job->output, &params, &bytes, error);
     }
-    job->times.encode = clock_ms() - start;
+    job->bytes += bytes;
+    job->times.encode += clock_ms() - start;
     job->written = ok;
     return ok;
 }
@@ -404,20 +434,22 @@ static bool write_output(struct job *job, lam_error *error)
 bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
 {
     lam_control control;
-    if (!control_of(job, progress, &control, error) || !job_apply_options(job, &control, &job->sphere, error) ||
+    if (!job_control(job, progress, &control, error) || !job_apply_options(job, &control, &job->sphere, error) ||
         !environment_option_apply(job->options, job->scene, &control, error))
         return false;
     if (job->options->save_scene && option_given(job->options, "show"))
         lam_scene_add_warning(job->scene, "the saved scene file describes the picture without --show");
     if (job->options->save_scene && job->options->files_inside && !scene_settings_are_beside(job))
         lam_scene_add_warning(job->scene, "the saved scene file names files outside of its folder");
+    animation_sphere(job, &job->sphere);
     return place_camera_and_turn(job, &job->sphere, error) && keep_lights(job, error) &&
-           job_light(job, &job->sphere, error) && (!job->options->show_lights || light_markers_add(job, error));
+           job_light(job, &job->sphere, error) && animation_arrange(job, error) &&
+           (!job->options->show_lights || light_markers_add(job, error));
 }
 
-static bool make_image(struct job *job, lam_pixel_format format, lam_error *error)
+bool job_make_image(struct job *job, lam_pixel_format format, lam_error *error)
 {
-    const struct options *o = job->options;
+    const struct options *o = job->options; // includes the scene file's settings
     uint64_t bytes = (uint64_t)o->width * (uint64_t)o->height * (format == LAM_RGBA8 ? 4 : 16);
     uint64_t limit = limits_memory(o);
     if (limit && bytes > limit)
@@ -430,7 +462,7 @@ static bool make_image(struct job *job, lam_pixel_format format, lam_error *erro
 
 bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error)
 {
-    return job_load(job, progress, error) && make_image(job, format, error) && job_arrange(job, progress, error) &&
+    return job_load(job, progress, error) && job_make_image(job, format, error) && job_arrange(job, progress, error) &&
            draw(job, progress, error);
 }
 
@@ -454,7 +486,7 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error)
         job->planned = job_load(job, progress, error) && job_arrange(job, progress, error);
         return job->planned;
     }
-    return job_draw(job, job->pixels, progress, error) && write_output(job, error) &&
+    return job_draw(job, job->pixels, progress, error) && job_write(job, error) &&
            (!job->options->save_scene || scene_settings_save(job, error));
 }
 
@@ -466,8 +498,8 @@ bool job_run_view(struct job *job, int view, struct progress *progress, lam_erro
     if (!job_check_output(job, error) || (view > 0 && !light_again(job, error)))
         return false;
     job->planned = job->options->dry_run;
-    return job->planned || (make_image(job, job->pixels, error) && draw(job, progress, error) &&
-                            write_output(job, error) && (!job->options->save_scene || scene_settings_save(job, error)));
+    return job->planned || (job_make_image(job, job->pixels, error) && draw(job, progress, error) &&
+                            job_write(job, error) && (!job->options->save_scene || scene_settings_save(job, error)));
 }
 
 void job_free(struct job *job)
@@ -475,8 +507,11 @@ void job_free(struct job *job)
     lam_image_free(&job->image);
     lam_scene_free(job->scene);
     free(job->lights);
+    free(job->frames.first);
+    free(job->frames.last);
     job->scene = NULL;
     job->lights = NULL;
+    job->frames = (struct job_frames){0};
 }
 
 lam_explanation *job_explain(struct job *job, int x, int y, struct progress *progress, lam_error *error)
@@ -485,7 +520,7 @@ lam_explanation *job_explain(struct job *job, int x, int y, struct progress *pro
     if (!job_load(job, progress, error) || !job_arrange(job, progress, error))
         return NULL;
     progress_phase(progress, 0.5, 0.5);
-    if (!control_of(job, progress, &control, error))
+    if (!job_control(job, progress, &control, error))
         return NULL;
     const struct options *o = job->options; // now includes the scene file's settings
     lam_draw_params params = draw_params_of(o, job->rig);

@@ -7,6 +7,7 @@
 
 struct job_times {
     double start;                                // clock_ms() at the job's start
+    double frame_start;                          // of an animation's frame: the default time limit is each frame's
     double read, prepare, camera, encode, total; // milliseconds
     lam_frame_report frame;                      // of the median frame
     double frame_min, frame_max;                 // over the --repeat frames
@@ -36,13 +37,22 @@ struct job_view {
     lam_camera camera; // filled by job_arrange
 };
 
+// The frames of --turntable and --sweep.
+struct job_frames {
+    int count;                // 0: one picture
+    double frames_per_second; // of the animation
+    char *first, *last;       // the paths of the frames; NULL: all are in one file
+};
+
 struct job {
     const struct options *options;
     const char *model;       // as typed
     const char *output;      // path of the picture; "-": standard output
     const char *format;      // of the picture: "png"
     lam_pixel_format pixels; // that it is drawn with
-    lam_scene *scene;        // NULL until the model is loaded
+    struct job_frames frames;
+    struct animation *animation; // while one is made (animate.h); NULL: none is
+    lam_scene *scene;            // NULL until the model is loaded
     struct model_counts model_counts;
     lam_rig rig;                // the rig that drawing adds to the scene's own lights
     bool file_lights;           // the lights of a glTF file, in candela and lux, light it
@@ -69,7 +79,7 @@ struct job {
 
 // Loads the model, draws it and writes the picture. The caller fills in options, model, output, device and
 // times.start; the steps fill in the rest, so that a report of a failure includes the completed steps. The caller
-// frees the scene and the image.
+// frees the scene, the image and the paths of frames.
 bool job_run(struct job *job, struct progress *progress, lam_error *error);
 
 // The same for one of several pictures, after job_check_output, job_load and job_arrange; `output` is its file.
@@ -78,7 +88,7 @@ bool job_run_view(struct job *job, int view, struct progress *progress, lam_erro
 // Whether the picture's name is one that can be written, and by which format. Fills in `format`.
 bool job_check_output(struct job *job, lam_error *error);
 
-// Frees the scene, the image and the lights.
+// Frees the scene, the image, the lights and the paths of frames.
 void job_free(struct job *job);
 
 // Loads and draws; the picture stays in `image`. Ignores output and format.

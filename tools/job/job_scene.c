@@ -7,6 +7,7 @@
 
 #include "options.h"
 #include "console.h"
+#include "light_place.h"
 #include "material_option.h"
 
 // --- materials
@@ -142,7 +143,7 @@ static bool apply_rig(struct job *job, lam_error *error)
                        (strcmp(format, "gltf") == 0 ||
                         (strcmp(format, "scene") == 0 && !(job->settings.present & LAM_SETTING_LIGHTS)));
     job->studio = lit_by_environment(job);
-    bool as_it_is = !o->lights.count && !o->has_light_scale && !o->rotations.count;
+    bool as_it_is = !o->lights.count && !o->has_light_scale && !o->rotations.count && !o->place_lights;
     if (job->rig == LAM_RIG_NONE || as_it_is)
         return true;
     bool ok = (!job->studio || set_studio(job->scene, error)) && add_rig(job->scene, job->rig, error);
@@ -195,22 +196,11 @@ bool job_apply_options(struct job *job, const lam_control *control, struct model
 
 // --- lights that may depend on the camera
 
-static void scale(lam_rgb *color, double factor)
-{
-    color->r = (float)((double)color->r * factor);
-    color->g = (float)((double)color->g * factor);
-    color->b = (float)((double)color->b * factor);
-}
-
 static bool scale_lights(lam_scene *scene, double factor, lam_error *error)
 {
     for (int i = 0; i < lam_scene_light_count(scene); i++) {
         lam_light light = *lam_scene_light(scene, i);
-        scale(&light.ambient, factor);
-        scale(&light.diffuse, factor);
-        scale(&light.specular, factor);
-        scale(&light.sky, factor);
-        scale(&light.ground, factor);
+        light_brighten(&light, factor);
         if (!lam_scene_set_light(scene, i, &light, error))
             return false;
     }

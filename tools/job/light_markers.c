@@ -7,42 +7,7 @@
 #include <string.h>
 
 #include "console.h"
-
-static lam_vec3 apply(const lam_mat4 *m, lam_vec3 v, double w)
-{
-    return (lam_vec3){m->m[0][0] * v.x + m->m[0][1] * v.y + m->m[0][2] * v.z + w * m->m[0][3],
-                      m->m[1][0] * v.x + m->m[1][1] * v.y + m->m[1][2] * v.z + w * m->m[1][3],
-                      m->m[2][0] * v.x + m->m[2][1] * v.y + m->m[2][2] * v.z + w * m->m[2][3]};
-}
-
-// The matrix from a light's frame to the world.
-static lam_mat4 to_world(const struct job *job, const lam_light *light)
-{
-    lam_mat4 m = lam_mat4_identity();
-    if (light->frame == LAM_FRAME_CAMERA ||
-        light->frame == LAM_FRAME_VIEW) { // a rigid view: its inverse is the transposed rotation about the eye
-        lam_mat4 view = lam_camera_view_matrix(&job->camera);
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++)
-                m.m[i][j] = view.m[j][i];
-        lam_vec3 low, high, origin = job->camera.eye;
-        if (light->frame == LAM_FRAME_VIEW && lam_scene_bounds(job->scene, &low, &high))
-            origin = (lam_vec3){0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)};
-        m.m[0][3] = origin.x;
-        m.m[1][3] = origin.y;
-        m.m[2][3] = origin.z;
-    } else if (light->frame != LAM_FRAME_WORLD) {
-        // --rotate turned the whole model like its first object.
-        for (int i = 0; i < lam_scene_object_count(job->scene); i++) {
-            const lam_object *object = lam_scene_object(job->scene, i);
-            bool meant = light->frame == LAM_FRAME_MODEL || !light->object ||
-                         (object->name && strcmp(object->name, light->object) == 0);
-            if (meant)
-                return object->transform;
-        }
-    }
-    return m;
-}
+#include "light_place.h"
 
 static lam_vec3 unit(lam_vec3 v)
 {
@@ -87,7 +52,7 @@ static bool is_outside(const struct job *job, lam_vec3 centre, double radius)
 {
     const lam_camera *camera = &job->camera;
     lam_mat4 view = lam_camera_view_matrix(camera);
-    lam_vec3 e = apply(&view, centre, 1);
+    lam_vec3 e = matrix_apply(&view, centre, 1);
     double depth = -e.z, aspect = (double)job->options->width / job->options->height;
     if (camera->far_plane > camera->near_plane &&
         (depth + radius < camera->near_plane || depth - radius > camera->far_plane))
@@ -159,8 +124,8 @@ bool light_markers_add(struct job *job, lam_error *error)
         const lam_light *l = &lights[i];
         if (l->type == LAM_LIGHT_AMBIENT || l->type == LAM_LIGHT_HEMISPHERE)
             continue;
-        lam_mat4 world = to_world(job, l);
-        lam_vec3 d = unit(apply(&world, l->direction, 0)), p = apply(&world, l->position, 1);
+        lam_mat4 world = light_to_world(job, l);
+        lam_vec3 d = unit(matrix_apply(&world, l->direction, 0)), p = matrix_apply(&world, l->position, 1);
         if (l->type == LAM_LIGHT_DIRECTIONAL)
             p = (lam_vec3){centre.x - 1.5 * radius * d.x, centre.y - 1.5 * radius * d.y, centre.z - 1.5 * radius * d.z};
         bool has_cone = l->type != LAM_LIGHT_POINT;

@@ -170,9 +170,19 @@ bool output_save(const lam_image *image, const char *path, const lam_save_params
         return ok;
     }
     lam_bytes bytes = {0};
-    bool ok = lam_image_encode(image, "png", params, &bytes, error) && write_stream(path, &bytes, error);
-    *size = bytes.size;
+    bool ok = lam_image_encode(image, "png", params, &bytes, error) &&
+              output_save_bytes(&bytes, path, params->durable, size, error);
     lam_bytes_free(&bytes);
+    return ok;
+}
+
+bool output_save_bytes(const lam_bytes *bytes, const char *path, bool durable, uint64_t *size, lam_error *error)
+{
+    bool stream = output_is_stream(path);
+    bool ok = stream    ? write_stream(path, bytes, error)
+              : durable ? output_make_folder(path, error) && lam_bytes_save_durably(bytes, path, error)
+                        : output_replace(path, bytes, error);
+    *size = !ok ? 0 : stream ? bytes->size : output_size(path);
     return ok;
 }
 

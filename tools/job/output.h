@@ -41,6 +41,9 @@ bool output_format(const char *path, lam_pixel_format *format, lam_error *error)
 bool output_save(const lam_image *image, const char *path, const lam_save_params *params, uint64_t *size,
                  lam_error *error);
 
+// The same for encoded bytes; `durable` as in lam_save_params.
+bool output_save_bytes(const lam_bytes *bytes, const char *path, bool durable, uint64_t *size, lam_error *error);
+
 // The size of the file at `path` in bytes; 0 if it is not a file.
 uint64_t output_size(const char *path);
 

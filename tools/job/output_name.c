@@ -138,6 +138,8 @@ static void print_word(FILE *out, const struct part *part, const struct output_w
         fprintf(out, "%d", w->width);
     } else if (is_word(part, "size")) {
         fprintf(out, "%dx%d", w->width, w->height);
+    } else if (is_word(part, "frame") && w->frame == OUTPUT_FRAME_OPEN) {
+        fputs("{frame}", out);
     } else if (is_word(part, "frame")) {
         fprintf(out, "%0*d", w->digits > 0 ? w->digits : 1, w->frame);
     }

@@ -15,6 +15,7 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_MODEL] = "Model files",
     [GROUP_VIEW] = "View",
     [GROUP_SHADING] = "Shading",
+    [GROUP_ANIMATION] = "Animations",
     [GROUP_WORK] = "Work",
     [GROUP_LIMITS] = "Limits",
     [GROUP_BATCH] = "Many models (render, batch)",
@@ -199,6 +200,11 @@ static const struct word terminator_words[] = {
     {"off", 1, "shadow rays start on the flat triangles: the terminator of a coarse smooth mesh shows them"},
     {NULL, 0, NULL}};
 
+static const struct word turntable_light_words[] = {
+    {"camera", TURNTABLE_LIGHT_CAMERA, "lights stand still in the picture, and the model turns below them"},
+    {"model", TURNTABLE_LIGHT_MODEL, "lights and environment turn with the model, as if the camera went around it"},
+    {NULL, 0, NULL}};
+
 static const struct word stage_words[] = {{"application", LAM_STAGE_APPLICATION, "before drawing (flat, gouraud)"},
                                           {"vertex", LAM_STAGE_VERTEX, "for each vertex (flat, gouraud)"},
                                           {"fragment", LAM_STAGE_FRAGMENT, "for each fragment (flat, phong)"},
@@ -367,7 +373,7 @@ const struct option option_table[] = {
     {"time", 0, GROUP_MODEL, "SECONDS", "0",
      "The moment of `--animation`; of the file's first animation without that option.",
      "Before the first and after the last key, that key's pose is held.", NULL, .store = store_number, FIELD(time_s),
-     .has_field = offsetof(struct options, has_time), .min = -1e9, .max = 1e9, .others = "frame seconds"},
+     .has_field = offsetof(struct options, has_time), .min = -1e9, .max = 1e9, .others = "seconds", .loads = true},
     {"lenient", 0, GROUP_MODEL, NULL, NULL, "Read glTF files that require unknown extensions, without them.",
      "Without this option such a file is refused (exit 3), since its picture may lack what the extension describes. "
      "Index values that glTF reserves (primitive restart) are accepted as well.",
@@ -617,12 +623,12 @@ const struct option option_table[] = {
      .others = "recompute-normals smooth-normals facet-normals", FIELD(normals)},
     {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40", "Computed normals are split at edges sharper than this.", NULL,
      .store = store_number, .others = "smoothing-angle smooth-angle crease autosmooth", FIELD(crease_angle_deg),
-     .min = 0, .max = 180},
+     .min = 0, .max = 180, .loads = true},
     {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
      "Segments of a built-in shape: slices around and stacks along, such as 64x32.",
      "N is 3 to 16384; `lambent shapes` describes the segments of each shape. The default of M depends on the "
      "shape. gyroid and metaballs have at most 1024 cells and take no M.",
-     .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384},
+     .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
     {"environment", 0, GROUP_SHADING, "IMAGE", "none",
      "The surroundings that shiny surfaces mirror: an image, six faces, sky or studio.",
      "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, WebP, BMP, "
@@ -641,6 +647,45 @@ const struct option option_table[] = {
      .others = "mirror reflective", FIELD(reflectivity), .has_field = offsetof(struct options, has_reflectivity),
      .max = 1000},
 
+    {"turntable", 0, GROUP_ANIMATION, "N", NULL, "An animation of a full turn of the model, in N frames.",
+     "The model turns about its up axis in equal steps, counter-clockwise from above; frame k is the picture of "
+     "`--rotate y:` k 360/N. The camera's distance and the exposure are the same in all frames. With a name that ends "
+     "in "
+     "`.png` or `.webp`, and by default, all frames go into one animated PNG or WebP, which loops for ever; with "
+     "`{frame}` in the name each frame is a picture of its own, `-o 'turn/{frame}.png'`, in any format. "
+     "`docs/animation.md` has examples.",
+     .store = store_integer, .others = "spin turnaround orbit rotate360 animate gif apng", FIELD(turntable), .min = 2,
+     .max = 100000},
+    {"turntable-light", 0, GROUP_ANIMATION, "WITH", "camera",
+     "Whether a turntable's lights stay with the camera or turn with the model: camera or model.",
+     "Lights in the frame of an object or the model turn with it in either case.", turntable_light_words,
+     .store = store_word, .others = "turntable-lights spin-light", FIELD(turntable_light)},
+    {"sweep", 0, GROUP_ANIMATION, "KEY=FROM..TO", NULL,
+     "An animation in which a number changes: light.azimuth=0..360, roughness=0..1; repeatable.",
+     "KEY is an option whose value is a number (`azimuth`, `elevation`, `zoom`, `exposure`, `opacity`, `ambient`, "
+     "`crease-angle`), `rotate.x`, `rotate.y` or `rotate.z`, a key of `--material` (`roughness`, `kd`, also "
+     "`roughness@WHERE`), or a number of a light: `light.azimuth`, `light.WHICH.azimuth`, where WHICH is the light's "
+     "name "
+     "or its number from 1 (`lambent lights`, `--show-lights`), by default the first that has the number. A light's "
+     "numbers are its fields (`diffuse`, `range`, `position.x`; "
+     "angles in degrees), `intensity`, which multiplies its light, and `azimuth` and `elevation` of where it comes "
+     "from, "
+     "in its own frame as those of the camera are: 0 is the front, 90 the right. `time` is the time of a glTF file's "
+     "animation; without numbers, its whole length.\n"
+     "More stops may follow: `light.elevation=10..80..10`. Where a sweep ends as it begins, at a whole turn of an "
+     "angle "
+     "too, the last frame comes one step before, so that the loop runs through. Several sweeps run together, along "
+     "with "
+     "`--turntable`. The camera is fitted once: to the first frame, for `azimuth` and `elevation` so that all frames "
+     "have "
+     "one distance, for `time` to the box of all frames; only `zoom` changes it.",
+     .kind = VALUE_SWEPT, .store = store_texts, .others = "animate vary-over-time light-sweep", FIELD(sweeps)},
+    {"frames", 0, GROUP_ANIMATION, "N", "36", "The number of frames of `--sweep`.",
+     "`--turntable` states its own. For `--sweep time` alone it is by default the animation's length times `--fps`.",
+     .store = store_integer, .others = "frame-count", FIELD(frames), .min = 2, .max = 100000},
+    {"fps", 0, GROUP_ANIMATION, "N", "24", "Frames a second of an animation, 0.1 to 240.", NULL, .store = store_number,
+     .others = "frame-rate framerate speed delay", FIELD(fps), .min = 0.1, .max = 240},
+
     {"threads", 'j', GROUP_WORK, "N", "one for each processor",
      "The number of threads; the picture does not depend on it.", NULL, .store = store_integer,
      .others = "jobs cores cpus parallel", FIELD(threads), .min = 1, .max = 1024, .single = TAKES_THREADS},
@@ -654,7 +699,7 @@ const struct option option_table[] = {
     {"gl-device", 0, GROUP_WORK, "N|NAME", "the first usable", "The OpenGL device, by number or part of its name.",
      "`lambent devices` lists the numbers, hardware before software.", .store = store_text, FIELD(gl_device)},
     {"repeat", 0, GROUP_WORK, "N", "1", "Draw N frames and report the median time.", NULL, .store = store_integer,
-     .others = "frames iterations benchmark bench", FIELD(repeat), .min = 1, .max = 100000},
+     .others = "iterations benchmark bench", FIELD(repeat), .min = 1, .max = 100000},
     {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter",
      "Give up on a model that needs more memory, such as 500M or 2Gi (exit 4).",
      "Reading a model and drawing it may each use this much at once, pictures and decoders included; it is counted "
@@ -664,7 +709,9 @@ const struct option option_table[] = {
      "1000; Ki, Mi, Gi and Ti of 1024. For `check` it is what the process that draws a shader may use.",
      .store = store_bytes, .others = "max-memory memory ram", FIELD(memory_limit_bytes), .single = TAKES_MEMORY},
     {"time-limit", 0, GROUP_LIMITS, "SECONDS", "600", "Give up on a model after this time (exit 4); none: never.",
-     "The time is that of a clock on the wall, for each model: reading, drawing and writing together.",
+     "The time is that of a clock on the wall, for each model: reading, drawing and writing together. In an animation "
+     "the "
+     "default counts for each frame, and a time that is given for all of them.",
      .store = store_seconds, .others = "timeout", FIELD(time_limit_s), .min = 0.001, .max = 1e9,
      .single = TAKES_PICTURE_LIMITS},
     {"triangle-limit", 0, GROUP_LIMITS, "N", "200M", "Give up on a model of more triangles (exit 4).",
@@ -778,7 +825,7 @@ const struct option option_table[] = {
      "(`light=point;directional:color=red,frame=camera`). The default values are the words of the option; for "
      "`shininess` 10, 50 and 1000, for `light` one light of each type, for `show`, also called `term`, the five "
      "terms. If the option is given twice, the first makes the rows of a grid and the second its columns.",
-     .kind = VALUE_VARIED, .store = store_across, .others = "vary sweep grid columns rows", FIELD(across)},
+     .kind = VALUE_VARIED, .store = store_across, .others = "vary grid columns rows", FIELD(across)},
 
     {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or degrees.", NULL,
      .store = store_number, FIELD(to), .min = 1e-6, .max = 1e9},

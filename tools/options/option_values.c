@@ -453,6 +453,11 @@ bool store_rotation(const struct option *option, const char *value, struct optio
     return append(option, value, options, error);
 }
 
+bool store_texts(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    return append(option, value, options, error);
+}
+
 bool store_across(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     if (options->across.count == ACROSS_MAX)

@@ -30,6 +30,7 @@ void options_free(struct options *options)
     free(options->across.items);
     free(options->allow_paths.items);
     free(options->lists.items);
+    free(options->sweeps.items);
 }
 
 static bool texts_copy(struct texts *texts)
@@ -52,6 +53,7 @@ bool options_copy(struct options *to, const struct options *from)
     ok = texts_copy(&to->across) && ok;
     ok = texts_copy(&to->allow_paths) && ok;
     ok = texts_copy(&to->lists) && ok;
+    ok = texts_copy(&to->sweeps) && ok;
     if (!ok)
         options_free(to);
     return ok;

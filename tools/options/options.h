@@ -82,6 +82,15 @@ struct options {
     lam_rgb reflectivity; // valid if the flag below is set
     bool has_reflectivity;
 
+    // Animations
+    int turntable;       // frames of a full turn; 0: none
+    int turntable_light; // enum turntable_light
+    struct texts sweeps; // as written
+    int frames;          // of sweeps; 0: the default
+    double fps;          // frames a second; 0: the library's default
+    // Set by animations, not by an option: the rig's lights become lights of the scene.
+    bool place_lights;
+
     // Work
     int threads;           // 0: one for each processor
     int isa;               // lam_isa
@@ -170,6 +179,9 @@ enum exposure_kind { EXPOSURE_BY_FILE, EXPOSURE_AUTO, EXPOSURE_LITERAL };
 // --rig none: only the ambient light. A value besides those of lam_rig.
 enum { RIG_DARK = 100 };
 
+// What the lights of a turntable stand still with.
+enum turntable_light { TURNTABLE_LIGHT_CAMERA, TURNTABLE_LIGHT_MODEL };
+
 enum device_name { DEVICE_AUTO, DEVICE_CPU, DEVICE_GL, DEVICE_GLES };
 
 enum sheet_name {
@@ -189,6 +201,7 @@ enum option_group {
     GROUP_LIGHTS,
     GROUP_MATERIALS,
     GROUP_SHADING,
+    GROUP_ANIMATION,
     GROUP_WORK,
     GROUP_LIMITS,
     GROUP_BATCH,
@@ -220,6 +233,7 @@ enum value_kind {
     VALUE_CAMERA,
     VALUE_ENVIRONMENT,
     VALUE_VARIED, // an option and its values
+    VALUE_SWEPT,  // a key and numbers
 };
 
 struct option {
@@ -243,6 +257,7 @@ struct option {
     size_t letter_field;     // a bool to set as well where the option is given by its letter; 0: none
     const char *others;      // other names that people try, separated by spaces, for suggestions; NULL: none
     const char *alone;       // its value where the word after it is none of its own; NULL: it needs one
+    bool loads;              // the model is read anew where it changes
     const char *former; // the option that had this name before: a value that is one of its words means it; NULL: none
 };
 
@@ -308,7 +323,8 @@ bool store_camera(const struct option *, const char *, struct options *,
                   lam_error *);                                                       // const char *, checked
 bool store_light(const struct option *, const char *, struct options *, lam_error *); // struct texts, checked
 bool store_material(const struct option *, const char *, struct options *,
-                    lam_error *); // struct texts, checked
+                    lam_error *);                                                     // struct texts, checked
+bool store_texts(const struct option *, const char *, struct options *, lam_error *); // struct texts, as they are
 bool store_across(const struct option *, const char *, struct options *,
                   lam_error *); // repeatable, to ACROSS_MAX
 bool store_rotation(const struct option *, const char *, struct options *,

@@ -3,6 +3,7 @@
 
 #include <lambent/base.h>
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -16,7 +17,10 @@ struct suggestion suggest_start(const char *typed)
 void suggest_try(struct suggestion *suggestion, const char *word)
 {
     int distance = lam_word_distance(suggestion->typed, word);
-    if (distance < suggestion->distance) {
+    // Of words that are as near, the one that the other continues.
+    const char *best = suggestion->best;
+    bool shorter = best && distance == suggestion->distance && strncmp(best, word, strlen(word)) == 0;
+    if (distance < suggestion->distance || shorter) {
         suggestion->distance = distance;
         suggestion->best = word;
     }

@@ -59,6 +59,9 @@ void report_plan(FILE *out, const struct job *job)
     fprintf(out, "  picture   %s, %s, %dx%d, %d samples a pixel%s\n",
             strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->format, o->width, o->height,
             planned_samples(o), plan_replaces(job) ? "; replaces the file" : "");
+    if (job->frames.count)
+        fprintf(out, "  frames    %d, %.4g a second%s%s\n", job->frames.count, job->frames.frames_per_second,
+                job->frames.last ? ", to " : "", job->frames.last ? job->frames.last : "");
     if (o->save_scene)
         fprintf(out, "  scene     %s\n", o->save_scene);
     fprintf(out, "  camera    eye %.7g %.7g %.7g, target %.7g %.7g %.7g\n", camera->eye.x, camera->eye.y, camera->eye.z,

@@ -27,15 +27,25 @@ static double degrees(double angle_rad)
     return strtod(text, NULL);
 }
 
+// "turn.png", or of frames in files of their own "turn-00.png to turn-35.png".
+static void say_output(const struct job *job)
+{
+    say_plain("%s", strcmp(job->output, "-") == 0 ? "standard output" : job->output);
+    if (job->frames.last)
+        say_plain(" to %s", job->frames.last);
+}
+
 void report_line(const struct job *job)
 {
     char items[MODEL_COUNTS_SIZE];
     char exposure[60] = "";
     if (job->exposure_fitted)
         snprintf(exposure, sizeof exposure, "  exposure %.4g stops (auto)", job->draw.exposure);
-    say_plain("%s  %dx%d  %s  %.*f ms%s\n", strcmp(job->output, "-") == 0 ? "standard output" : job->output,
-              job->image.width, job->image.height, model_counts_text(&job->model_counts, items),
-              job->times.total < 10 ? 1 : 0, job->times.total, exposure);
+    say_output(job);
+    if (job->frames.count)
+        say_plain("  %d frames", job->frames.count);
+    say_plain("  %dx%d  %s  %.*f ms%s\n", job->image.width, job->image.height,
+              model_counts_text(&job->model_counts, items), job->times.total < 10 ? 1 : 0, job->times.total, exposure);
 }
 
 static void time_row(const char *name, double ms) { say_plain("  %-12s %10.2f ms\n", name, ms); }
@@ -63,9 +73,12 @@ void report_table(const struct job *job)
     char sandbox[SANDBOX_TEXT_SIZE];
     say_plain("device   %s\n", lam_device_name(job->device));
     say_plain("sandbox  %s\n", sandbox_text(sandbox_active(), sandbox));
-    say_plain("picture  %s, %dx%d, %" PRIu64 " bytes\n",
-              strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->image.width, job->image.height,
-              job->bytes);
+    say_plain("picture  ");
+    say_output(job);
+    say_plain(", %dx%d, %" PRIu64 " bytes\n", job->image.width, job->image.height, job->bytes);
+    if (job->frames.count)
+        say_plain("frames   %d, %.4g a second: %.4g s, for ever\n", job->frames.count, job->frames.frames_per_second,
+                  job->frames.count / job->frames.frames_per_second);
     if (lam_device_isa(job->device) == LAM_ISA_AUTO)
         say_plain("drawn    %" PRIu64 " triangles, %" PRIu64 " pixels covered, %.1f MB sent, %.1f MB\n",
                   frame->triangles, frame->pixels_covered, (double)frame->bytes_uploaded / 1e6,
@@ -153,6 +166,18 @@ static void json_model(struct json *json, const struct job *job)
     json_close(json, '}');
 }
 
+// The frames of an animation.
+static void json_frames(struct json *json, const struct job *job)
+{
+    if (!job->frames.count)
+        return;
+    json_open(json, "animation", '{');
+    json_count(json, "frames", (uint64_t)job->frames.count);
+    json_number(json, "frames_per_second", job->frames.frames_per_second);
+    json_text(json, "last", job->frames.last);
+    json_close(json, '}');
+}
+
 static void json_image(struct json *json, const struct job *job)
 {
     json_open(json, "image", '{');
@@ -174,6 +199,7 @@ static void json_image(struct json *json, const struct job *job)
         if (job->times.frame.ground_square > 0)
             json_number(json, "ground_square", job->times.frame.ground_square);
     }
+    json_frames(json, job);
     json_close(json, '}');
 }
 
@@ -278,6 +304,7 @@ static void json_plan(struct json *json, const struct job *job)
     json_count(json, "height", (uint64_t)job->options->height);
     json_count(json, "samples", (uint64_t)planned_samples(job->options));
     json_flag(json, "replaces", plan_replaces(job));
+    json_frames(json, job);
     json_open(json, "options", '[');
     each_given_option(job->options, json_option, json);
     json_close(json, ']');

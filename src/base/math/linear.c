@@ -1,6 +1,8 @@
 // linear.c: vectors, matrices and angles in double, in one fixed order of operations.
 #include "linear.h"
 
+#include "float_state.h"
+
 bool math_finite(double x) { return x - x == 0; }
 
 double math_sqrt(double x) { return x > 0 ? __builtin_sqrt(x) : 0; }
@@ -249,6 +251,14 @@ lam_mat4 mat4_rotate(double radians, lam_vec3 axis)
     m.m[2][0] = k.z * k.x * d - k.y * s;
     m.m[2][1] = k.z * k.y * d + k.x * s;
     m.m[2][2] = c + k.z * k.z * d;
+    return m;
+}
+
+lam_mat4 lam_mat4_rotation(lam_vec3 axis, double angle_rad)
+{
+    uint64_t state = float_state_enter();
+    lam_mat4 m = mat4_rotate(angle_rad, axis);
+    float_state_leave(state);
     return m;
 }
 

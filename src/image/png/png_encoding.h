@@ -39,6 +39,18 @@ struct png_method {
 
 extern const struct png_method png_fast, png_best;
 
+// The channels of a picture besides grey, as bits.
+enum png_channels { PNG_COLORED = 1, PNG_TRANSLUCENT = 2, PNG_ALL_CHANNELS = 3 };
+
+// As png_write, with at least the channels of *channels; *channels becomes those that the file has.
+bool png_write_channels(const lam_image *image, const lam_save_params *params, struct pool *pool, int *channels,
+                        lam_bytes *out, lam_error *error);
+
+// Numbers of a PNG file, highest byte first; and the end of a chunk whose `size` bytes of data stand at out + 8, which
+// returns the chunk's size.
+void png_put_u32(uint8_t *at, uint32_t value);
+size_t png_close_chunk(const struct crc_tables *crc, const char *type, uint8_t *out, size_t size);
+
 // A row's RGBA pixels; row −1 is zero.
 static inline const uint8_t *png_pixel_row(const struct png_encoding *encoding, int y)
 {

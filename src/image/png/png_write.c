@@ -18,8 +18,6 @@ enum {
     TAIL_BYTES = 6 + 2 * CHUNK_BYTES,
 };
 
-enum channels { COLORED = 1, TRANSLUCENT = 2, ALL_CHANNELS = 3 };
-
 struct png_strip {
     struct adler_part adler;
     size_t size; // of its chunk; 0: it was not encoded
@@ -29,7 +27,7 @@ struct png_writer {
     struct png_encoding encoding;
     const struct png_method *method;
     struct crc_tables crc;
-    int channels;           // enum channels; touched atomically
+    int channels;           // enum png_channels; touched atomically
     int first;              // strip of this batch
     uint8_t *out;           // of this batch, chunk_capacity bytes for each strip
     struct png_strip *done; // one for each strip of a batch
@@ -40,18 +38,17 @@ static size_t chunk_capacity(const struct png_writer *writer)
     return CHUNK_BYTES + ZLIB_HEADER + writer->encoding.capacity;
 }
 
-static void put_u32(uint8_t *at, uint32_t value)
+void png_put_u32(uint8_t *at, uint32_t value)
 {
     for (int i = 0; i < 4; i++)
         at[i] = (uint8_t)(value >> (24 - 8 * i));
 }
 
-// Completes a chunk whose `size` bytes of data stand at out + 8. Returns the chunk's size.
-static size_t close_chunk(const struct crc_tables *crc, const char *type, uint8_t *out, size_t size)
+size_t png_close_chunk(const struct crc_tables *crc, const char *type, uint8_t *out, size_t size)
 {
-    put_u32(out, (uint32_t)size);
+    png_put_u32(out, (uint32_t)size);
     memcpy(out + 4, type, 4);
-    put_u32(out + 8 + size, crc_of(crc, out + 4, size + 4));
+    png_put_u32(out + 8 + size, crc_of(crc, out + 4, size + 4));
     return size + CHUNK_BYTES;
 }
 
@@ -59,7 +56,7 @@ static size_t put_chunk(const struct crc_tables *crc, const char *type, const vo
 {
     if (size)
         memcpy(out + 8, data, size);
-    return close_chunk(crc, type, out, size);
+    return png_close_chunk(crc, type, out, size);
 }
 
 typedef uint32_t u32x4 __attribute__((vector_size(16)));
@@ -84,7 +81,7 @@ static int channels_of(const uint8_t *pixels, size_t count)
     }
     const bool colored = (differ[0] | differ[1] | differ[2] | differ[3]) & 0xFFFF;
     const bool opaque = (all[0] & all[1] & all[2] & all[3]) >> 24 == 255;
-    return (colored ? COLORED : 0) | (opaque ? 0 : TRANSLUCENT);
+    return (colored ? PNG_COLORED : 0) | (opaque ? 0 : PNG_TRANSLUCENT);
 }
 
 // Adds the channels that a strip's pixels need. A strip is left early only when every channel is needed already, so the
@@ -97,7 +94,7 @@ static void find_channels(void *user, size_t index, int thread)
     const struct png_encoding *encoding = &writer->encoding;
     const uint8_t *pixels = png_pixel_row(encoding, (int)index * encoding->rows);
     size_t left = (size_t)png_strip_rows(encoding, (int)index) * (size_t)encoding->image->width;
-    for (int known; left && (known = __atomic_load_n(&writer->channels, __ATOMIC_RELAXED)) != ALL_CHANNELS;) {
+    for (int known; left && (known = __atomic_load_n(&writer->channels, __ATOMIC_RELAXED)) != PNG_ALL_CHANNELS;) {
         const size_t count = left < BLOCK ? left : BLOCK;
         const int found = channels_of(pixels, count);
         if (found & ~known)
@@ -125,7 +122,7 @@ static void encode_strip(void *user, size_t index, int thread)
     }
     const size_t size = writer->method->strip(&writer->encoding, strip, thread, &done->adler, out + 8 + header);
     if (size)
-        done->size = close_chunk(&writer->crc, "IDAT", out, header + size);
+        done->size = png_close_chunk(&writer->crc, "IDAT", out, header + size);
 }
 
 static size_t put_head(const struct png_writer *writer, bool raw, uint8_t *out)
@@ -137,8 +134,8 @@ static size_t put_head(const struct png_writer *writer, bool raw, uint8_t *out)
     uint8_t header[13] = {0}, *at = out;
     memcpy(at, signature, sizeof signature);
     at += sizeof signature;
-    put_u32(header, (uint32_t)writer->encoding.image->width);
-    put_u32(header + 4, (uint32_t)writer->encoding.image->height);
+    png_put_u32(header, (uint32_t)writer->encoding.image->width);
+    png_put_u32(header + 4, (uint32_t)writer->encoding.image->height);
     header[8] = 8; // bits
     header[9] = color_types[writer->encoding.bytes_per_pixel];
     at += put_chunk(&writer->crc, "IHDR", header, sizeof header, at);
@@ -152,7 +149,7 @@ static size_t put_head(const struct png_writer *writer, bool raw, uint8_t *out)
 static size_t put_tail(const struct png_writer *writer, const struct adler_part *adler, uint8_t *out)
 {
     uint8_t end[6] = {3, 0};
-    put_u32(end + 2, adler_value(adler));
+    png_put_u32(end + 2, adler_value(adler));
     size_t size = put_chunk(&writer->crc, "IDAT", end, sizeof end, out);
     return size + put_chunk(&writer->crc, "IEND", NULL, 0, out + size);
 }
@@ -209,7 +206,15 @@ static bool encode_strips(struct png_writer *writer, bool raw, struct pool *pool
 bool png_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                lam_error *error)
 {
-    struct png_writer writer = {.method = params->compress == LAM_COMPRESS_BEST ? &png_best : &png_fast};
+    int channels = 0;
+    return png_write_channels(image, params, pool, &channels, out, error);
+}
+
+bool png_write_channels(const lam_image *image, const lam_save_params *params, struct pool *pool, int *channels,
+                        lam_bytes *out, lam_error *error)
+{
+    struct png_writer writer = {.method = params->compress == LAM_COMPRESS_BEST ? &png_best : &png_fast,
+                                .channels = *channels};
     struct png_encoding *encoding = &writer.encoding;
     encoding->image = image;
     call_start(&encoding->call, params->control);
@@ -222,7 +227,8 @@ bool png_write(const lam_image *image, const lam_save_params *params, struct poo
     if (encoding->strips == 1)
         pool = NULL;
     pool_run(pool, (size_t)encoding->strips, find_channels, &writer);
-    encoding->bytes_per_pixel = (writer.channels & COLORED ? 3 : 1) + (writer.channels & TRANSLUCENT ? 1 : 0);
+    *channels = writer.channels;
+    encoding->bytes_per_pixel = (writer.channels & PNG_COLORED ? 3 : 1) + (writer.channels & PNG_TRANSLUCENT ? 1 : 0);
     crc_tables_make(&writer.crc);
 
     struct arena arena;

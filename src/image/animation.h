@@ -1,0 +1,35 @@
+// animation.h: how a picture format stores several pictures: a part of its codec.
+#ifndef ANIMATION_H
+#define ANIMATION_H
+
+#include "call_control.h"
+#include "pool.h"
+
+#include <lambent/animation.h>
+
+// What holds for all frames.
+struct animation_settings {
+    int width, height;
+    double frames_per_second;
+    int loops;              // 0: for ever
+    lam_save_params frames; // without a control
+};
+
+struct animation_codec {
+    // The writer's state; NULL: the error is filled.
+    void *(*start)(const struct animation_settings *settings, lam_error *error);
+
+    // Adds a picture of the settings' size in RGBA8 without padding. `params` are the settings' with the control of this
+    // call. `pool` may be NULL, and does not change the bytes.
+    bool (*add)(void *state, const lam_image *frame, const lam_save_params *params, struct pool *pool,
+                lam_error *error);
+
+    // Makes the file's bytes. Called once, after at least one frame.
+    bool (*finish)(void *state, const lam_save_params *params, lam_bytes *out, lam_error *error);
+
+    void (*free)(void *state);
+};
+
+extern const struct animation_codec animation_png, animation_webp;
+
+#endif

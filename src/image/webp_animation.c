@@ -1,0 +1,160 @@
+// webp_animation.c: animated WebP, through libwebpmux, which is opened (dlopen) when an animation begins. The library stores
+// of each frame what changed; the bytes depend on its version.
+#include "animation.h"
+#include "dynamic_library.h"
+#include "fail.h"
+#include "webp_library.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef HAVE_WEBP
+
+#include <webp/mux.h>
+
+#define LIBRARY "libwebpmux.so.3"
+#define NEEDED  "the Debian package libwebpmux3 has it"
+
+#define FUNCTIONS(each)                                                                                                \
+    each(WebPAnimEncoderOptionsInitInternal) each(WebPAnimEncoderNewInternal) each(WebPAnimEncoderAdd)                 \
+        each(WebPAnimEncoderAssemble) each(WebPAnimEncoderGetError) each(WebPAnimEncoderDelete)
+
+struct webp_animation {
+    struct webp_library webp;
+    void *handle;
+#define MEMBER(name) __typeof__(&name) name;
+    FUNCTIONS(MEMBER)
+    struct animation_settings settings;
+    WebPAnimEncoder *encoder;
+    int count; // frames so far
+};
+
+static void animation_free(void *state)
+{
+    struct webp_animation *animation = state;
+    if (animation->encoder)
+        animation->WebPAnimEncoderDelete(animation->encoder);
+    library_close(animation->handle);
+    library_close(animation->webp.handle);
+    free(animation);
+}
+
+static bool open_mux(struct webp_animation *animation, lam_error *error)
+{
+    animation->handle = library_open(LIBRARY, false, NULL);
+    if (!animation->handle)
+        return fail(error, LAM_UNSUPPORTED, "animated WebP needs " LIBRARY ", which is not installed; " NEEDED);
+    bool all = true;
+#define LOOK_UP(name) all = all && library_find(animation->handle, #name, &animation->name);
+    FUNCTIONS(LOOK_UP)
+    return all || fail(error, LAM_UNSUPPORTED, LIBRARY " lacks functions that libwebp 1.0 has; " NEEDED);
+}
+
+static bool make_encoder(struct webp_animation *animation, lam_error *error)
+{
+    WebPAnimEncoderOptions options;
+    if (!animation->WebPAnimEncoderOptionsInitInternal(&options, WEBP_MUX_ABI_VERSION))
+        return fail(error, LAM_UNSUPPORTED, "WebP: " LIBRARY " is not of the version that this build was made for");
+    options.anim_params.loop_count = animation->settings.loops;
+    animation->encoder = animation->WebPAnimEncoderNewInternal(animation->settings.width, animation->settings.height,
+                                                               &options, WEBP_MUX_ABI_VERSION);
+    return animation->encoder ||
+           fail_memory(error, (size_t)8 * (size_t)animation->settings.width * (size_t)animation->settings.height);
+}
+
+static void *animation_start(const struct animation_settings *settings, lam_error *error)
+{
+    if (!webp_check_size(settings->width, settings->height, error))
+        return NULL;
+    struct webp_animation *animation = calloc(1, sizeof *animation);
+    if (!animation) {
+        fail_memory(error, sizeof *animation);
+        return NULL;
+    }
+    animation->settings = *settings;
+    if (webp_open(&animation->webp, NULL, error) && open_mux(animation, error) && make_encoder(animation, error))
+        return animation;
+    animation_free(animation);
+    return NULL;
+}
+
+// When a frame begins, in the format's milliseconds.
+static int time_of(const struct webp_animation *animation, int frame)
+{
+    return (int)(frame * 1000.0 / animation->settings.frames_per_second + 0.5);
+}
+
+static bool animation_add(void *state, const lam_image *frame, const lam_save_params *params, struct pool *pool,
+                          lam_error *error)
+{
+    (void)pool;
+    struct webp_animation *animation = state;
+    struct webp_library *webp = &animation->webp;
+    WebPConfig config;
+    WebPPicture picture;
+    if (!webp_configure(webp, (int)params->quality, &config, &picture, error))
+        return false;
+    struct call_control call;
+    call_start(&call, params->control);
+    picture.width = frame->width;
+    picture.height = frame->height;
+    picture.use_argb = 1; // what the encoder of animations takes
+    picture.progress_hook = webp_report_progress;
+    picture.user_data = &call;
+    bool ok =
+        call_should_continue(&call) && webp->WebPPictureImportRGBA(&picture, frame->pixels, 4 * frame->width) &&
+        animation->WebPAnimEncoderAdd(animation->encoder, &picture, time_of(animation, animation->count), &config);
+    if (!ok && !call_should_continue(&call))
+        call_error(&call, error);
+    else if (!ok)
+        fail(error, LAM_LIMIT, "WebP: libwebpmux cannot add frame %d of %d×%d pixels: %.200s", animation->count + 1,
+             frame->width, frame->height, animation->WebPAnimEncoderGetError(animation->encoder));
+    webp->WebPPictureFree(&picture);
+    animation->count++;
+    return ok;
+}
+
+static bool animation_finish(void *state, const lam_save_params *params, lam_bytes *out, lam_error *error)
+{
+    (void)params;
+    struct webp_animation *animation = state;
+    WebPData data = {0};
+    if (!animation->WebPAnimEncoderAdd(animation->encoder, NULL, time_of(animation, animation->count), NULL) ||
+        !animation->WebPAnimEncoderAssemble(animation->encoder, &data))
+        return fail(error, LAM_LIMIT, "WebP: libwebpmux cannot make the animation: %.200s",
+                    animation->WebPAnimEncoderGetError(animation->encoder));
+    *out = (lam_bytes){malloc(data.size), data.size}; // the library's memory may be another allocator's
+    if (out->data)
+        memcpy(out->data, data.bytes, data.size);
+    animation->webp.WebPFree((void *)(uintptr_t)data.bytes);
+    return out->data || fail_memory(error, data.size);
+}
+
+#else
+
+static void *animation_start(const struct animation_settings *settings, lam_error *error)
+{
+    (void)settings;
+    fail(error, LAM_UNSUPPORTED, "WebP is not in this build; the Debian package libwebp-dev was missing");
+    return NULL;
+}
+
+static bool animation_add(void *state, const lam_image *frame, const lam_save_params *params, struct pool *pool,
+                          lam_error *error)
+{
+    (void)state, (void)frame, (void)params, (void)pool, (void)error;
+    return false;
+}
+
+static bool animation_finish(void *state, const lam_save_params *params, lam_bytes *out, lam_error *error)
+{
+    (void)state, (void)params, (void)out, (void)error;
+    return false;
+}
+
+static void animation_free(void *state) { free(state); }
+
+#endif
+
+const struct animation_codec animation_webp = {
+    .start = animation_start, .add = animation_add, .finish = animation_finish, .free = animation_free};

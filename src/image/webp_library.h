@@ -1,0 +1,41 @@
+// webp_library.h: libwebp, which webp.c opens, for what else encodes with it.
+#ifndef WEBP_LIBRARY_H
+#define WEBP_LIBRARY_H
+
+#ifdef HAVE_WEBP
+
+#include "call_control.h"
+
+#include <webp/decode.h>
+#include <webp/encode.h>
+
+#define WEBP_LIBRARY "libwebp.so.7"
+
+// The functions that are used here: each is a member of struct webp_library with the type of its own declaration.
+#define WEBP_FUNCTIONS(each)                                                                                           \
+    each(WebPGetFeaturesInternal) each(WebPINewRGB) each(WebPIUpdate) each(WebPIDelete) each(WebPConfigInitInternal)   \
+        each(WebPPictureInitInternal) each(WebPPictureImportRGBA) each(WebPEncode) each(WebPPictureFree)               \
+            each(WebPFree)
+
+struct webp_library {
+    void *handle; // library_close
+#define MEMBER(name) __typeof__(&name) name;
+    WEBP_FUNCTIONS(MEMBER)
+#undef MEMBER
+};
+
+// `file` begins messages; NULL: none does. LAM_UNSUPPORTED.
+bool webp_open(struct webp_library *webp, const char *file, lam_error *error);
+
+// Sets up a picture's encoding at a quality (lam_save_params). LAM_UNSUPPORTED.
+bool webp_configure(const struct webp_library *webp, int quality, WebPConfig *config, WebPPicture *picture,
+                    lam_error *error);
+
+// LAM_LIMIT.
+bool webp_check_size(int width, int height, lam_error *error);
+
+// A WebPProgressHook; `user_data` is a struct call_control.
+int webp_report_progress(int percent, const WebPPicture *picture);
+
+#endif
+#endif

@@ -1,0 +1,473 @@
+// animate.c: --turntable and --sweep: the frames of one model.
+//
+// Each frame is a picture of the options that its words add to the command line. The scene is loaded and marked once, and
+// reset before each frame; only an option that the loading itself depends on (option.loads) reads the model anew. The
+// first frame's camera and exposure serve all frames.
+#include "animate.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "console.h"
+#include "job_steps.h"
+#include "output.h"
+#include "scene_settings.h"
+
+enum { FRAMES_DEFAULT = 36, FRAMES_MAX = 100000 };
+
+// --- checks
+
+static bool only_with(const struct options *o, const char *option, const char *needed, lam_error *error)
+{
+    return !option_given(o, option) || complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs %s", option, needed);
+}
+
+static bool not_with(const struct options *o, const char *option, lam_error *error)
+{
+    return !option_given(o, option) ||
+           complain(error, LAM_BAD_ARGUMENT, "options '--%s' and '--%s' cannot be used together", animation_option(o),
+                    option);
+}
+
+static bool check_sweeps(const struct options *o, lam_error *error)
+{
+    for (int i = 0; i < o->sweeps.count; i++) {
+        struct sweep sweep;
+        lam_error reason;
+        if (!sweep_parse(o->sweeps.items[i], &sweep, &reason))
+            return complain(error, LAM_BAD_ARGUMENT, "option '--sweep': %.400s", reason.text);
+        // A sweep of the view's angles or its zoom moves the camera that is fitted.
+        if (o->camera && sweep.kind == SWEEP_OPTION && sweep.option->group == GROUP_VIEW)
+            return complain(error, LAM_BAD_ARGUMENT, "options '--camera' and '--sweep %s' cannot be used together",
+                            sweep.option->name);
+    }
+    return true;
+}
+
+bool animation_check(const struct options *o, lam_error *error)
+{
+    if (!animation_wanted(o))
+        return only_with(o, "frames", "--sweep", error) && only_with(o, "fps", "--turntable or --sweep", error) &&
+               only_with(o, "turntable-light", "--turntable", error);
+    if (o->turntable && o->frames)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--frames' is for --sweep alone: --turntable has its own number");
+    if (o->view_count > 1 || o->size_count > 1)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs one %s; found several", animation_option(o),
+                        o->view_count > 1 ? "--view" : "--size");
+    return not_with(o, "repeat", error) && not_with(o, "save-scene", error) && check_sweeps(o, error) &&
+           (o->turntable || only_with(o, "turntable-light", "--turntable", error));
+}
+
+static bool check_format(const struct job *job, const struct options *o, lam_error *error)
+{
+    if (job->frames.first || strcmp(job->format, "png") == 0 || lam_animation_format(job->output))
+        return true;
+    return complain(error, LAM_UNSUPPORTED,
+                    "option '--%s': a file of format %s holds one picture; expected .png or .webp, or {frame} in the "
+                    "name: -o '{stem}-{frame}.%s'",
+                    animation_option(o), job->format, job->format);
+}
+
+// --- names
+
+static bool has_frame_names(const struct options *o)
+{
+    return output_name_is_pattern(o->output) && output_name_has(o->output, "frame");
+}
+
+// The name of a frame's file: the number takes the place of each {frame}.
+static char *path_of_frame(const struct animation *a, int frame)
+{
+    static const char word[] = "{frame}";
+    int digits = 1;
+    for (int last = a->count - 1; last >= 10; last /= 10)
+        digits++;
+    char *path = NULL;
+    size_t size;
+    FILE *out = open_memstream(&path, &size);
+    if (!out)
+        return NULL;
+    const char *at = a->pattern;
+    for (const char *next; (next = strstr(at, word)); at = next + sizeof word - 1)
+        fprintf(out, "%.*s%0*d", (int)(next - at), at, digits, frame);
+    fputs(at, out);
+    if (fclose(out) == 0)
+        return path;
+    free(path);
+    return NULL;
+}
+
+static bool name_frames(struct job *job, const struct animation *a, lam_error *error)
+{
+    free(job->frames.first);
+    free(job->frames.last);
+    job->frames.first = path_of_frame(a, 0);
+    job->frames.last = path_of_frame(a, a->count - 1);
+    job->output = job->frames.first;
+    return (job->frames.first && job->frames.last) || complain(error, LAM_LIMIT, "out of memory");
+}
+
+// --- the options of a frame
+
+// An axis letter of a turn about the up axis.
+static char up_letter(lam_up up)
+{
+    return up == LAM_UP_X || up == LAM_UP_NEGATIVE_X ? 'x' : up == LAM_UP_Z || up == LAM_UP_NEGATIVE_Z ? 'z' : 'y';
+}
+
+// The turns that the camera is fitted for besides those of the options: the camera goes around the model.
+static bool add_turns(struct animation *a, struct options *o, lam_error *error)
+{
+    static const char *const all[] = {"x:0", "y:0", "z:0"};
+    bool model = a->given->turntable && a->given->turntable_light == TURNTABLE_LIGHT_MODEL;
+    bool about_up = model || animation_sweeps(a, "azimuth"), any = animation_sweeps(a, "elevation");
+    const char **items = calloc(2, sizeof *items);
+    free(o->sheet_rotations.items);
+    o->sheet_rotations = (struct texts){.items = items};
+    if (!items)
+        return complain(error, LAM_LIMIT, "out of memory");
+    if (about_up || any)
+        items[o->sheet_rotations.count++] = all[up_letter(a->up) - 'x'];
+    if (any) // two axes: any turn
+        items[o->sheet_rotations.count++] = all[(up_letter(a->up) - 'x' + 1) % 3];
+    return true;
+}
+
+// Sets a->frame to the options of a frame.
+static bool set_options(struct animation *a, int frame, lam_error *error)
+{
+    char *words[2 * (OPTIONS_MAX + 1)];
+    int count = 0;
+    options_free(&a->frame);
+    if (!options_copy(&a->frame, a->given)) {
+        a->frame = (struct options){0};
+        return complain(error, LAM_LIMIT, "out of memory");
+    }
+    struct options *o = &a->frame;
+    for (int i = 0; i < a->sweep_count; i++) {
+        const struct sweep *sweep = &a->sweeps[i];
+        // The camera goes to other angles from where the first frame has it.
+        bool angle = sweep_is_option(sweep, "azimuth") || sweep_is_option(sweep, "elevation");
+        if (sweep_words(sweep, angle ? 0 : frame, a->count, &a->words[i])) {
+            words[count++] = a->words[i].option;
+            words[count++] = a->words[i].value;
+        }
+        o->place_lights |= sweep->kind == SWEEP_LIGHT;
+    }
+    if (o->turntable && o->turntable_light == TURNTABLE_LIGHT_CAMERA) {
+        struct sweep_words *turn = &a->words[a->sweep_count];
+        double angle_deg = animation_turn(a, frame);
+        snprintf(turn->option, sizeof turn->option, "--rotate");
+        snprintf(turn->value, sizeof turn->value, "%c:%.17g", up_letter(a->up),
+                 a->up >= LAM_UP_NEGATIVE_X ? -angle_deg : angle_deg);
+        words[count++] = turn->option;
+        words[count++] = turn->value;
+    }
+    o->place_lights |= o->turntable != 0;
+    if (a->environment && !a->loads)
+        o->environment = NULL; // the scene keeps it
+    return options_parse(count, words, find_groups("render"), o, error) >= 0 && add_turns(a, o, error);
+}
+
+// After the first frame: its exposure is that of all.
+static void keep_exposure(const struct job *job, struct options *o)
+{
+    if (!job->exposure_fitted)
+        return;
+    o->exposure_kind = EXPOSURE_LITERAL;
+    o->exposure = job->draw.exposure;
+    o->draw.light_cutoff = o->draw.light_cutoff != 0 ? o->draw.light_cutoff : -1;
+}
+
+// --- loading
+
+// The options of the frame, completed by those of a scene file, become the job's.
+static bool use_options(struct job *job, int frame, lam_error *error)
+{
+    struct animation *a = job->animation;
+    a->index = frame;
+    if (!set_options(a, frame, error))
+        return false;
+    if (a->drawn)
+        keep_exposure(job, &a->frame);
+    job->options = &a->frame;
+    return true;
+}
+
+// Loads the model as a frame has it, without a progress bar of its own.
+static bool load_frame(struct job *job, int frame, lam_error *error)
+{
+    struct progress none;
+    progress_start(&none, job->model, false);
+    lam_scene_free(job->scene);
+    job->scene = NULL;
+    return use_options(job, frame, error) && job_load(job, &none, error);
+}
+
+// The scene of the first frame before options change it.
+static bool mark(struct job *job, lam_error *error)
+{
+    lam_control control;
+    bool tangents = lam_reflection_describe(job->options->draw.reflection)->tangents;
+    return job_control(job, NULL, &control, error) &&
+           (!tangents || lam_scene_make_tangents(job->scene, &control, error)) && lam_scene_mark(job->scene, error);
+}
+
+// The scene of a frame, as it was loaded.
+static bool prepare(struct job *job, int frame, lam_error *error)
+{
+    if (frame > 0 && job->animation->loads)
+        return load_frame(job, frame, error);
+    if (frame > 0 && !lam_scene_reset(job->scene, error))
+        return false;
+    if (!use_options(job, frame, error))
+        return false;
+    scene_settings_apply(job);
+    return true;
+}
+
+// --- an animation of the file
+
+// The length of the file's animation that the options name.
+static bool find_length(const struct job *job, double *length_s, lam_error *error)
+{
+    const lam_file_info *file = lam_scene_file_info(job->scene);
+    const char *name = job->options->animation ? job->options->animation : "0";
+    for (int i = 0; i < file->animation_count; i++) {
+        char number[16];
+        snprintf(number, sizeof number, "%d", i);
+        const char *other = file->animations[i].name;
+        if (strcmp(name, number) == 0 || (other && strcmp(name, other) == 0))
+            *length_s = file->animations[i].length_s;
+    }
+    return *length_s > 0 || complain(error, LAM_BAD_ARGUMENT,
+                                     "option '--sweep time': the file does not state how long its animation is; "
+                                     "expected time=FROM..TO");
+}
+
+// Completes a sweep of the time that has no numbers, and the number of frames.
+static bool set_length(struct job *job, lam_error *error)
+{
+    struct animation *a = job->animation;
+    for (int i = 0; i < a->sweep_count; i++) {
+        struct sweep *sweep = &a->sweeps[i];
+        double length_s = 0;
+        if (sweep->stop_count)
+            continue;
+        if (!find_length(job, &length_s, error))
+            return false;
+        sweep->stops[1] = length_s;
+        sweep->stop_count = 2;
+        sweep->closed = true;
+        double frames = length_s * job->frames.frames_per_second + 0.5;
+        if (!a->given->turntable && !a->given->frames)
+            a->count = frames < 2 ? 2 : frames > FRAMES_MAX ? FRAMES_MAX : (int)frames;
+    }
+    job->frames.count = a->count;
+    return !job->frames.first || name_frames(job, a, error);
+}
+
+// A scene that consists of a box.
+static lam_scene *box_scene(lam_vec3 low, lam_vec3 high, lam_up up, lam_error *error)
+{
+    static const uint32_t corners[36] = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
+                                         2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
+    float positions[24];
+    lam_vec3 middle = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)};
+    for (int i = 0; i < 8; i++) {
+        positions[3 * i] = (float)((i & 1 ? high.x : low.x) - middle.x);
+        positions[3 * i + 1] = (float)((i & 2 ? high.y : low.y) - middle.y);
+        positions[3 * i + 2] = (float)((i & 4 ? high.z : low.z) - middle.z);
+    }
+    lam_mesh mesh = {.positions = positions,
+                     .vertex_count = 8,
+                     .indices = corners,
+                     .triangle_count = 12,
+                     .origin = {middle.x, middle.y, middle.z}};
+    lam_scene *scene = lam_scene_make(error);
+    lam_object object = lam_object_default();
+    if (scene && (lam_scene_add_mesh(scene, &mesh, error) < 0 || lam_scene_add_object(scene, &object, error) < 0)) {
+        lam_scene_free(scene);
+        return NULL;
+    }
+    if (scene)
+        lam_scene_set_up(scene, up);
+    return scene;
+}
+
+static void extend(lam_vec3 *low, lam_vec3 *high, lam_vec3 a, lam_vec3 b)
+{
+    low->x = a.x < low->x ? a.x : low->x;
+    low->y = a.y < low->y ? a.y : low->y;
+    low->z = a.z < low->z ? a.z : low->z;
+    high->x = b.x > high->x ? b.x : high->x;
+    high->y = b.y > high->y ? b.y : high->y;
+    high->z = b.z > high->z ? b.z : high->z;
+}
+
+// Where frames pose the model in different ways: one point to turn about, and one camera, for the box of all of them.
+static bool fit_poses(struct job *job, lam_error *error)
+{
+    struct animation *a = job->animation;
+    lam_vec3 low = {0}, high = {0}, one_low, one_high;
+    bool any = false;
+    for (int i = 0; i < a->count; i++) {
+        if (i > 0 && !load_frame(job, i, error))
+            return false;
+        if (!lam_scene_bounds(job->scene, &one_low, &one_high))
+            continue;
+        if (!any)
+            low = one_low, high = one_high;
+        any = true;
+        extend(&low, &high, one_low, one_high);
+    }
+    if (!load_frame(job, 0, error))
+        return false;
+    lam_scene *box = any ? box_scene(low, high, a->up, error) : NULL;
+    if (!box)
+        return !any;
+    lam_scene_sphere(box, -1, &a->sphere.centre, &a->sphere.radius);
+    a->has_sphere = a->sphere.radius > 0;
+    if (!job->options->camera && !scene_settings_has_camera(job)) {
+        a->camera = job_fit_camera(box, a->sphere.centre, job->options);
+        a->has_camera = true;
+    }
+    lam_scene_free(box);
+    return true;
+}
+
+// --- the run
+
+static bool begin(struct job *job, const struct options *o, lam_error *error)
+{
+    struct animation *a = job->animation;
+    a->sweeps = calloc((size_t)o->sweeps.count + 1, sizeof *a->sweeps);
+    a->words = calloc((size_t)o->sweeps.count + 1, sizeof *a->words);
+    if (!a->sweeps || !a->words)
+        return complain(error, LAM_LIMIT, "out of memory");
+    if (o->sweeps.count > OPTIONS_MAX)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--sweep': given %d times, expected at most %d",
+                        o->sweeps.count, OPTIONS_MAX);
+    for (int i = 0; i < o->sweeps.count; i++) {
+        sweep_parse(o->sweeps.items[i], &a->sweeps[i], error); // cannot fail: animation_check has parsed it
+        a->loads |= a->sweeps[i].option && a->sweeps[i].option->loads;
+    }
+    a->sweep_count = o->sweeps.count;
+    a->count = o->turntable ? o->turntable : o->frames ? o->frames : FRAMES_DEFAULT;
+    job->frames.count = a->count;
+    job->frames.frames_per_second = o->fps > 0 ? o->fps : 24;
+    if (has_frame_names(o) &&
+        (!name_frames(job, a, error) || !output_check(job->output, job->model, OUTPUT_PATTERN, error)))
+        return false;
+    return check_format(job, o, error);
+}
+
+static lam_animation *start_file(const struct job *job, lam_error *error)
+{
+    lam_save_params params = job_save_params(job, NULL);
+    lam_animation_params animation = {.frames_per_second = job->frames.frames_per_second, .frames = &params};
+    return lam_animation_make(job->format, job->options->width, job->options->height, &animation, error);
+}
+
+// Encodes the frame into the file of all frames, or writes it as a picture of its own.
+static bool put_frame(struct job *job, lam_animation *file, lam_error *error)
+{
+    lam_control control;
+    if (!file) {
+        char *path = path_of_frame(job->animation, job->animation->index);
+        job->output = path;
+        bool ok = path ? job_write(job, error) : complain(error, LAM_LIMIT, "out of memory");
+        job->output = job->frames.first;
+        free(path);
+        return ok;
+    }
+    double start = clock_ms();
+    bool ok = job_control(job, NULL, &control, error) && lam_animation_add(file, &job->image, &control, error);
+    job->times.encode += clock_ms() - start;
+    return ok;
+}
+
+static bool write_file(struct job *job, lam_animation *file, lam_error *error)
+{
+    lam_control control;
+    lam_bytes bytes = {0};
+    double start = clock_ms();
+    bool ok = job_control(job, NULL, &control, error) && lam_animation_finish(file, &control, &bytes, error) &&
+              output_save_bytes(&bytes, job->output, job->options->durable, &job->bytes, error);
+    lam_bytes_free(&bytes);
+    job->times.encode += clock_ms() - start;
+    job->written = ok;
+    return ok;
+}
+
+static bool draw_frames(struct job *job, lam_animation *file, struct progress *progress, lam_error *error)
+{
+    struct animation *a = job->animation;
+    lam_frame_report *reports = calloc((size_t)a->count, sizeof *reports);
+    uint64_t covered = 0;
+    bool ok = reports || complain(error, LAM_LIMIT, "out of memory");
+    for (int i = 0; ok && i < a->count; i++) {
+        job->times.frame_start = clock_ms();
+        ok = prepare(job, i, error) && job_arrange(job, progress, error) &&
+             job_draw_frames(job, 0.5 + 0.5 * i / a->count, 0.5 / a->count, 1, &reports[i], progress, error) &&
+             put_frame(job, file, error);
+        if (ok)
+            covered += reports[i].pixels_covered;
+        a->environment = a->drawn = true;
+    }
+    if (ok)
+        job_time_frames(job, reports, a->count);
+    if (ok && covered)
+        job->times.frame.pixels_covered = job->times.frame.pixels_covered ? job->times.frame.pixels_covered : 1;
+    free(reports);
+    return ok && (!file || write_file(job, file, error));
+}
+
+static bool run(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error)
+{
+    struct animation *a = job->animation;
+    if (!begin(job, a->given, error) || !use_options(job, 0, error) || !job_load(job, progress, error))
+        return false;
+    a->up = lam_scene_up(job->scene);
+    if (!set_length(job, error) || !use_options(job, 0, error))
+        return false;
+    scene_settings_apply(job);
+    if ((a->loads && !fit_poses(job, error)) || !mark(job, error))
+        return false;
+    if (job->options->dry_run) {
+        job->planned = prepare(job, 0, error) && job_arrange(job, progress, error);
+        return job->planned;
+    }
+    if (!job_make_image(job, format, error))
+        return false;
+    lam_animation *file = job->frames.first ? NULL : start_file(job, error);
+    bool ok = (file || job->frames.first) && draw_frames(job, file, progress, error);
+    lam_animation_free(file);
+    return ok;
+}
+
+bool animation_run(struct job *job, struct progress *progress, lam_error *error)
+{
+    if (!job_check_output(job, error))
+        return false;
+    struct animation animation = {.given = job->options, .pattern = job->output};
+    job->animation = &animation;
+    bool ok = run(job, job->pixels, progress, error);
+    job->animation = NULL;
+    // Reports are about the command line, the model as it was loaded, and the first frame's camera.
+    lam_error ignored; // nothing was marked
+    if (job->scene)
+        lam_scene_reset(job->scene, &ignored);
+    if (animation.has_camera)
+        job->camera = animation.camera;
+    job->options = animation.given;
+    if (job->scene)
+        scene_settings_apply(job);
+    options_free(&animation.frame);
+    free(animation.sweeps);
+    free(animation.words);
+    return ok;
+}

@@ -1,0 +1,14 @@
+// animate.h: --turntable and --sweep: the frames of one model, drawn from one loaded scene.
+#ifndef ANIMATE_H
+#define ANIMATE_H
+
+#include "animate_frame.h"
+#include "job.h"
+
+// Checks the options of animations together. LAM_BAD_ARGUMENT.
+bool animation_check(const struct options *o, lam_error *error);
+
+// job_run for an animation: loads the model, draws the frames and writes them.
+bool animation_run(struct job *job, struct progress *progress, lam_error *error);
+
+#endif

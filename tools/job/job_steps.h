@@ -1,0 +1,30 @@
+// job_steps.h: the steps of a job, which one picture and an animation put together in different ways.
+#ifndef JOB_STEPS_H
+#define JOB_STEPS_H
+
+#include "job.h"
+
+// Fills the control of the next library call: remaining time, memory limit, interrupt flag, progress bar (NULL: none).
+bool job_control(const struct job *job, struct progress *progress, lam_control *control, lam_error *error);
+
+// The camera that fills the picture with the scene, for all of its turns about `centre`.
+lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct options *o);
+
+// Makes job->image. LAM_LIMIT.
+bool job_make_image(struct job *job, lam_pixel_format format, lam_error *error);
+
+// Draws the arranged scene `count` times and adds the reports to `reports`. `from` and `span`: its part of the whole, for
+// the progress bar.
+bool job_draw_frames(struct job *job, double from, double span, int count, lam_frame_report *reports,
+                     struct progress *progress, lam_error *error);
+
+// Sets the times of `count` frames, the median one's steps among them; sorts the reports.
+void job_time_frames(struct job *job, lam_frame_report *reports, int count);
+
+// How the picture is encoded; `control` stays in use.
+lam_save_params job_save_params(const struct job *job, const lam_control *control);
+
+// Writes job->image to job->output, and adds to job->bytes and times.encode.
+bool job_write(struct job *job, lam_error *error);
+
+#endif

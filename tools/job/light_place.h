@@ -1,0 +1,26 @@
+// light_place.h: the frames of lights in the world, and lights that change from frame to frame of an animation.
+#ifndef LIGHT_PLACE_H
+#define LIGHT_PLACE_H
+
+#include "job.h"
+#include "sweep_option.h"
+
+// The matrix from a light's frame to the world.
+lam_mat4 light_to_world(const struct job *job, const lam_light *light);
+
+// Makes lights that stand still with the camera lights of the world, where they are.
+bool lights_fix_to_world(struct job *job, lam_error *error);
+
+// Gives a light of the scene a sweep's value. `centre`: the middle of the model. LAM_BAD_ARGUMENT: no such light, or it has
+// no such number.
+bool light_sweep(const struct job *job, const struct sweep *sweep, double value, lam_vec3 centre, lam_error *error);
+
+// Multiplies all colours of a light.
+void light_brighten(lam_light *light, double factor);
+
+// The scene's up axis and the direction of its front, unit.
+void scene_axes(const lam_scene *scene, lam_vec3 *up, lam_vec3 *front);
+
+lam_vec3 matrix_apply(const lam_mat4 *m, lam_vec3 v, double w);
+
+#endif

@@ -5,10 +5,6 @@
 #include "up_axis.h"
 #include "view_extents.h"
 
-static const char *const names[LAM_GROUND_COUNT] = {"off", "shadow", "checker", "color"};
-
-const char *lam_ground_name(lam_ground ground) { return (unsigned)ground < LAM_GROUND_COUNT ? names[ground] : NULL; }
-
 // In radii of the scene's sphere: up to where the ground is whole, and where it ends.
 #define WHOLE 3.0
 #define END   6.0

@@ -33,6 +33,13 @@ const char *lam_output_name(lam_output output) { return (unsigned)output < LAM_O
 
 static const char *const occlusions[LAM_OCCLUSION_COUNT] = {"auto", "off", "screen", "rays"};
 
+static const char *const ground_names[LAM_GROUND_COUNT] = {"off", "shadow", "checker", "color"};
+
+const char *lam_ground_name(lam_ground ground)
+{
+    return (unsigned)ground < LAM_GROUND_COUNT ? ground_names[ground] : NULL;
+}
+
 const char *lam_occlusion_name(lam_occlusion occlusion)
 {
     return (unsigned)occlusion < LAM_OCCLUSION_COUNT ? occlusions[occlusion] : NULL;

@@ -1,8 +1,7 @@
-// look_option.c: --look: applies a file of options, where the command line does not have the same option.
+// look_option.c: --look: finds files of options and reads their lines.
 #include "look_option.h"
 
 #include <errno.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -73,101 +72,28 @@ static char *copy_of_look(const char *name, lam_error *error)
     return NULL;
 }
 
-static bool is_light(const struct option *option)
+bool look_read(const char *name, bool (*take)(void *user, int line, char *option, char *value, lam_error *error),
+               void *user, lam_error *error)
 {
-    return strcmp(option->name, "light") == 0 || strcmp(option->name, "rig") == 0;
-}
-
-// Whether the command line has lights of its own, which replace a look's: a rig, or a light without +.
-static bool own_lights(const struct options *options)
-{
-    bool own = option_given(options, "rig");
-    for (int i = 0; i < options->lights.count; i++)
-        own |= options->lights.items[i][0] != '+';
-    return own;
-}
-
-// Options of the picture alone: none that names a file to write, or another look.
-static bool fits(const struct option *option)
-{
-    static const char *const others[] = {"look", "output", "save-scene", "size", "show", "light-cutoff"};
-    bool group = option->group == GROUP_PICTURE || option->group == GROUP_VIEW || option->group == GROUP_LIGHTS ||
-                 option->group == GROUP_MATERIALS || option->group == GROUP_SHADING;
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        group &= strcmp(option->name, others[i]) != 0;
-    return group;
-}
-
-static bool apply_line(const char *look, int number, char *line, const struct options *before, struct options *options,
-                       bool lights, lam_error *error)
-{
-    char *name = line + strspn(line, " \t");
-    size_t end = strlen(name);
-    while (end && strchr(" \t\r", name[end - 1]))
-        name[--end] = 0;
-    if (!*name || *name == '#')
-        return true;
-    name += name[0] == '-' && name[1] == '-' ? 2 : 0;
-    char *value = name + strcspn(name, " =");
-    if (*value)
-        *value++ = 0;
-    value += strspn(value, " ");
-    const struct option *option = option_find(name);
-    if (!option || !fits(option))
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "%.100s:%d: found '%.60s', expected an option of the picture, such as --ao", look, number,
-                        name);
-    if (!*value && option->alone)
-        value = (char *)(uintptr_t)option->alone;
-    if (!option->value != !*value)
-        return complain(error, LAM_BAD_ARGUMENT, "%.100s:%d: --%s %s", look, number, option->name,
-                        option->value ? "needs a value" : "takes no value");
-    if (is_light(option) ? lights : option_given(before, option->name))
-        return true;
-    lam_error reason = {0};
-    int count = options->lights.count;
-    if (!option->store(option, *value ? value : NULL, options, &reason))
-        return complain(error, LAM_BAD_ARGUMENT, "%.100s:%d: --%s: %.300s", look, number, option->name, reason.text);
-    options->look_lights += options->lights.count - count;
-    option_mark(options, option, *value ? value : NULL, true);
-    return true;
-}
-
-bool store_look(const struct option *option, const char *value, struct options *options, lam_error *error)
-{
-    (void)option;
-    if (options->look)
-        return complain(error, LAM_BAD_ARGUMENT, "given twice: '%.60s' and '%.60s'", options->look, value);
-    char *text = copy_of_look(value, error);
-    if (!text)
-        return false;
-    struct options before = *options; // shares its lists, of which only the flags are read
-    bool lights = own_lights(options);
-    options->look = value;
-    options->look_first = options->lights.count;
+    char *text = copy_of_look(name, error);
     int number = 1;
     for (char *line = text, *next; line; line = next, number++) {
         next = strchr(line, '\n');
         if (next)
             *next++ = 0;
-        if (!apply_line(value, number, line, &before, options, lights, error))
+        char *option = line + strspn(line, " \t");
+        size_t end = strlen(option);
+        while (end && strchr(" \t\r", option[end - 1]))
+            option[--end] = 0;
+        if (!*option || *option == '#')
+            continue;
+        option += option[0] == '-' && option[1] == '-' ? 2 : 0;
+        char *value = option + strcspn(option, " =");
+        if (*value)
+            *value++ = 0;
+        value += strspn(value, " ");
+        if (!take(user, number, option, value, error))
             return false;
     }
-    return true;
-}
-
-void look_drop_lights(struct options *options)
-{
-    struct texts *lights = &options->lights;
-    int first = options->look_first, count = options->look_lights;
-    for (int i = first; i + count < lights->count; i++)
-        lights->items[i] = lights->items[i + count];
-    lights->count -= count;
-    options->look_lights = 0;
-    const struct option *rig = option_find("rig");
-    if (options->by_look[rig - option_table]) {
-        options->has_rig = false;
-        option_mark(options, rig, NULL, false);
-        options->given[rig - option_table] = false;
-    }
+    return text != NULL;
 }

@@ -450,7 +450,7 @@ const struct option option_table[] = {
      "replace its "
      "rig and lights. `lambent looks` lists those that are built in, and `lambent looks catalog` prints one to start "
      "from.",
-     look_words, .kind = VALUE_FILE, .store = store_look, .others = "preset style theme", FIELD(look)},
+     look_words, .kind = VALUE_FILE, .store = store_text, .others = "preset style theme", FIELD(look)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A predefined set of lights: studio, headlight, three-point, lecture, file, none or auto.",
      "A named rig replaces the model's own lights. `docs/lighting/lights.md` lists the numbers.", rig_words,

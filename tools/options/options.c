@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "console.h"
+#include "look_option.h"
 #include "suggest.h"
 
 struct options option_defaults(void)
@@ -88,13 +89,6 @@ bool option_given(const struct options *options, const char *name)
     return option && options->given[option - option_table];
 }
 
-void option_mark(struct options *options, const struct option *option, const char *value, bool by_look)
-{
-    options->given[option - option_table] = true;
-    options->values[option - option_table] = value;
-    options->by_look[option - option_table] = by_look;
-}
-
 static bool unknown_long(const char *name, size_t length, unsigned groups, lam_error *error)
 {
     char typed[64];
@@ -125,6 +119,96 @@ static const struct option *meant_by(const struct option *option, const char *va
     return option;
 }
 
+static void option_mark(struct options *options, const struct option *option, const char *value, bool by_look)
+{
+    options->given[option - option_table] = true;
+    options->values[option - option_table] = value;
+    options->by_look[option - option_table] = by_look;
+}
+
+// --- looks
+
+static bool is_light(const struct option *option)
+{
+    return strcmp(option->name, "light") == 0 || strcmp(option->name, "rig") == 0;
+}
+
+// Whether the command line has lights of its own, which replace a look's: a rig, or a light without +.
+static bool own_lights(const struct options *options)
+{
+    bool own = option_given(options, "rig");
+    for (int i = 0; i < options->lights.count; i++)
+        own |= options->lights.items[i][0] != '+';
+    return own;
+}
+
+// Options of the picture alone: none that names a file to write, or another look.
+static bool fits(const struct option *option)
+{
+    static const char *const others[] = {"look", "output", "save-scene", "size", "show", "light-cutoff"};
+    bool group = option->group == GROUP_PICTURE || option->group == GROUP_VIEW || option->group == GROUP_LIGHTS ||
+                 option->group == GROUP_MATERIALS || option->group == GROUP_SHADING;
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        group &= strcmp(option->name, others[i]) != 0;
+    return group;
+}
+
+struct look_lines {
+    struct options *options;
+    const struct options *before; // of the command line
+    bool lights;                  // it has lights of its own
+};
+
+static bool take_look_line(void *user, int line, char *name, char *value, lam_error *error)
+{
+    struct look_lines *lines = user;
+    struct options *options = lines->options;
+    const struct option *option = option_find(name);
+    if (!option || !fits(option))
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "%.100s:%d: found '%.60s', expected an option of the picture, such as --ao", options->look,
+                        line, name);
+    const char *given = *value ? value : option->alone;
+    if (!option->value != !given)
+        return complain(error, LAM_BAD_ARGUMENT, "%.100s:%d: --%s %s", options->look, line, option->name,
+                        option->value ? "needs a value" : "takes no value");
+    if (is_light(option) ? lines->lights : option_given(lines->before, option->name))
+        return true;
+    lam_error reason = {0};
+    int count = options->lights.count;
+    if (!option->store(option, given, options, &reason))
+        return complain(error, LAM_BAD_ARGUMENT, "%.100s:%d: --%s: %.300s", options->look, line, option->name,
+                        reason.text);
+    options->look_lights += options->lights.count - count;
+    option_mark(options, option, given, true);
+    return true;
+}
+
+static bool apply_look(const char *name, struct options *options, lam_error *error)
+{
+    struct options before = *options; // shares its lists, of which only the flags are read
+    struct look_lines lines = {options, &before, own_lights(options)};
+    options->look = name;
+    options->look_first = options->lights.count;
+    return look_read(name, take_look_line, &lines, error);
+}
+
+static void look_drop_lights(struct options *options)
+{
+    struct texts *lights = &options->lights;
+    int first = options->look_first, count = options->look_lights;
+    for (int i = first; i + count < lights->count; i++)
+        lights->items[i] = lights->items[i + count];
+    lights->count -= count;
+    options->look_lights = 0;
+    const struct option *rig = option_find("rig");
+    if (options->by_look[rig - option_table]) {
+        options->has_rig = false;
+        option_mark(options, rig, NULL, false);
+        options->given[rig - option_table] = false;
+    }
+}
+
 // Error: another command takes the option.
 static bool does_not_apply(const struct option *option, lam_error *error)
 {
@@ -148,7 +232,11 @@ static bool apply(const struct option *option, const char *value, unsigned group
     bool replaces = option->store == store_light ? value[0] != '+' : strcmp(option->name, "rig") == 0;
     if (replaces && options->look)
         look_drop_lights(options);
-    if (option->store(option, value, options, &reason)) {
+    bool look = strcmp(option->name, "look") == 0;
+    if (look && options->look)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--look': given twice: '%.60s' and '%.60s'", options->look,
+                        value);
+    if (look ? apply_look(value, options, &reason) : option->store(option, value, options, &reason)) {
         option_mark(options, option, value, false);
         return true;
     }

@@ -281,12 +281,6 @@ bool option_given(const struct options *options, const char *name);
 // True if a command accepts an option: `groups` has bit g set for each group accepted as a whole, and TAKES_… bits.
 bool option_is_taken(const struct option *option, unsigned groups);
 
-// Notes that an option is given, on the command line or by a look.
-void option_mark(struct options *options, const struct option *option, const char *value, bool by_look);
-
-// Takes the lights and the rig of a look away again: others of the command line replace them.
-void look_drop_lights(struct options *options);
-
 // Parses the words of a command line (without the program's and the command's name). `groups` as above. Moves the
 // operands to the front of `words` and returns their number; −1: LAM_BAD_ARGUMENT.
 int options_parse(int count, char **words, unsigned groups, struct options *options, lam_error *error);
@@ -315,7 +309,6 @@ bool store_list(const struct option *, const char *, struct options *, lam_error
 bool store_segments(const struct option *, const char *, struct options *, lam_error *);     // slices, stacks
 bool store_bytes(const struct option *, const char *, struct options *, lam_error *);        // uint64_t
 bool store_color(const struct option *, const char *, struct options *, lam_error *);        // const char *, checked
-bool store_look(const struct option *, const char *, struct options *, lam_error *);         // look, and what it has
 bool store_ground(const struct option *, const char *, struct options *, lam_error *);       // ground, checked
 bool store_show(const struct option *, const char *, struct options *, lam_error *);         // const char *, checked
 bool store_reflectivity(const struct option *, const char *, struct options *, lam_error *); // lam_rgb

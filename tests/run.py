@@ -81,7 +81,7 @@ def test(variant):
     log = os.path.join(folder, "meson-logs", "testlog.json")
     if os.path.exists(log):
         os.remove(log)
-    run(["meson", "test", "-C", folder, "--no-rebuild", "--num-processes", "2", "--timeout-multiplier", "4",
+    run(["meson", "test", "-C", folder, "--no-rebuild", "--num-processes", str(max(2, len(os.sched_getaffinity(0)))), "--timeout-multiplier", "4",
          *variant.get("suite", [])] + variant.get("only", []),
         env={**os.environ, **ENVIRONMENT})
     totals = [0, 0, 0]

@@ -16,11 +16,11 @@ def difference(a, b):
 class Looks(Case):
     def test_built_in(self):
         listed = [line.split()[0] for line in self.good("looks").stdout.decode().splitlines()]
-        self.assertEqual(listed, ["studio", "classic", "catalog"])
+        self.assertEqual(listed, ["studio", "classic", "catalog", "technical"])
         default = self.png("teapot", "-s", "48")
         self.assertEqual(self.png("teapot", "-s", "48", "--look", "studio"), default)
         pictures = {self.png("teapot", "-s", "48", "--look", name) for name in listed}
-        self.assertEqual(len(pictures), 3)
+        self.assertEqual(len(pictures), 4)
         # A printed look is the file of one.
         for name in listed:
             (self.folder / "copy.look").write_bytes(self.good("looks", name).stdout)

@@ -29,7 +29,8 @@ int run_looks(int operand_count, char **operands, const struct options *options)
     if (text || !operand_count)
         return 0;
     lam_error error;
-    complain(&error, LAM_BAD_ARGUMENT, "looks: found '%.100s', expected studio, classic or catalog", operands[0]);
+    complain(&error, LAM_BAD_ARGUMENT, "looks: found '%.100s', expected studio, classic, catalog or technical",
+             operands[0]);
     say_error(error.text);
     return exit_code_of(error.code)->code;
 }

@@ -12,7 +12,10 @@
 
 static const struct {
     const char *name, *text;
-} looks[] = {{"studio", text_studio_look}, {"classic", text_classic_look}, {"catalog", text_catalog_look}};
+} looks[] = {{"studio", text_studio_look},
+             {"classic", text_classic_look},
+             {"catalog", text_catalog_look},
+             {"technical", text_technical_look}};
 
 enum { LOOKS = sizeof looks / sizeof *looks, FILE_MAX = 1 << 16 };
 
@@ -48,8 +51,9 @@ static char *copy_of_look(const char *name, lam_error *error)
         struct suggestion nearest = suggest_start(name);
         for (int i = 0; i < LOOKS; i++)
             suggest_try(&nearest, looks[i].name);
-        complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected studio, classic, catalog or a file (%s)%s%s%s",
-                 name, strerror(reason), nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
+        complain(error, LAM_BAD_ARGUMENT,
+                 "found '%.100s', expected studio, classic, catalog, technical or a file (%s)%s%s%s", name,
+                 strerror(reason), nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
                  nearest.best ? "'?" : "");
         free(kept);
         return NULL;

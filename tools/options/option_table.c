@@ -169,6 +169,7 @@ static const struct word look_words[] = {
     {"studio", 0, "the default"},
     {"classic", 1, "the former studio: directional lights, no occlusion"},
     {"catalog", 2, "the studio over a ground that catches a soft shadow, for a page"},
+    {"technical", 3, "feature edges over light flat faces, for print"},
     {NULL, 0, NULL}};
 
 static const struct word rig_words[] = {
@@ -445,7 +446,7 @@ const struct option option_table[] = {
      .kind = VALUE_LIGHT, .brief = "point, spot, directional ... in place of the studio", .store = store_light,
      .others = "lamp sun spot point directional lighting", FIELD(lights)},
     {"look", 0, GROUP_LIGHTS, "NAME|FILE", "studio",
-     "A named set of options: studio, classic, catalog, or a file of your own.",
+     "A named set of options: studio, classic, catalog, technical, or a file of your own.",
      "A look is a file of options, one in a line. Options on the command line override its own; a rig or lights there "
      "replace its "
      "rig and lights. `lambent looks` lists those that are built in, and `lambent looks catalog` prints one to start "

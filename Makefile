@@ -100,8 +100,9 @@ docs: $(build)/lambent
 	@python3 scripts/tone_plot.py $(build)
 
 gallery: docs
-	@ninja -C $(build) docs/mistakes
+	@ninja -C $(build) docs/mistakes docs/shadow-mistakes
 	$(build)/docs/mistakes docs/pictures
+	$(build)/docs/shadow-mistakes examples/shadows.json docs/pictures
 
 clean:
 	rm -rf build build-* out

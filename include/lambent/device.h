@@ -202,7 +202,7 @@ LAM_API const char *lam_occlusion_name(lam_occlusion occlusion);
 // around its middle, and fades out up to 6. Seen from below there is none. It casts no shadows itself, and the camera's fit
 // and everything else that goes by the scene's size leave it out. It needs Phong shading.
 typedef enum lam_ground {
-    LAM_GROUND_NONE = 0,
+    LAM_GROUND_NONE = 0, // no ground
     // It holds black, and as its alpha the share of the light that the scene takes away from a white, matt ground: shadows and
     // occlusion for any background. Pictures of the numbers of surfaces, except ambient occlusion, leave it out.
     LAM_GROUND_SHADOW,
@@ -218,10 +218,12 @@ LAM_API const char *lam_ground_name(lam_ground ground);
 
 // Edges of surfaces that are drawn as lines (docs/edges.md). Bits.
 typedef enum lam_edges {
-    LAM_EDGES_CREASE = 1,     // two faces meet at more than lam_draw_params.edge_angle_rad, or more than two faces meet
-    LAM_EDGES_BOUNDARY = 2,   // one face ends there
-    LAM_EDGES_SILHOUETTE = 4, // one of its two faces is seen from the front, the other from behind
-    LAM_EDGES_ALL = 7,
+    // Two faces meet at more than lam_draw_params.edge_angle_rad, or more than two faces meet.
+    LAM_EDGES_CREASE = 1,
+    LAM_EDGES_BOUNDARY = 2, // one face ends there
+    // One of its two faces is seen from the front, the other from behind.
+    LAM_EDGES_SILHOUETTE = 4,
+    LAM_EDGES_ALL = 7, // all of them
 } lam_edges;
 
 // What becomes of the parts of edges that lie behind surfaces.
@@ -286,8 +288,9 @@ typedef struct lam_draw_params {
     lam_occlusion occlusion; // LAM_BAD_ARGUMENT: SCREEN or RAYS without Phong shading
     // How far away surfaces occlude, as a share of half the diagonal of the scene's box, above 0 … 10. 0: 0.1.
     float occlusion_radius;
-    int occlusion_samples; // with LAM_OCCLUSION_RAYS: rays from each lit point, 1..1024; 0: 64
-    lam_ground ground;     // CPU device alone; others refuse it (LAM_UNSUPPORTED)
+    // With LAM_OCCLUSION_RAYS: rays from each lit point, 1..1024; 0: 64.
+    int occlusion_samples;
+    lam_ground ground; // CPU device alone; others refuse it (LAM_UNSUPPORTED)
     // Linear; of COLOR, and of the bright squares of CHECKER, whose others have 0.45 of it. CHECKER: all zero is 0.6.
     lam_rgb ground_color;
     // Lines over the picture (LAM_OUTPUT_PICTURE alone): the edges of all faces, those of the file's polygons where the mesh
@@ -295,9 +298,10 @@ typedef struct lam_draw_params {
     // distance to its centre, whatever `samples` is; light, exposure and tone do not change their colours. A surface hides the
     // edges behind it where its opacity is at least ½ and no light goes through it (docs/edges.md).
     bool wireframe;
-    bool no_surfaces; // surfaces hide lines, but are not drawn: lines and points alone
-    unsigned edges;
-    lam_hidden_lines hidden_lines;
+    // Surfaces hide lines, but are not drawn: the picture holds lines and points alone.
+    bool no_surfaces;
+    unsigned edges;                    // LAM_EDGES_…; 0: none
+    lam_hidden_lines hidden_lines;     // of edges behind surfaces
     float edge_angle_rad;              // of LAM_EDGES_CREASE, 0…π; 0: 40°
     float wireframe_width, edge_width; // pixels, up to 1000; 0: 1 and 1.5
     // Linear, not premultiplied. All zero: black, and white with no_surfaces over a background darker than 0.18.
@@ -312,9 +316,10 @@ typedef struct lam_frame_report {
     double triangles_ms; // rejecting, clipping, binning
     // Making the normals that meshes lack (lam_load_params.normals_when_drawn).
     double normals_ms;
-    double occlusion_ms; // LAM_OCCLUSION_SCREEN, after the distances were found (rays are part of lighting_ms)
-    double tiles_ms;     // coverage, lighting and resolve of all tiles
-    double total_ms;     // the whole call
+    // LAM_OCCLUSION_SCREEN, after the distances were found (rays are part of lighting_ms).
+    double occlusion_ms;
+    double tiles_ms; // coverage, lighting and resolve of all tiles
+    double total_ms; // the whole call
     // tiles_ms divided by work, in proportion to the times summed over the threads.
     double coverage_ms, lighting_ms, resolve_ms;
     // The OpenGL device: making and sending buffers that are new or have changed (without lighting_ms, that of the
@@ -337,7 +342,8 @@ typedef struct lam_frame_report {
     bool ground;   // the camera sees a ground
     // With one: its height along the scene's up axis, and the side of a checker's squares, model units. Else 0.
     double ground_height, ground_square;
-    double edges_ms;      // finding the edges that are drawn and what of them is in sight; hierarchy_ms apart
+    // Finding the edges that are drawn and what of them is in sight; hierarchy_ms apart.
+    double edges_ms;
     uint64_t edges_drawn; // of meshes that are inside of the picture, hidden ones too
     uint64_t edge_rays;   // from points of edges to the eye
     LAM_RESERVED(5);

@@ -183,8 +183,9 @@ typedef struct lam_explained_fragment {
     const lam_explained_map *maps;
     // What they make of the material; NULL: Gouraud and flat shading.
     const lam_explained_values *values;
-    int map_count;     // elements of `maps`
-    lam_ground ground; // the kind of the ground, where the triangle is its; NONE: it is the scene's
+    int map_count; // elements of `maps`
+    // The kind of the ground where the triangle belongs to it; NONE: the triangle is the scene's.
+    lam_ground ground;
     // LAM_GROUND_SHADOW: the luminance that the point sends to the eye, and that it would send with nothing in the way of light.
     // What is missing is its opacity: 1 − received / unobstructed, times that to which it has faded out.
     float received, unobstructed;

@@ -9,27 +9,31 @@
 extern "C" {
 #endif
 
+// What a setting holds, and how a scene file writes it.
 typedef enum lam_setting_type {
-    LAM_SETTING_WORD,     // an enumeration; lam_setting.word has its words
-    LAM_SETTING_FLAG,     // a bool
-    LAM_SETTING_NOT_FLAG, // a bool that is false where the setting is true, which is the default
-    LAM_SETTING_WHOLE,    // an int
-    LAM_SETTING_NUMBER,   // a float
-    LAM_SETTING_RGB,      // a lam_rgb
-    LAM_SETTING_RGBA,     // a lam_rgba
-    LAM_SETTING_ANGLE,    // a float in radians; `min`, `max` and `standard` are degrees, as scene files have them
-    LAM_SETTING_WORDS,    // an int of bits, each a word of lam_setting.word
+    LAM_SETTING_WORD, // an enumeration; lam_setting.word has its words
+    LAM_SETTING_FLAG, // a bool
+    // A bool that is false where the setting is true, which is the default.
+    LAM_SETTING_NOT_FLAG,
+    LAM_SETTING_WHOLE,  // an int
+    LAM_SETTING_NUMBER, // a float
+    LAM_SETTING_RGB,    // a lam_rgb
+    LAM_SETTING_RGBA,   // a lam_rgba
+    // A float in radians; `min`, `max` and `standard` are degrees, as scene files have them.
+    LAM_SETTING_ANGLE,
+    LAM_SETTING_WORDS, // an int of bits, each a word of lam_setting.word
 } lam_setting_type;
 
 // A setting of lam_draw_params. A member of 0 stands for the default.
 typedef struct lam_setting {
-    const char *key; // in scene files; an option has - in place of _
-    lam_setting_type type;
-    size_t offset; // of the member in lam_draw_params
+    const char *key;       // in scene files; an option has - in place of _
+    lam_setting_type type; // what the member is
+    size_t offset;         // of the member in lam_draw_params
     // The range of WHOLE, NUMBER and ANGLE, and the default.
     double min, max, standard;
-    bool zero;             // WHOLE, NUMBER: 0 may be written too, whatever `min` is
-    bool zero_is_negative; // NUMBER: a written 0 is −1 in the member, where 0 is the default
+    bool zero; // WHOLE, NUMBER: 0 may be written too, whatever `min` is
+    // NUMBER: a written 0 is −1 in the member, where 0 is the default.
+    bool zero_is_negative;
     // The words of WORD and WORDS: the one with this index and its value; NULL past the end. Of several words for one value the
     // first is written.
     const char *(*word)(int index, int *value);

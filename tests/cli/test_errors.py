@@ -252,8 +252,8 @@ class Outputs(Case):
         self.good("cube.obj", "-s", 16, "-o", "small/x.png")
         before = (place / "x.png").read_bytes()
         for more in ([], ["--durable"], ["--sandbox", "off"]):
-            self.bad(5, "teapot", "-s", 800, "-o", "small/x.png", *more, says=["small/x.png", "No space left"])
-            self.bad(5, "teapot", "-s", 800, "-o", "small/new.png", *more, says=["small/new.png", "No space left"])
+            self.bad(5, "teapot", "-s", 2000, "-o", "small/x.png", *more, says=["small/x.png", "No space left"])
+            self.bad(5, "teapot", "-s", 2000, "-o", "small/new.png", *more, says=["small/new.png", "No space left"])
             self.assertEqual(os.listdir(place), ["x.png"])
             self.assertEqual((place / "x.png").read_bytes(), before)
 

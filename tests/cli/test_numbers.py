@@ -103,7 +103,7 @@ ROWS = [
     ("docs/lighting/surfaces.md", "At most {} translucent triangles may lie over one pixel", LAYERS),
     ("docs/lighting/reflection.md", "Faces may have up to {} pixels on a side", SPHERE),
     ("docs/lighting/reflection.md", "built in, computed, {} pixels on a side", constant("src/environment/environment_made.c", "SIDE")),
-    ("docs/scene-file.md", "with more than {} lights", FEW_LIGHTS),
+    ("docs/scene-file.md", "With more than {} lights", FEW_LIGHTS),
     ("docs/rooms/cpu.md", "tiles of {}×{} pixels", TILE, TILE),
     ("docs/rooms/cpu.md", "A thread holds {} such fragments", LAYERS),
     ("docs/rooms/cpu.md", "shaded in batches of {}", constant("src/cpu/shade/shading_batch.h", "BATCH_MAX")),
@@ -179,7 +179,7 @@ class Sentences(Case):
         script = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(script)
         pages = script.pages_with_sections(PROGRAM)
-        self.assertEqual(set(pages), {"docs/lighting/lights.md", "docs/lighting/explain.md", "docs/check/contract-file.md"})
+        self.assertEqual(set(pages), {"docs/lighting/lights.md", "docs/lighting/explain.md", "docs/check/contract-file.md", "docs/scene-file.md"})
         for path, text in pages.items():
             self.assertEqual((ROOT / path).read_text(), text, f"{path}: python3 scripts/docs.py build/lambent --text rewrites it")
 

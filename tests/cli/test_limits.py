@@ -172,8 +172,10 @@ class Limits(Case):
         (self.folder / "one.png").write_bytes(png(1, 1))
         for name, data in PICTURES.items():
             (self.folder / name).write_bytes(data)
-            self.claims(name, "diff", name, name)
-            self.claims(name, "cube.obj", "-s", "16", "--environment", name, "-o", "out.png")
+            # A WebP picture of one colour has no bits for its pixels, so its size is no mistake: it ends at the limit of memory.
+            limit = ["--memory-limit", "500M"] if name == "a.webp" else []
+            self.claims(name, "diff", name, name, *limit)
+            self.claims(name, "cube.obj", "-s", "16", "--environment", name, "-o", "out.png", *limit)
 
     def test_triangles(self):
         triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 5

@@ -51,7 +51,7 @@ static uint64_t hash_of(const lam_bytes *bytes)
 
 static _Noreturn void give_up(const char *what, int picture, const lam_error *error)
 {
-    printf("not ok - picture %d: %s%s%s\n", picture, what, error ? ": " : "", error ? error->text : "");
+    printf("not ok 1 - picture %d: %s%s%s\n", picture, what, error ? ": " : "", error ? error->text : "");
     exit(1);
 }
 
@@ -127,7 +127,7 @@ int main(int count, char **words)
     lam_error error = {0};
     lam_device *device = make_device(gl, &error);
     if (!device && gl && error.code == LAM_UNSUPPORTED) {
-        printf("ok - endurance on OpenGL # SKIP %s\n", error.text);
+        printf("ok 1 - endurance on OpenGL # SKIP %s\n", error.text);
         return SKIPPED;
     }
     for (int i = 0; i < pictures; i++) {
@@ -151,7 +151,7 @@ int main(int count, char **words)
     now = measure();
     lam_device_free(device);
     bool flat = now.kb - before.kb <= GROWTH_MAX_KB, same = now.files == before.files && now.threads == before.threads;
-    printf("%sok - %d pictures on %s: %ld kB at picture %d, %ld kB at the end; %d open files, %d threads\n",
+    printf("%sok 1 - %d pictures on %s: %ld kB at picture %d, %ld kB at the end; %d open files, %d threads\n",
            flat && same ? "" : "not ", pictures, gl ? "OpenGL" : "the CPU", before.kb, warm, now.kb, now.files - 2,
            now.threads - 2);
     return flat && same ? 0 : 1;

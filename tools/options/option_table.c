@@ -897,6 +897,8 @@ const struct option option_table[] = {
      FIELD(help), .letter_field = offsetof(struct options, brief_help)},
     {.name = NULL},
 };
+_Static_assert(sizeof option_table / sizeof *option_table <= OPTIONS_MAX,
+               "more options than struct options has marks for");
 
 static char *append(char *to, const char *text)
 {

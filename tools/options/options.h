@@ -5,7 +5,7 @@
 
 #include <lambent/lambent.h>
 
-enum { OPTIONS_MAX = 128, ACROSS_MAX = 2, VIEWS_MAX = 16 };
+enum { OPTIONS_MAX = 192, ACROSS_MAX = 2, VIEWS_MAX = 16 };
 
 // The values of an option that may be repeated, in order.
 struct texts {

@@ -129,13 +129,16 @@ static char *folder_of(const char *path)
     return name == path ? strdup(".") : strndup(path, (size_t)(name - path));
 }
 
-// A name beside the target that is not in use, so far, from malloc. It is short, and hidden.
+// A name beside the target that is not in use, so far, from malloc. It is short, and hidden. The host stands in it because
+// several may write to one folder, where a process's number alone says little: in containers it is often 1.
 static char *name_beside(const char *target)
 {
-    char *name;
+    char *name, host[65] = "";
     int folder = (int)(path_name(target) - target);
-    return asprintf(&name, "%.*s.lambent-%ld-%llx.part", folder, target, (long)getpid(), (unsigned long long)now_ns()) <
-                   0
+    if (gethostname(host, sizeof host - 1) != 0 || strchr(host, '/'))
+        host[0] = 0;
+    return asprintf(&name, "%.*s.lambent-%ld-%s-%llx.part", folder, target, (long)getpid(), host,
+                    (unsigned long long)now_ns()) < 0
                ? NULL
                : name;
 }

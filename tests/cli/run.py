@@ -10,7 +10,7 @@ if len(sys.argv) < 2:
 os.environ["LAMBENT"] = str(pathlib.Path(sys.argv.pop(1)).resolve())
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 suite = ["test_show", "test_options", "test_output", "test_errors", "test_docs", "test_numbers", "test_diff", "test_plot", "test_compare",
-         "test_lights", "test_scene", "test_gltf", "test_textures", "test_explain", "test_environment", "test_devices", "test_shader", "test_completion", "test_shadows", "test_limits", "test_occlusion", "test_sandbox", "test_batch", "test_edges", "test_animation"]
+         "test_lights", "test_scene", "test_gltf", "test_textures", "test_explain", "test_environment", "test_devices", "test_shader", "test_completion", "test_shadows", "test_limits", "test_occlusion", "test_sandbox", "test_batch", "test_shards", "test_edges", "test_animation"]
 
 
 class TapResult(unittest.TextTestResult):

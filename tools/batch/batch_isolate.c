@@ -175,7 +175,7 @@ static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_proc
     if (!whole) {
         if (before)
             memcpy(u->pictures, before, (size_t)b->plan->view_count * sizeof *before);
-        batch_remove_parts(b, u->model, process->pid);
+        batch_remove_parts(b, u->model, process->pid, NULL);
         if (!interrupted())
             fail_process(b, u, process, status);
     }

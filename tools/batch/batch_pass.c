@@ -9,6 +9,7 @@
 
 #include "console.h"
 #include "exit_codes.h"
+#include "host_name.h"
 #include "interrupt.h"
 
 // --- which model is next
@@ -61,21 +62,26 @@ bool batch_take(struct batch *b, size_t *model)
 
 // --- what a killed run left
 
-void batch_remove_parts(const struct batch *b, size_t model, int process)
+// The name that file_write.c gives to a file until it is whole: ".lambent-PROCESS-HOST-TIME.part".
+static bool is_part(const char *name, const char *begin)
 {
-    char begin[40];
-    int length = snprintf(begin, sizeof begin, ".lambent-%d-", process);
+    size_t length = strlen(begin);
+    return strncmp(name, begin, length) == 0 &&
+           strcmp(name + length + strspn(name + length, "0123456789abcdef"), ".part") == 0;
+}
+
+void batch_remove_parts(const struct batch *b, size_t model, int process, const char *host)
+{
+    char begin[40 + HOST_SIZE], here[HOST_SIZE];
+    snprintf(begin, sizeof begin, ".lambent-%d-%s-", process, host ? host : host_name(here));
     for (int i = 0; i < b->plan->view_count; i++) {
         char *output = batch_plan_output(b->plan, model, i), *slash = output ? strrchr(output, '/') : NULL;
         if (slash)
             slash[slash == output] = 0;
         DIR *folder = output ? opendir(slash ? output : ".") : NULL;
-        for (struct dirent *entry; folder && (entry = readdir(folder));) {
-            size_t size = strlen(entry->d_name);
-            if (strncmp(entry->d_name, begin, (size_t)length) == 0 && size > 5 &&
-                strcmp(entry->d_name + size - 5, ".part") == 0)
+        for (struct dirent *entry; folder && (entry = readdir(folder));)
+            if (is_part(entry->d_name, begin))
                 unlinkat(dirfd(folder), entry->d_name, 0);
-        }
         if (folder)
             closedir(folder);
         free(output);
@@ -87,13 +93,13 @@ struct suspects {
     size_t count;
 };
 
-static void note_suspect(void *user, const char *model, int process)
+static void note_suspect(void *user, const char *model, int process, const char *host)
 {
     struct suspects *s = user;
     struct batch *b = s->batch;
     for (size_t i = 0; i < b->plan->count; i++)
         if (strcmp(b->plan->models[i].path, model) == 0) {
-            batch_remove_parts(b, i, process);
+            batch_remove_parts(b, i, process, host);
             s->count += b->taken[i];
             b->taken[i] = false;
         }

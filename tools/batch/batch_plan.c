@@ -60,7 +60,7 @@ static bool check_together(const struct options *o, lam_error *error)
 bool batch_plan_start(struct batch_plan *plan, const struct options *o, lam_error *error)
 {
     *plan = (struct batch_plan){.options = o};
-    if (!check_together(o, error))
+    if (!check_together(o, error) || (o->shard && !batch_shard_of(o->shard, &plan->shard, error)))
         return false;
     int views = o->view_count ? o->view_count : 1, sizes = o->size_count ? o->size_count : 1;
     for (int v = 0; v < views; v++)
@@ -155,7 +155,28 @@ static bool find_doubles(const struct batch_plan *plan, const struct named_outpu
     return true;
 }
 
-bool batch_plan_check(const struct batch_plan *plan, lam_error *error)
+// Keeps the models of this shard, in their order.
+static bool keep_shard(struct batch_plan *plan, lam_error *error)
+{
+    size_t kept = 0;
+    bool ok = true;
+    for (size_t i = 0; i < plan->count; i++) {
+        struct batch_model *model = &plan->models[i];
+        char *name = ok ? batch_shard_name(model->path, model->root) : NULL;
+        ok = name != NULL;
+        if (ok && batch_shard_of_name(name, plan->shard.count) == plan->shard.number) {
+            plan->models[kept++] = *model;
+        } else {
+            free(model->path);
+            free(model->root);
+        }
+        free(name);
+    }
+    plan->count = kept;
+    return ok || complain(error, LAM_LIMIT, "out of memory");
+}
+
+bool batch_plan_check(struct batch_plan *plan, lam_error *error)
 {
     size_t count = plan->count * (size_t)plan->view_count, used = 0;
     struct named_output *named = calloc(count + 1, sizeof *named);
@@ -174,7 +195,8 @@ bool batch_plan_check(const struct batch_plan *plan, lam_error *error)
     for (size_t i = 0; i < used; i++)
         free(named[i].output);
     free(named);
-    return ok;
+    plan->all = plan->count;
+    return ok && (!plan->shard.count || keep_shard(plan, error));
 }
 
 void batch_plan_free(struct batch_plan *plan)

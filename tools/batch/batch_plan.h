@@ -2,6 +2,7 @@
 #ifndef BATCH_PLAN_H
 #define BATCH_PLAN_H
 
+#include "batch_shard.h"
 #include "job.h"
 
 struct batch_model {
@@ -15,7 +16,9 @@ struct batch_plan {
     size_t count, capacity;
     struct job_view views[VIEWS_MAX * VIEWS_MAX]; // of each model
     int view_count;
-    char *pattern; // of the names; NULL: that of the model
+    char *pattern;            // of the names; NULL: that of the model
+    struct batch_shard shard; // --shard
+    size_t all;               // models of all shards together
 };
 
 // A plan without models. Checks the options that belong together. Error: LAM_BAD_ARGUMENT.
@@ -24,8 +27,9 @@ bool batch_plan_start(struct batch_plan *plan, const struct options *options, la
 // Adds a model; `root` may be NULL. Both are copied. False: LAM_LIMIT.
 bool batch_plan_add(struct batch_plan *plan, const char *path, const char *root, lam_error *error);
 
-// Finds two pictures of one name, and names that cannot be written. Error: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED.
-bool batch_plan_check(const struct batch_plan *plan, lam_error *error);
+// Ends the adding. Finds two pictures of one name, of any shard, and names that cannot be written; then keeps the models of this
+// shard. Error: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED.
+bool batch_plan_check(struct batch_plan *plan, lam_error *error);
 
 // The path of a picture, from malloc. NULL: out of memory.
 char *batch_plan_output(const struct batch_plan *plan, size_t model, int view);

@@ -244,8 +244,10 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     b->records = o->report_page ? calloc(pictures + 1, sizeof *b->records) : NULL;
     if (!b->pictures || !b->taken || !b->texts.list || (o->report_page && !b->records))
         return complain(error, LAM_LIMIT, "out of memory");
-    b->tally = (struct batch_tally){
-        .total = pictures, .start_ms = clock_ms(), .has_progress = console_is_terminal() && !o->quiet && models > 1};
+    b->tally = (struct batch_tally){.shard = b->plan->shard,
+                                    .total = pictures,
+                                    .start_ms = clock_ms(),
+                                    .has_progress = console_is_terminal() && !o->quiet && models > 1};
     if ((journal || o->report_page) && !(b->options_text = batch_options_text(o, error)))
         return false;
     b->way = o->skip_same ? JOURNAL_SAME : o->resume ? JOURNAL_RESUME : JOURNAL_START;
@@ -253,7 +255,11 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
         return false;
     char *all = journal ? pictures_text(b) : NULL;
     bool ok = !journal || all || complain(error, LAM_LIMIT, "out of memory");
-    ok = ok && (!journal || (b->journal = journal_open(journal, b->way, all, b->workers, error)));
+    char shard[32] = "";
+    if (b->plan->shard.count)
+        snprintf(shard, sizeof shard, "%d/%d", b->plan->shard.number, b->plan->shard.count);
+    struct journal_run run = {all, *shard ? shard : NULL, pictures};
+    ok = ok && (!journal || (b->journal = journal_open(journal, b->way, &run, b->workers, error)));
     free(all);
     return ok;
 }
@@ -304,7 +310,7 @@ static void free_batch(struct batch *b)
     pthread_mutex_destroy(&b->lock);
 }
 
-int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch)
+static int run(const struct batch_plan *plan, const char *journal, bool is_batch)
 {
     struct batch b = {.plan = plan, .options = plan->options, .is_batch = is_batch, .journal_path = journal};
     lam_error error = {0};
@@ -327,5 +333,27 @@ int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch)
         fflush(stdout);
         interrupt_finish();
     }
+    return code;
+}
+
+int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch)
+{
+    const struct batch_shard *shard = &plan->shard;
+    if (!shard->count)
+        return run(plan, journal, is_batch);
+    // The files that a batch has besides its pictures are each shard's own.
+    struct options options = *plan->options;
+    struct batch_plan part = *plan;
+    const char *page = options.report_page;
+    char *own_journal = journal ? batch_shard_path(journal, shard) : NULL;
+    char *own_page = page ? batch_shard_path(page, shard) : NULL;
+    lam_error error = {0};
+    bool ok = ((own_journal || !journal) && (own_page || !page)) || complain(&error, LAM_LIMIT, "out of memory");
+    ok = ok && (!journal || batch_shard_check_folder(journal, shard, &error));
+    options.report_page = own_page;
+    part.options = &options;
+    int code = ok ? run(&part, own_journal, is_batch) : report_failure(&error, plan->options);
+    free(own_journal);
+    free(own_page);
     return code;
 }

@@ -67,6 +67,8 @@ void batch_say_summary(const struct batch_tally *t, bool interrupted)
 {
     double seconds = (clock_ms() - t->start_ms) / 1e3;
     char time[32];
+    if (t->shard.count)
+        say_plain("shard %d/%d: ", t->shard.number, t->shard.count);
     say_plain("%s%zu of %zu pictures written", interrupted ? "interrupted: " : "", t->written, t->total);
     if (t->same)
         say_plain(", %zu unchanged", t->same);

@@ -2,6 +2,7 @@
 #ifndef BATCH_TELL_H
 #define BATCH_TELL_H
 
+#include "batch_shard.h"
 #include "exit_codes.h"
 #include "options.h"
 
@@ -9,6 +10,7 @@ enum { TALLY_CLASSES = 12 };
 
 // Counts of pictures.
 struct batch_tally {
+    struct batch_shard shard;
     size_t total, written, failed, same, before, failed_before; // before: by the runs of the journal
     size_t warnings;
     struct {

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +13,7 @@
 
 #include "batch_key.h"
 #include "console.h"
+#include "host_name.h"
 #include "output.h"
 #include "xxh64.h"
 
@@ -155,12 +157,12 @@ static bool write_all(int file, const char *text, size_t size)
 }
 
 // The line that begins a run.
-static bool begin_run(struct journal *j, const char *options, lam_error *error)
+static bool begin_run(struct journal *j, const struct journal_run *about, lam_error *error)
 {
-    char *clean = journal_text(options);
-    json_t *run =
-        clean ? json_pack("{s:s, s:s, s:s}", "lambent", lam_version(), "build", lam_build_info(), "options", clean)
-              : NULL;
+    char *clean = journal_text(about->options);
+    json_t *run = clean ? json_pack("{s:s, s:s, s:s, s:s*, s:I}", "lambent", lam_version(), "build", lam_build_info(),
+                                    "options", clean, "shard", about->shard, "pictures", (json_int_t)about->pictures)
+                        : NULL;
     bool ok = run || complain(error, LAM_LIMIT, "out of memory");
     ok = ok && journal_add(j, run, error);
     json_decref(run);
@@ -240,7 +242,8 @@ static bool open_running(struct journal *j, int slots, lam_error *error)
     return true;
 }
 
-struct journal *journal_open(const char *path, enum journal_way way, const char *options, int slots, lam_error *error)
+struct journal *journal_open(const char *path, enum journal_way way, const struct journal_run *run, int slots,
+                             lam_error *error)
 {
     struct journal *j = calloc(1, sizeof *j);
     if (j)
@@ -249,7 +252,7 @@ struct journal *journal_open(const char *path, enum journal_way way, const char 
     if (!ok)
         complain(error, LAM_LIMIT, "out of memory");
     ok = ok && output_make_folder(path, error) && open_running(j, slots, error) &&
-         (way == JOURNAL_START ? set_aside(j, error) : read_journal(j, way, options, error));
+         (way == JOURNAL_START ? set_aside(j, error) : read_journal(j, way, run->options, error));
     if (ok) {
         j->file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
         ok = j->file >= 0 || complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno));
@@ -257,7 +260,7 @@ struct journal *journal_open(const char *path, enum journal_way way, const char 
     // A torn line is ended, so that the next one stands alone.
     ok = ok && (!j->torn || write_all(j->file, "\n", 1) ||
                 complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno)));
-    ok = ok && begin_run(j, options, error);
+    ok = ok && begin_run(j, run, error);
     if (ok)
         return j;
     journal_close(j, false);
@@ -297,30 +300,35 @@ bool journal_add(struct journal *j, const json_t *record, lam_error *error)
 
 // --- what is being drawn
 
+// A slot of FILE.running.
+struct slot {
+    int process;
+    char host[HOST_SIZE];
+    char model[SLOT - sizeof(int) - HOST_SIZE]; // "": none
+};
+
 void journal_begin(struct journal *j, int slot, int process, const char *model)
 {
-    char text[SLOT];
+    struct slot text = {.process = process};
     size_t length = model ? strlen(model) : 0;
-    if (length + 20 > sizeof text) // such a path cannot be opened
+    if (length < sizeof text.model) // a longer path cannot be opened
+        memcpy(text.model, model ? model : "", length);
+    else
         length = 0;
-    memset(text, 0, length + 20);
-    memcpy(text, &process, sizeof process);
-    memcpy(text + sizeof process, model ? model : "", length);
+    host_name(text.host);
     // Where it cannot be written, a killed run is resumed without its models being drawn first.
-    if (pwrite(j->running, text, sizeof process + length + 1, (off_t)slot * SLOT) < 0)
+    if (pwrite(j->running, &text, offsetof(struct slot, model) + length + 1, (off_t)slot * SLOT) < 0)
         return;
 }
 
-void journal_each_running(const struct journal *j, void (*visit)(void *user, const char *model, int process),
-                          void *user)
+void journal_each_running(const struct journal *j,
+                          void (*visit)(void *user, const char *model, int process, const char *host), void *user)
 {
     for (size_t i = 0; i < j->was_slots; i++) {
-        const char *slot = j->was_running + i * SLOT;
-        int process;
-        memcpy(&process, slot, sizeof process);
-        const char *model = slot + sizeof process;
-        if (*model && memchr(model, 0, SLOT - sizeof process))
-            visit(user, model, process);
+        struct slot slot;
+        memcpy(&slot, j->was_running + i * SLOT, sizeof slot);
+        if (*slot.model && memchr(slot.model, 0, sizeof slot.model) && memchr(slot.host, 0, sizeof slot.host))
+            visit(user, slot.model, slot.process, slot.host);
     }
 }
 

@@ -16,9 +16,17 @@ struct journal;
 // added to it; for RESUME its options must be these.
 enum journal_way { JOURNAL_START, JOURNAL_RESUME, JOURNAL_SAME };
 
-// `options`: batch_options_text, and the names of the pictures. `slots`: the most models that are drawn at once. NULL:
-// LAM_BAD_ARGUMENT (other options; in use by another run), LAM_CANNOT_READ, LAM_CANNOT_WRITE, LAM_LIMIT.
-struct journal *journal_open(const char *path, enum journal_way way, const char *options, int slots, lam_error *error);
+// What the line says that begins a run.
+struct journal_run {
+    const char *options; // batch_options_text, and the names of the pictures
+    const char *shard;   // "2/3"; NULL: there are no shards
+    size_t pictures;     // that the run will have, with those that are written already
+};
+
+// `slots`: the most models that are drawn at once. NULL: LAM_BAD_ARGUMENT (other options; in use by another run),
+// LAM_CANNOT_READ, LAM_CANNOT_WRITE, LAM_LIMIT.
+struct journal *journal_open(const char *path, enum journal_way way, const struct journal_run *run, int slots,
+                             lam_error *error);
 
 // The latest line of a picture, by its path; NULL: none. The caller calls json_decref.
 json_t *journal_find(const struct journal *journal, const char *output);
@@ -32,9 +40,9 @@ char *journal_line(const json_t *record);
 // Says that a slot's model is being drawn by a process; NULL: nothing is.
 void journal_begin(struct journal *journal, int slot, int process, const char *model);
 
-// The models that a killed run was drawing, with the process that did; calls `visit` for each.
-void journal_each_running(const struct journal *journal, void (*visit)(void *user, const char *model, int process),
-                          void *user);
+// The models that a killed run was drawing, with the process that did and its machine; calls `visit` for each.
+void journal_each_running(const struct journal *journal,
+                          void (*visit)(void *user, const char *model, int process, const char *host), void *user);
 
 // Closes it. `done`: the run came to its end, and nothing is being drawn. NULL is fine.
 void journal_close(struct journal *journal, bool done);

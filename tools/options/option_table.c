@@ -788,6 +788,16 @@ const struct option option_table[] = {
      "A model that crashes or uses up the memory costs one line of the journal, of the class `crashed`, and the others "
      "go on.",
      .store = store_switch, .others = "process fork sandbox-process", FIELD(isolate)},
+    {"shard", 0, GROUP_BATCH, "K/N", "all models",
+     "Draw the K-th of N parts of the models (from 1), beside other machines that draw the others.",
+     "Which part a model belongs to follows from its path alone: one that is added moves no other. `auto` takes K and "
+     "N "
+     "from SLURM_ARRAY_TASK_ID or OMPI_COMM_WORLD_RANK and their counts; `auto/N` takes K from them or from "
+     "JOB_COMPLETION_INDEX (Kubernetes). Where they leave a doubt, nothing is drawn; without this option they count "
+     "for "
+     "nothing. The journal and the page of each part have names of their own: `lambent-2-of-4.jsonl` "
+     "(`docs/batch.md`).",
+     .store = store_text, .others = "part slice partition split array distribute", FIELD(shard)},
     {"report", 0, GROUP_BATCH, "FILE.html", NULL, "Also write a page of all pictures, failures first.",
      "Thumbnails go to the folder FILE-files beside it. It needs no other file and no network.", .kind = VALUE_FILE,
      .store = store_text, .others = "contact-sheet html gallery page", FIELD(report_page)},

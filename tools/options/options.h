@@ -116,6 +116,7 @@ struct options {
     int views[VIEWS_MAX], view_count; // lam_side; 0: that of --view
     int sizes[VIEWS_MAX][2], size_count;
     const char *journal;     // NULL: the command's default; "none"
+    const char *shard;       // as written (batch_shard.h); NULL: all models
     const char *report_page; // NULL: none
     int retry_failed;
     bool resume, skip_same, isolate;

@@ -1,0 +1,189 @@
+# test_shards.py: --shard: many machines draw parts of one batch; each model is drawn by one of them, whatever the environment says.
+import json
+import os
+import subprocess
+
+from harness import PROGRAM
+from test_batch import Batch, xxh64
+
+VARIABLES = ("SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_MAX", "SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_STEP",
+             "JOB_COMPLETION_INDEX", "OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE")
+
+
+def shard_of(name, count):
+    """docs/batch.md: XXH64 of the name's bytes, modulo the number of shards, plus 1."""
+    return int(xxh64(name.encode())[6:], 16) % count + 1
+
+
+class Shards(Batch):
+    def setUp(self):
+        super().setUp()
+        for name in VARIABLES:
+            os.environ.pop(name, None)
+
+    def models(self, *words, code=0, env={}):
+        """The models of a dry run."""
+        done = subprocess.run([PROGRAM, "batch", *map(str, words), "--dry-run"], cwd=self.folder, capture_output=True,
+                              env={**os.environ, **{key: str(value) for key, value in env.items()}})
+        self.assertEqual(done.returncode, code, done.stderr.decode())
+        return [line.split(" -> ")[0] for line in done.stdout.decode().splitlines()] if not code else done.stderr.decode()
+
+    def slurm(self, number, first, last, step=1, count=None):
+        count = (last - first) // step + 1 if count is None else count
+        return {"SLURM_ARRAY_TASK_ID": number, "SLURM_ARRAY_TASK_MIN": first, "SLURM_ARRAY_TASK_MAX": last,
+                "SLURM_ARRAY_TASK_COUNT": count, "SLURM_ARRAY_TASK_STEP": step}
+
+    # --- which models
+
+    def test_every_model_once(self):
+        names = self.tree(40)
+        for count in (1, 2, 7, 100):
+            parts = [self.models("in", "-o", "out/", "--shard", f"{k}/{count}") for k in range(1, count + 1)]
+            self.assertEqual(sorted(sum(parts, [])), sorted(names))
+            for k, part in enumerate(parts, 1):
+                self.assertEqual(part, sorted(n for n in names if shard_of(n[len("in/"):], count) == k))
+
+    def test_added_files_move_no_other(self):
+        self.tree(20)
+        before = {k: set(self.models("in", "-o", "out/", "--shard", f"{k}/5")) for k in range(1, 6)}
+        for i in range(20):
+            self.cube(f"in/c/n{i}.stl")
+        for k in range(1, 6):
+            after = set(self.models("in", "-o", "out/", "--shard", f"{k}/5"))
+            self.assertEqual({n for n in after if "/c/" not in n}, before[k])
+
+    def test_names(self):
+        """Below the folder that was given, wherever it lies; of lists and operands as they stand, normalised."""
+        self.tree(12)
+        for k in (1, 2, 3):
+            shard = ["-o", "out/", "--shard", f"{k}/3"]
+            here = [n[len("in/"):] for n in self.models("in", *shard)]
+            self.assertEqual([n[len("in/"):] for n in self.models("in/", *shard)], here)
+            self.assertEqual([n[len("./in/"):] for n in self.models("./in", *shard)], here)
+            whole = str(self.folder / "in")
+            self.assertEqual([n[len(whole) + 1:] for n in self.models(whole, *shard)], here)
+        self.cube("x/y.stl")
+        forms = ["x/y.stl", "./x/y.stl", "x//y.stl", "x/./y.stl", "x/../x/y.stl", "in/../x/y.stl", "in/a/../../x/y.stl"]
+        for form in forms:
+            drawn = [k for k in range(1, 10) if self.models(form, "-o", "out/", "--shard", f"{k}/9")]
+            self.assertEqual(drawn, [shard_of("x/y.stl", 9)], form)
+        (self.folder / "list").write_text("".join(n + "\n" for n in self.tree(12)))
+        for k in (1, 2):
+            self.assertEqual(self.models("@list", "-o", "out/", "--shard", f"{k}/2"),
+                             [n for n in self.tree(12) if shard_of(n, 2) == k])
+
+    def test_pictures_of_one_name_in_two_shards(self):
+        self.cube("a/m.stl")
+        self.cube("b/m.stl")
+        self.assertNotEqual(shard_of("a/m.stl", 7), shard_of("b/m.stl", 7))
+        for k in range(1, 8):
+            self.assertIn("both be written", self.models("a/m.stl", "b/m.stl", "-o", "out/", "--shard", f"{k}/7", code=1))
+
+    # --- where the number comes from
+
+    def test_written(self):
+        self.tree(2)
+        for text in ("0/2", "3/2", "1/0", "2", "", "/2", "1/", "-1/2", "1/2/3", "a/2", "auto/", "auto/0", "auto/x", "autos", "1/99999999"):
+            self.assertIn("--shard", self.models("in", "-o", "out/", "--shard", text, code=1), text)
+
+    def auto(self, env, text="auto", code=0):
+        self.tree(30)
+        return self.models("in", "-o", "out/", "--shard", text, env=env, code=code)
+
+    def test_slurm(self):
+        expected = [self.models("in", "-o", "out/", "--shard", f"{k}/4") if self.tree(30) else None for k in range(1, 5)]
+        for first, step in ((0, 1), (1, 1), (0, 5), (1, 2)):
+            ids = range(first, first + 4 * step, step)
+            self.assertEqual([self.auto(self.slurm(i, first, ids[-1], step)) for i in ids], expected)
+        self.assertEqual([self.auto(self.slurm(i, 0, 3), "auto/4") for i in range(4)], expected)
+        without = self.slurm(2, 0, 3)
+        del without["SLURM_ARRAY_TASK_STEP"]
+        self.assertEqual(self.auto(without), expected[2])
+        # Tasks that are submitted again keep their part where its number is given, and are refused where it is not.
+        again = self.slurm(3, 1, 3, 2)
+        self.assertEqual(self.auto(again, "auto/4"), expected[3])
+        for env in (self.slurm(17, 17, 17), self.slurm(2, 2, 3), self.slurm(3, 0, 7, 1, 3), self.slurm(9, 0, 3), self.slurm(1, 0, 4, 2),
+                    self.slurm(0, 0, 0, 1, 0), self.slurm("x", 0, 3), self.slurm(-1, 0, 3)):
+            self.assertIn("--shard", self.auto(env, code=1), env)
+        self.assertIn("is 4, expected 0 to 3", self.auto(self.slurm(4, 1, 4), "auto/4", code=1))  # counted from 1: the first part would be missing
+        for name in ("SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_MAX", "SLURM_ARRAY_TASK_COUNT"):
+            env = self.slurm(1, 0, 3)
+            del env[name]
+            self.assertIn(name + " is not set", self.auto(env, code=1))
+
+    def test_kubernetes(self):
+        expected = [self.models("in", "-o", "out/", "--shard", f"{k}/3") if self.tree(30) else None for k in (1, 2, 3)]
+        self.assertEqual([self.auto({"JOB_COMPLETION_INDEX": i}, "auto/3") for i in range(3)], expected)
+        self.assertIn("--shard auto/N", self.auto({"JOB_COMPLETION_INDEX": 1}, code=1))
+        self.assertIn("is 3, expected 0 to 2", self.auto({"JOB_COMPLETION_INDEX": 3}, "auto/3", code=1))
+
+    def test_open_mpi(self):
+        expected = [self.models("in", "-o", "out/", "--shard", f"{k}/3") if self.tree(30) else None for k in (1, 2, 3)]
+        for text in ("auto", "auto/3"):
+            self.assertEqual([self.auto({"OMPI_COMM_WORLD_RANK": i, "OMPI_COMM_WORLD_SIZE": 3}, text) for i in range(3)], expected)
+        self.assertIn("OMPI_COMM_WORLD_SIZE", self.auto({"OMPI_COMM_WORLD_RANK": 0}, code=1))
+        self.assertIn("OMPI_COMM_WORLD_SIZE is 2", self.auto({"OMPI_COMM_WORLD_RANK": 0, "OMPI_COMM_WORLD_SIZE": 2}, "auto/3", code=1))
+        self.auto({"OMPI_COMM_WORLD_RANK": 2, "OMPI_COMM_WORLD_SIZE": 2}, code=1)
+
+    def test_doubt(self):
+        """Nothing and two things are no answer; and without --shard the environment counts for nothing."""
+        self.assertIn("none of", self.auto({}, code=1))
+        both = {**self.slurm(0, 0, 1), "OMPI_COMM_WORLD_RANK": 0, "OMPI_COMM_WORLD_SIZE": 2}
+        self.assertIn("both", self.auto(both, code=1))
+        self.assertEqual(len(self.models("in", "-o", "out/", env=both)), 30)
+
+    # --- the run
+
+    def header(self, path):
+        return json.loads((self.folder / path).read_text().splitlines()[0])
+
+    def test_run(self):
+        """Shards give the pictures of one run, each with a journal and a page of its own."""
+        names = self.tree(9)
+        self.batch("in", "-o", "one/{dir}/{stem}.png")
+        for k in (1, 2, 3):
+            done = self.batch("in", "-o", "out/{dir}/{stem}.png", "--shard", f"{k}/3", "--report", "pages/p.html")
+            count = sum(shard_of(n[len("in/"):], 3) == k for n in names)
+            self.assertIn(f"shard {k}/3: {count} of {count} pictures written", done.stderr.decode())
+        self.assertEqual(self.pictures("out"), self.pictures("one"))
+        self.assertEqual({n for n in self.files() if not n.endswith(".png")}, {f"lambent-{k}-of-3.jsonl" for k in (1, 2, 3)})
+        self.assertEqual({n for n in self.files("pages") if "/" not in n}, {f"p-{k}-of-3.html" for k in (1, 2, 3)})
+        records = sum((self.journal(f"out/lambent-{k}-of-3.jsonl") for k in (1, 2, 3)), [])
+        self.assertEqual(sorted(r["model"] for r in records), sorted(names))
+        self.assertEqual(self.header("out/lambent-2-of-3.jsonl")["shard"], "2/3")
+        self.assertEqual(self.header("out/lambent-2-of-3.jsonl")["pictures"], len(self.journal("out/lambent-2-of-3.jsonl")))
+
+    def test_resume(self):
+        self.tree(9)
+        for k in (1, 2):
+            self.batch("in", "-o", "out/{stem}.png", "--shard", f"{k}/2", "--journal", "j/log.jsonl")
+        done = self.batch("in", "-o", "out/{stem}.png", "--shard", "2/2", "--journal", "j/log.jsonl", "--resume")
+        self.assertIn("0 of", done.stderr.decode())
+        self.assertEqual(self.files("j"), {"log-1-of-2.jsonl", "log-2-of-2.jsonl"})
+
+    def test_another_number_of_shards(self):
+        """It would give models to other shards than those that have drawn them."""
+        self.tree(3)
+        self.batch("in", "-o", "out/", "--shard", "03/12")
+        self.assertTrue((self.folder / "out/lambent-03-of-12.jsonl").exists())
+        done = self.batch("in", "-o", "out/", "--shard", "1/2", code=1)
+        self.assertIn("lambent-03-of-12.jsonl is of a run with 12 shards", done.stderr.decode())
+        self.assertEqual(len(self.pictures()), len(self.journal("out/lambent-03-of-12.jsonl")))
+        self.batch("in", "-o", "out/", "--shard", "4/12")
+
+    def test_a_shard_without_models(self):
+        self.cube("in/m.stl")
+        empty = 1 + shard_of("m.stl", 2) % 2
+        done = self.batch("in", "-o", "out/", "--shard", f"{empty}/2", "--report", "p.html")
+        self.assertIn("0 of 0 pictures", done.stderr.decode())
+        self.assertEqual(self.pictures(), {})
+        self.assertEqual(self.header(f"out/lambent-{empty}-of-2.jsonl")["pictures"], 0)
+        self.batch("in", "-o", "out/", "--shard", f"{empty}/2", "--resume", "--isolate")
+
+    def test_render(self):
+        """`lambent A B` is the same loop."""
+        names = self.tree(6)
+        for k in (1, 2):
+            self.run_program(*names, "-s", 24, "-o", "out/", "--shard", f"{k}/2", "--journal", "log.jsonl")
+        self.assertEqual(len(self.pictures()), 6)
+        self.assertEqual(len(self.journal("log-1-of-2.jsonl") + self.journal("log-2-of-2.jsonl")), 6)

@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
-# run.py: runs all tests of the program.  run.py PROGRAM [unittest's arguments]
+# run.py: runs tests of the program.  run.py PROGRAM [unittest's arguments; without them all but `check` and `known`]
+# run.py --modules prints the names of those test files: tests/meson.build makes a test of each, which run beside one another.
 import os
 import pathlib
 import sys
 import unittest
 
+suite = sorted(path.stem for path in pathlib.Path(__file__).parent.glob("test_*.py")
+               if path.stem not in ("test_check", "test_check_class", "test_known"))
+if sys.argv[1:] == ["--modules"]:
+    print("\n".join(suite))
+    sys.exit()
 if len(sys.argv) < 2:
     sys.exit("run.py: the program to test is missing: run.py build/lambent")
 os.environ["LAMBENT"] = str(pathlib.Path(sys.argv.pop(1)).resolve())
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-suite = ["test_show", "test_options", "test_output", "test_errors", "test_docs", "test_numbers", "test_diff", "test_plot", "test_compare",
-         "test_lights", "test_scene", "test_gltf", "test_textures", "test_explain", "test_environment", "test_devices", "test_shader", "test_completion", "test_shadows", "test_limits", "test_occlusion", "test_sandbox", "test_batch", "test_shards", "test_edges", "test_animation"]
 
 
 class TapResult(unittest.TextTestResult):

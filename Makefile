@@ -14,7 +14,7 @@ help:
 	@echo 'make            builds $(build)/lambent (missing Debian packages are installed first)'
 	@echo 'make demo       builds and renders the Utah teapot to out/demo.png'
 	@echo 'make test       builds and runs the whole test suite, both compilers, with sanitizers'
-	@echo 'make test-long  what takes too long for make test: kills, 20,000 pictures, other processors under qemu'
+	@echo 'make test-long  what takes too long for make test: kills, 20,000 pictures, other processors under qemu, a Slurm'
 	@echo 'make test-gl    the tests of OpenGL alone; names the driver that they ran on'
 	@echo 'make test-debian13  make demo and make test on a fresh Debian 13 root, in build-debian13/ (needs root)'
 	@echo 'make fuzz       fuzzes every reader and the drawing, a minute each (time=1200 targets="obj ply")'

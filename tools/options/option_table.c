@@ -788,7 +788,7 @@ const struct option option_table[] = {
      "A model that crashes or uses up the memory costs one line of the journal, of the class `crashed`, and the others "
      "go on.",
      .store = store_switch, .others = "process fork sandbox-process", FIELD(isolate)},
-    {"shard", 0, GROUP_BATCH, "K/N", "all models",
+    {"shard", 0, GROUP_BATCH, "K/N", "1/1",
      "Draw the K-th of N parts of the models (from 1), beside other machines that draw the others.",
      "Which part a model belongs to follows from its path alone: one that is added moves no other. `auto` takes K and "
      "N "

@@ -6,13 +6,14 @@ DESTDIR ?=
 time    ?= 60
 MAKEFLAGS += --no-print-directory
 
-.PHONY: all demo test test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall clean help
+.PHONY: all demo web test test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall clean help
 
 all: $(build)/lambent
 
 help:
 	@echo 'make            builds $(build)/lambent (missing Debian packages are installed first)'
 	@echo 'make demo       builds and renders the Utah teapot to out/demo.png'
+	@echo 'make web        builds the WebAssembly modules, in build-web/'
 	@echo 'make test       builds and runs the whole test suite, both compilers, with sanitizers'
 	@echo 'make test-long  what takes too long for make test: kills, 20,000 pictures, other processors under qemu, a Slurm'
 	@echo 'make test-gl    the tests of OpenGL alone; names the driver that they ran on'
@@ -43,8 +44,13 @@ demo: $(build)/lambent
 	@echo 'The picture: out/demo.png'
 	@echo 'Next, try:   $(build)/lambent torus-knot --background white -o out/knot.png'
 
+web:
+	@scripts/setup.sh build web
+	@python3 web/build.py build-web
+
 test:
 	@scripts/setup.sh build test
+	@scripts/setup.sh web || true # optional: what is missing is skipped
 	@python3 tests/run.py
 
 test-gl:

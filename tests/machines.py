@@ -3,7 +3,7 @@
 
 Clang's cross compilers with Debian's C libraries look at every source file of the folders that a picture needs, without the
 importers and codecs that depend on a packaged library: their types, intrinsics and warnings. No code is generated, which takes minutes; tests/emulated.py
-builds for other processors and draws there, in `make test-long`."""
+builds for other processors and draws there, in `make test-long`, and tests/web.py builds for WebAssembly."""
 import glob
 import os
 import subprocess
@@ -18,12 +18,11 @@ FLAGS = ["-std=gnu11", "-fsyntax-only", "-D_GNU_SOURCE", "-DNDEBUG", "-ffp-contr
 MACHINES = {
     "arm64": {"flags": ["--target=aarch64-linux-gnu", "-isystem", "/usr/aarch64-linux-gnu/include"],
               "needs": "/usr/aarch64-linux-gnu/include/stdio.h", "package": "libc6-dev-arm64-cross",
-              "kernels": [("scalar", 1), ("neon", 4)], "without": []},
-    "wasm": {"flags": ["--target=wasm32-wasi", "-isystem", "/usr/include/wasm32-wasi", "-msimd128", "-D_WASI_EMULATED_MMAN"],
+              "kernels": [("scalar", 1), ("neon", 4)], "without": ["file_write_web.c"]},
+    "wasm": {"flags": ["--target=wasm32-wasi", "-isystem", os.path.join(ROOT, "web", "libc"), "-isystem", "/usr/include/wasm32-wasi", "-msimd128"],
              "needs": "/usr/include/wasm32-wasi/stdio.h", "package": "wasi-libc",
              "kernels": [("scalar", 1), ("wasm", 4)],
-             # Not used by the web page, whose files are in memory.
-             "without": ["file.c", "file_write.c", "scene_write.c"]},
+             "without": ["file_write.c"]}, # file_write_web.c is its own
 }
 LEFT_OUT = ["png_read.c", "jpeg.c", "jpeg_write.c"]  # libspng's and libjpeg's own headers are the host's
 

@@ -9,7 +9,7 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FORMATTER = "clang-format-19"
-FOLDERS = ("include", "src", "tools", "scenes", "examples", "bench", "docs", "tests")
+FOLDERS = ("include", "src", "tools", "scenes", "examples", "bench", "docs", "tests", "web")
 
 
 def sources(folder):

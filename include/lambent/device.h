@@ -22,6 +22,7 @@ typedef enum lam_isa {
     LAM_ISA_AVX2,     // 8 lanes
     LAM_ISA_AVX512,   // AVX-512 F, BW, DQ and VL, 16 lanes
     LAM_ISA_NEON,     // 4 lanes
+    LAM_ISA_WASM,     // WebAssembly's SIMD128, 4 lanes
     LAM_ISA_COUNT
 } lam_isa;
 

@@ -17,6 +17,8 @@ unsigned cpu_features(void)
         features |= CPU_AVX512_VBMI;
 #elif defined(__aarch64__)
     features |= CPU_NEON; // every 64-bit Arm has it
+#elif defined(__wasm_simd128__)
+    features |= CPU_WASM_SIMD; // a module with SIMD is not even loaded elsewhere
 #endif
     return features;
 }

@@ -10,6 +10,7 @@ enum cpu_feature {
     CPU_AVX512 = 4,      // AVX-512 F, BW, DQ, VL
     CPU_AVX512_VBMI = 8, // AVX-512 VBMI, and BMI2
     CPU_NEON = 16,
+    CPU_WASM_SIMD = 32, // SIMD128
 };
 
 // The features of this machine. The operating system saves the registers of each.

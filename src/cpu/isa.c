@@ -4,7 +4,7 @@
 #include "cpu_features.h"
 #include "kernels.h"
 
-static const char *const isa_names[LAM_ISA_COUNT] = {"auto", "scalar", "sse4", "avx2", "avx512", "neon"};
+static const char *const isa_names[LAM_ISA_COUNT] = {"auto", "scalar", "sse4", "avx2", "avx512", "neon", "wasm"};
 
 const char *lam_isa_name(lam_isa isa) { return (unsigned)isa < LAM_ISA_COUNT ? isa_names[isa] : NULL; }
 
@@ -21,6 +21,8 @@ const struct kernels *kernels_of(lam_isa isa)
         [LAM_ISA_AVX512] = {CPU_AVX512, &kernels_avx512},
 #elif defined(__aarch64__)
         [LAM_ISA_NEON] = {CPU_NEON, &kernels_neon},
+#elif defined(__wasm_simd128__)
+        [LAM_ISA_WASM] = {CPU_WASM_SIMD, &kernels_wasm},
 #endif
     };
     return (unsigned)isa < LAM_ISA_COUNT && cpu_has(all[isa].features) ? all[isa].kernels : NULL;

@@ -17,7 +17,7 @@ static uint64_t own_memory(const lam_device *device)
 // Finds the edges that are drawn over the picture.
 static bool find_edges(lam_device *device, struct call_control *call, lam_error *error)
 {
-    static const int lanes[LAM_ISA_COUNT] = {16, 1, 4, 8, 16, 4};
+    static const int lanes[LAM_ISA_COUNT] = {16, 1, 4, 8, 16, 4, 4};
     lam_frame_report *report = &device->report;
     uint64_t start = now_ns();
     bool built;

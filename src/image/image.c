@@ -5,7 +5,9 @@
 
 #include <stdlib.h>
 #include <string.h>
+#if !defined(__wasm__)
 #include <sys/mman.h>
+#endif
 
 enum { MAX_SIDE = 65535 };
 

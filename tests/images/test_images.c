@@ -5,7 +5,7 @@
 //   test-images --update     records what the plain kernels draw now (look at the pictures before you commit them)
 //
 // A failure leaves NAME.actual.png and NAME.difference.png in the working directory.
-#include "scenes.h"
+#include "picture_hash.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,55 +20,6 @@
 #ifndef EXPECTED // by hand, from the root of the sources
 #define EXPECTED "tests/images/expected"
 #endif
-
-static size_t image_bytes(const lam_image *image)
-{
-    return (size_t)image->width * (size_t)image->height * (image->format == LAM_RGBA8 ? 4 : 16);
-}
-
-// FNV-1a, 64 bits.
-static uint64_t hash_of(const void *bytes, size_t size)
-{
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ ((const uint8_t *)bytes)[i]) * 0x100000001b3u;
-    return hash;
-}
-
-static void draw(const struct demo *demo, lam_isa isa, int threads, lam_image *image)
-{
-    lam_error error = {0};
-    lam_cpu_params params = {.threads = threads, .isa = isa};
-    lam_device *device = lam_device_cpu(&params, &error);
-    if (!device)
-        fail_msg("%s", error.text);
-    *image = (lam_image){0};
-    if (!lam_image_make(image, demo->width, demo->height, demo->format, &error))
-        fail_msg("%s", error.text);
-    // Twice: the second frame finds the first one's memory.
-    for (int i = 0; i < 2; i++)
-        if (!lam_draw(device, demo->scene, &demo->camera, &demo->params, image, NULL, &error))
-            fail_msg("%s", error.text);
-    lam_device_free(device);
-}
-
-// The hash of the pixels, and of the file that they are written to.
-struct hashes {
-    uint64_t pixels, file;
-};
-
-static struct hashes hashes_of(const lam_image *image, int threads)
-{
-    lam_error error = {0};
-    lam_bytes bytes = {0};
-    lam_save_params params = {.threads = threads};
-    const char *format = image->format == LAM_RGBA8 ? "png" : "pfm";
-    if (!lam_image_encode(image, format, &params, &bytes, &error))
-        fail_msg("%s", error.text);
-    struct hashes hashes = {hash_of(image->pixels, image_bytes(image)), hash_of(bytes.data, bytes.size)};
-    lam_bytes_free(&bytes);
-    return hashes;
-}
 
 // The recorded hashes: lines "name pixels file".
 static bool recorded(const char *name, struct hashes *hashes)
@@ -101,7 +52,7 @@ static void leave_pictures(const char *name, const lam_image *actual)
     if (lam_image_compare(actual, &expected, &difference, &error)) {
         uint8_t *to = expected.pixels;
         const uint8_t *from = actual->pixels;
-        for (size_t i = 0; i < image_bytes(actual); i++) {
+        for (size_t i = 0; i < picture_bytes(actual); i++) {
             int apart = abs(to[i] - from[i]) * 16;
             to[i] = i % 4 == 3 ? 255 : (uint8_t)(apart > 255 ? 255 : apart);
         }
@@ -127,8 +78,10 @@ static void check_scene(void **state)
     for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++)
         for (int t = 0; t < 3 && lam_isa_usable((lam_isa)isa); t++) {
             lam_image image;
-            draw(&demo, (lam_isa)isa, threads[t], &image);
-            struct hashes hashes = hashes_of(&image, threads[t]);
+            struct hashes hashes;
+            if (!picture_draw(&demo, (lam_isa)isa, threads[t], &image, &error) ||
+                !picture_hash(&image, threads[t], &hashes, &error))
+                fail_msg("%s: %s", row->name, error.text);
             if (hashes.pixels != expected.pixels)
                 leave_pictures(row->name, &image);
             lam_image_free(&image);
@@ -155,12 +108,12 @@ static int update(void)
         struct demo demo;
         lam_error error = {0};
         lam_image image;
-        if (!demo_build(&demos[i], &demo, &error)) {
+        struct hashes hashes;
+        if (!demo_build(&demos[i], &demo, &error) || !picture_draw(&demo, LAM_ISA_SCALAR, 1, &image, &error) ||
+            !picture_hash(&image, 1, &hashes, &error)) {
             fprintf(stderr, "%s: %s\n", demos[i].name, error.text);
             return 1;
         }
-        draw(&demo, LAM_ISA_SCALAR, 1, &image);
-        struct hashes hashes = hashes_of(&image, 1);
         fprintf(file, "%s %016llx %016llx\n", demos[i].name, (unsigned long long)hashes.pixels,
                 (unsigned long long)hashes.file);
         char path[512];

@@ -254,6 +254,7 @@ static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest that 
                                         {"avx2", LAM_ISA_AVX2, "8 lanes"},
                                         {"avx512", LAM_ISA_AVX512, "16 lanes"},
                                         {"neon", LAM_ISA_NEON, "4 lanes"},
+                                        {"wasm", LAM_ISA_WASM, "WebAssembly's SIMD128, 4 lanes"},
                                         {NULL, 0, NULL}};
 
 const struct option option_table[] = {

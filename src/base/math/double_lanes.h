@@ -50,6 +50,8 @@ LANE_FN unsigned dmask_bits(dmask m) // bit i: lane i
     return (unsigned)_mm256_movemask_pd((__m256d)m);
 #elif LANES == 4 && defined(__SSE2__)
     return (unsigned)_mm_movemask_pd((__m128d)m);
+#elif LANES == 4 && defined(__wasm_simd128__)
+    return wasm_i64x2_bitmask((v128_t)m);
 #else
     unsigned bits = 0;
     for (int i = 0; i < DLANES; i++)

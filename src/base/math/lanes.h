@@ -21,6 +21,8 @@
 
 #if defined(__AVX512F__) || defined(__AVX__) || defined(__SSE4_1__) || defined(__SSE2__)
 #include <immintrin.h>
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
 #endif
 
 #define LANE_FN static inline __attribute__((always_inline, unused))
@@ -143,6 +145,8 @@ LANE_FN unsigned mask_bits(mask m)
     return (unsigned)_mm256_movemask_ps((__m256)m);
 #elif LANES == 4 && defined(__SSE2__)
     return (unsigned)_mm_movemask_ps((__m128)m);
+#elif LANES == 4 && defined(__wasm_simd128__)
+    return wasm_i32x4_bitmask((v128_t)m);
 #else
     unsigned bits = 0;
     for (int i = 0; i < LANES; i++)
@@ -150,8 +154,13 @@ LANE_FN unsigned mask_bits(mask m)
     return bits;
 #endif
 }
+#if LANES == 4 && defined(__wasm_simd128__)
+LANE_FN int any_lane(mask m) { return wasm_v128_any_true((v128_t)m); }
+LANE_FN int all_lanes(mask m) { return wasm_i32x4_all_true((v128_t)m); }
+#else
 LANE_FN int any_lane(mask m) { return mask_bits(m) != 0; }
 LANE_FN int all_lanes(mask m) { return mask_bits(m) == (1u << LANES) - 1; }
+#endif
 // √, correctly rounded. Clang turns the loop into scalar code for AVX-512, hence the lines.
 LANE_FN num square_root(num x)
 {
@@ -161,6 +170,8 @@ LANE_FN num square_root(num x)
     return (num)_mm256_sqrt_ps((__m256)x);
 #elif LANES == 4 && defined(__SSE2__)
     return (num)_mm_sqrt_ps((__m128)x);
+#elif LANES == 4 && defined(__wasm_simd128__)
+    return (num)wasm_f32x4_sqrt((v128_t)x);
 #else
     num r = x;
     for (int i = 0; i < LANES; i++)
@@ -181,6 +192,10 @@ LANE_FN num max_of(num a, num b) { return (num)_mm256_max_ps((__m256)a, (__m256)
 #elif LANES == 4 && defined(__SSE2__)
 LANE_FN num min_of(num a, num b) { return (num)_mm_min_ps((__m128)a, (__m128)b); }
 LANE_FN num max_of(num a, num b) { return (num)_mm_max_ps((__m128)a, (__m128)b); }
+#elif LANES == 4 && defined(__wasm_simd128__)
+// WebAssembly's pmin(x, y) is y < x ? y : x: the other way round.
+LANE_FN num min_of(num a, num b) { return (num)wasm_f32x4_pmin((v128_t)b, (v128_t)a); }
+LANE_FN num max_of(num a, num b) { return (num)wasm_f32x4_pmax((v128_t)b, (v128_t)a); }
 #else
 LANE_FN num min_of(num a, num b) { return pick(a < b, a, b); }
 LANE_FN num max_of(num a, num b) { return pick(a > b, a, b); }
@@ -283,6 +298,8 @@ LANE_FN inum floor_of(num x)
     return (inum)_mm256_cvttps_epi32(_mm256_floor_ps((__m256)x));
 #elif LANES == 4 && defined(__SSE4_1__)
     return (inum)_mm_cvttps_epi32(_mm_floor_ps((__m128)x));
+#elif LANES == 4 && defined(__wasm_simd128__)
+    return (inum)wasm_i32x4_trunc_sat_f32x4(wasm_f32x4_floor((v128_t)x));
 #else
     inum i = int_of(x);
     return i - ipick(num_of_int(i) > x, inum_of(1), inum_of(0));
@@ -316,6 +333,10 @@ LANE_FN num lanes_at(num x, inum at)
     return (num)_mm512_permutexvar_ps((__m512i)at, (__m512)x);
 #elif LANES == 8 && defined(__AVX2__)
     return (num)_mm256_permutevar8x32_ps((__m256)x, (__m256i)at);
+#elif LANES == 4 && defined(__wasm_simd128__)
+    // The numbers of the four bytes of each lane.
+    inum bytes = at * 0x04040404 + 0x03020100;
+    return (num)wasm_i8x16_swizzle((v128_t)x, (v128_t)bytes);
 #else
     float from[LANES], to[LANES];
     num_store(from, x);
@@ -366,6 +387,32 @@ static const uint64_t bit_numbers[256]
 #undef BIT_NUMBERS_64
 #endif
 
+#if LANES == 4 && defined(__wasm_simd128__)
+// For each set of four lanes, the bytes of its lanes in ascending order; the rest is 0.
+#define LANE_BYTES(i) 4 * (i), 4 * (i) + 1, 4 * (i) + 2, 4 * (i) + 3
+#define NO_LANE       16, 16, 16, 16
+static const uint8_t packed_bytes[16][16] __attribute__((unused)) = {
+    {NO_LANE, NO_LANE, NO_LANE, NO_LANE},
+    {LANE_BYTES(0), NO_LANE, NO_LANE, NO_LANE},
+    {LANE_BYTES(1), NO_LANE, NO_LANE, NO_LANE},
+    {LANE_BYTES(0), LANE_BYTES(1), NO_LANE, NO_LANE},
+    {LANE_BYTES(2), NO_LANE, NO_LANE, NO_LANE},
+    {LANE_BYTES(0), LANE_BYTES(2), NO_LANE, NO_LANE},
+    {LANE_BYTES(1), LANE_BYTES(2), NO_LANE, NO_LANE},
+    {LANE_BYTES(0), LANE_BYTES(1), LANE_BYTES(2), NO_LANE},
+    {LANE_BYTES(3), NO_LANE, NO_LANE, NO_LANE},
+    {LANE_BYTES(0), LANE_BYTES(3), NO_LANE, NO_LANE},
+    {LANE_BYTES(1), LANE_BYTES(3), NO_LANE, NO_LANE},
+    {LANE_BYTES(0), LANE_BYTES(1), LANE_BYTES(3), NO_LANE},
+    {LANE_BYTES(2), LANE_BYTES(3), NO_LANE, NO_LANE},
+    {LANE_BYTES(0), LANE_BYTES(2), LANE_BYTES(3), NO_LANE},
+    {LANE_BYTES(1), LANE_BYTES(2), LANE_BYTES(3), NO_LANE},
+    {LANE_BYTES(0), LANE_BYTES(1), LANE_BYTES(2), LANE_BYTES(3)},
+};
+#undef LANE_BYTES
+#undef NO_LANE
+#endif
+
 // Compress: stores the lanes selected by `bits` (bit i: lane i) consecutively, in order; LANES elements must be
 // writable. Returns their number.
 LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)
@@ -376,6 +423,9 @@ LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)
 #elif LANES == 8 && defined(__AVX2__)
     __m256i from = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((int64_t)bit_numbers[bits]));
     _mm256_storeu_si256((__m256i *)(void *)to, _mm256_permutevar8x32_epi32((__m256i)x, from));
+    return (uint32_t)__builtin_popcount(bits);
+#elif LANES == 4 && defined(__wasm_simd128__)
+    wasm_v128_store(to, wasm_i8x16_swizzle((v128_t)x, wasm_v128_load(packed_bytes[bits])));
     return (uint32_t)__builtin_popcount(bits);
 #else
     int32_t lanes[LANES];
@@ -457,6 +507,17 @@ LANE_FN void igather3(const void *from, const uint32_t *at, int stride, inum out
     out[0] = (inum)_mm_unpacklo_epi64(xy0, xy1);
     out[1] = (inum)_mm_unpackhi_epi64(xy0, xy1);
     out[2] = (inum)_mm_unpacklo_epi64(z0, z1);
+#elif LANES == 4 && defined(__wasm_simd128__)
+    v128_t row[4];
+    for (int j = 0; j < 4; j++) {
+        const char *at_row = base + at[j] * step;
+        row[j] = wasm_v128_load32_lane(at_row + 8, wasm_v128_load64_zero(at_row), 2);
+    }
+    v128_t xy0 = wasm_i32x4_shuffle(row[0], row[1], 0, 4, 1, 5), xy1 = wasm_i32x4_shuffle(row[2], row[3], 0, 4, 1, 5);
+    v128_t z0 = wasm_i32x4_shuffle(row[0], row[1], 2, 6, 3, 7), z1 = wasm_i32x4_shuffle(row[2], row[3], 2, 6, 3, 7);
+    out[0] = (inum)wasm_i64x2_shuffle(xy0, xy1, 0, 2);
+    out[1] = (inum)wasm_i64x2_shuffle(xy0, xy1, 1, 3);
+    out[2] = (inum)wasm_i64x2_shuffle(z0, z1, 0, 2);
 #else
     int32_t columns[3][LANES];
     for (int i = 0; i < LANES; i++) {

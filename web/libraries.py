@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""libraries.py FOLDER: the libraries that Lambent reads files with, compiled for WebAssembly from Debian's source packages, in
+FOLDER/root: Jansson (JSON), libspng with zlib (PNG), libjpeg-turbo (JPEG). Does nothing where they are there.
+
+apt-get finds the sources by an own list of the host's archives, kept in FOLDER: the system's own lists stay as they are.
+"""
+import concurrent.futures
+import glob
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+CLANG = "clang-19"
+ARCHIVER = "/usr/lib/llvm-19/bin/llvm-ar"
+FLAGS = ["--target=wasm32-wasi", "-O2", "-DNDEBUG", "-msimd128", "-ffp-contract=off", "-w",
+         "-mllvm", "-wasm-enable-sjlj", "-isystem", os.path.join(os.path.dirname(os.path.abspath(__file__)), "libc")]
+
+JPEG = """jaricom jcapimin jcapistd jcarith jccoefct jccolor jcdctmgr jchuff jcicc jcinit jcmainct jcmarker jcmaster jcomapi jcparam
+jcphuff jcprepct jcsample jctrans jdapimin jdapistd jdarith jdatadst jdatasrc jdcoefct jdcolor jddctmgr jdhuff jdicc jdinput
+jdmainct jdmarker jdmaster jdmerge jdphuff jdpostct jdsample jdtrans jerror jfdctflt jfdctfst jfdctint jidctflt jidctfst
+jidctint jidctred jquant1 jquant2 jutils jmemmgr jmemnobs jsimd_none""".split()
+ZLIB = "adler32 crc32 deflate inffast inflate inftrees trees zutil compress uncompr".split()
+
+# One row for each: Debian's source package, the files, the headers that others include, and what pkg-config says.
+LIBRARIES = [
+    {"source": "zlib", "library": "z", "files": [n + ".c" for n in ZLIB], "headers": ["zlib.h", "zconf.h"], "pc": "zlib"},
+    {"source": "jansson", "library": "jansson", "files": ["src/*.c"], "headers": ["src/jansson.h", "src/jansson_config.h"], "pc": "jansson",
+     "flags": ["-DHAVE_CONFIG_H"]},
+    {"source": "libspng", "library": "spng", "files": ["spng/spng.c"], "headers": ["spng/spng.h"], "pc": "spng", "needs": "zlib"},
+    {"source": "libjpeg-turbo", "library": "jpeg", "files": [n + ".c" for n in JPEG],
+     "headers": ["jpeglib.h", "jmorecfg.h", "jerror.h", "jconfig.h"], "pc": "libjpeg"},
+]
+
+
+def run(*command, **more):
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **more)
+    if done.returncode:
+        sys.exit("web: %s failed:\n%s" % (" ".join(command[:6]), done.stdout[-3000:]))
+    return done.stdout
+
+
+def fetch(folder):
+    """Unpacks the source packages below FOLDER/source."""
+    source = os.path.join(folder, "source")
+    lists = os.path.join(source, "lists")
+    os.makedirs(os.path.join(lists, "partial"), exist_ok=True)
+    rows = ""
+    for path in ["/etc/apt/sources.list"] + glob.glob("/etc/apt/sources.list.d/debian*"):
+        if os.path.exists(path):
+            text = open(path).read()
+            rows += re.sub(r"^Types:.*", "Types: deb-src", text, flags=re.M) + "\n" if path.endswith(".sources") else ""
+            if not path.endswith(".sources"):
+                with open(os.path.join(source, "apt.list"), "w") as out:
+                    out.write("".join("deb-src " + line[4:] for line in text.splitlines(True) if line.startswith("deb ")))
+    if rows:
+        open(os.path.join(source, "apt.sources"), "w").write(rows)
+    options = ["-o", "Dir::Etc::sourcelist=/dev/null", "-o", "Dir::Etc::sourceparts=" + source, "-o", "Dir::State::lists=" + lists,
+               "-o", "Dir::Cache=" + os.path.join(source, "cache"), "-o", "APT::Sandbox::User=", "-q"]
+    run("apt-get", *options, "update", cwd=source)
+    run("apt-get", *options, "source", "--download-only", *[row["source"] for row in LIBRARIES], cwd=source)
+    for dsc in glob.glob(os.path.join(source, "*.dsc")):
+        if not unpacked(folder, os.path.basename(dsc).split("_")[0]):
+            run("dpkg-source", "--no-check", "-x", dsc, cwd=source)
+
+
+def unpacked(folder, name):
+    found = [p for p in glob.glob(os.path.join(folder, "source", name + "-[0-9]*")) if os.path.isdir(p)]
+    return found[0] if found else None
+
+
+def configure(name, path):
+    """The headers that a library's own configuration would make."""
+    def fill(template, values, defined=()):
+        text = open(os.path.join(path, template)).read()
+        for key, value in values.items():
+            text = text.replace("@%s@" % key, value)
+        text = re.sub(r"^#cmakedefine (\w+)(.*)", lambda m: "#define %s%s" % m.groups() if m[1] in defined else "", text, flags=re.M)
+        open(os.path.join(path, template[:-3]), "w").write(text)
+
+    if name == "jansson":
+        fill("src/jansson_config.h.in", {"json_inline": "inline", "json_have_long_long": "1", "json_have_localeconv": "0",
+                                         "json_have_atomic_builtins": "0", "json_have_sync_builtins": "0"})
+        open(os.path.join(path, "src/jansson_private_config.h"), "w").write("#define HAVE_STDINT_H 1\n#define HAVE_SYS_TYPES_H 1\n")
+    if name == "libjpeg-turbo":
+        version = os.path.basename(path).rsplit("-", 1)[1]
+        number = "%d%03d%03d" % tuple(int(n) for n in version.split("."))
+        fill("jconfig.h.in", {"JPEG_LIB_VERSION": "62", "VERSION": version, "LIBJPEG_TURBO_VERSION_NUMBER": number, "BITS_IN_JSAMPLE": "8"},
+             ["C_ARITH_CODING_SUPPORTED", "D_ARITH_CODING_SUPPORTED", "MEM_SRCDST_SUPPORTED"])
+        fill("jconfigint.h.in", {"BUILD": "lambent", "INLINE": "inline __attribute__((always_inline))", "THREAD_LOCAL": "_Thread_local",
+                                 "CMAKE_PROJECT_NAME": name, "VERSION": version, "SIZE_T": "4"})
+        fill("jversion.h.in", {"COPYRIGHT_YEAR": "2023"})
+
+
+def build(row, folder):
+    root = os.path.join(folder, "root")
+    path = unpacked(folder, row["source"])
+    configure(row["source"], path)
+    objects = os.path.join(folder, "objects", row["library"])
+    os.makedirs(objects, exist_ok=True)
+    files = [f for pattern in row["files"] for f in sorted(glob.glob(os.path.join(path, pattern)))]
+    flags = FLAGS + row.get("flags", []) + ["-I" + os.path.join(root, "include"), "-I" + path, "-I" + os.path.join(path, "src")]
+
+    def compile_one(source):
+        target = os.path.join(objects, os.path.basename(source)[:-1] + "o")
+        run(CLANG, *flags, "-c", source, "-o", target)
+        return target
+
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        made = list(pool.map(compile_one, files))
+    archive = os.path.join(root, "lib", "lib%s.a" % row["library"])
+    run(ARCHIVER, "crs", archive, *made)
+    for header in row["headers"]:
+        shutil.copy(os.path.join(path, header), os.path.join(root, "include"))
+    # Debian's sources of zlib carry a suffix after the number.
+    version = re.match(r"[\d.]*\d", os.path.basename(path).rsplit("-", 1)[1])[0]
+    with open(os.path.join(root, "lib", "pkgconfig", row["pc"] + ".pc"), "w") as out:
+        out.write("Name: %s\nDescription: Debian's %s for WebAssembly\nVersion: %s\n%sLibs: %s\nCflags: -I%s\n" % (
+            row["pc"], row["source"], version, "Requires: %s\n" % row["needs"] if "needs" in row else "", archive,
+            os.path.join(root, "include")))
+
+
+def main():
+    folder = os.path.abspath(sys.argv[1])
+    done = os.path.join(folder, "root", "complete")
+    stamp = open(os.path.abspath(__file__)).read()
+    if os.path.exists(done) and open(done).read() == stamp:
+        return
+    for name in ("include", "lib/pkgconfig"):
+        os.makedirs(os.path.join(folder, "root", name), exist_ok=True)
+    if any(unpacked(folder, row["source"]) is None for row in LIBRARIES):
+        print("web: fetching Debian's sources of " + ", ".join(row["source"] for row in LIBRARIES), flush=True)
+        fetch(folder)
+    for row in LIBRARIES:
+        print("web: compiling " + row["source"], flush=True)
+        build(row, folder)
+    with open(done, "w") as out:
+        out.write(stamp)
+
+
+if __name__ == "__main__":
+    main()

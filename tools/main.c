@@ -17,11 +17,12 @@ static struct options scan_report_options(int count, char **words)
 {
     struct options options = {0};
     for (int i = 0; i < count && strcmp(words[i], "--") != 0; i++) {
-        bool output = strcmp(words[i], "-o") == 0 || strcmp(words[i], "--output") == 0;
+        bool output =
+            strcmp(words[i], "-o") == 0 || strcmp(words[i], "--output") == 0 || strcmp(words[i], "--out") == 0;
         if (strcmp(words[i], "--json") == 0)
             options.json = true;
         if ((output && i + 1 < count && strcmp(words[i + 1], "-") == 0) || strcmp(words[i], "-o-") == 0 ||
-            strcmp(words[i], "--output=-") == 0)
+            strcmp(words[i], "--output=-") == 0 || strcmp(words[i], "--out=-") == 0)
             options.output = "-";
     }
     return options;

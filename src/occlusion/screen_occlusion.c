@@ -7,6 +7,19 @@
 enum { LANES_MAX = 16 };
 
 // Rows have LANES_MAX floats more at either end, planes of cells stand in front of those of pixels.
+// In pieces: first use of the memory of a large picture takes seconds, in which the call may be stopped.
+static bool fill(float *at, size_t count, float value, struct call_control *call, lam_error *error)
+{
+    enum { PIECE = 1 << 20 };
+    for (size_t i = 0; i < count; i += PIECE) {
+        if (!call_should_continue(call))
+            return call_error(call, error);
+        for (size_t k = i; k < count && k < i + PIECE; k++)
+            at[k] = value;
+    }
+    return true;
+}
+
 bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct buffer *storage,
                             struct call_control *call, lam_error *error)
 {
@@ -17,10 +30,9 @@ bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct fra
     if (!buffer_reserve(storage, (4 * plane + cells + 2 * pixels) * sizeof(float), call, error))
         return false;
     float *at = storage->data, *depth = at + 4 * plane;
-    for (size_t i = 0; i < 4 * plane; i++) // beside the cells a filter reads numbers, which do not count
-        at[i] = 0;
-    for (size_t i = 0; i < cells + pixels; i++)
-        depth[i] = SCREEN_EMPTY;
+    if (!fill(at, 4 * plane, 0, call, error) || // beside the cells a filter reads numbers, which do not count
+        !fill(depth, cells + pixels, SCREEN_EMPTY, call, error))
+        return false;
     at += LANES_MAX;
     depth += LANES_MAX;
     *occlusion = (struct screen_occlusion){.width = frame->width,

@@ -108,6 +108,15 @@ class Sources(Batch):
         self.good("--files-from", "more", names[0], "-s", 24, "-o", "three/")
         self.assertEqual(set(self.pictures("three")), {"m0.png", "m3.png"})
 
+    def test_out_is_output(self):
+        self.tree(2)
+        for word in (["--out", "out/{stem}.png"], ["--out=out/{stem}.png"]):
+            self.batch("in", *word)
+            self.assertEqual(set(self.pictures()), {"m0.png", "m1.png"})
+            shutil.rmtree(self.folder / "out")
+        self.assertEqual(read_png(self.good("in/a/m0.stl", "-s", 24, "--out", "-").stdout)[:2], (24, 24))
+        self.assertEqual(json.loads(self.run_program("in/none.stl", "--out", "-", "--json").stderr)["error"]["code"], "cannot-read")
+
     def test_dry_run(self):
         self.tree(2)
         done = self.batch("in", "-o", "out/{stem}-{size}.png", "--dry-run")

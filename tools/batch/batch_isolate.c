@@ -3,6 +3,7 @@
 #include "batch_isolate.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "batch_job.h"
+#include "batch_jobs.h"
 #include "batch_page.h"
 #include "batch_process.h"
 #include "batch_reach.h"
@@ -19,12 +22,15 @@
 #include "interrupt.h"
 #include "limit_options.h"
 
-// Milliseconds that a process has beyond --time-limit, and after an interrupt, before it is killed.
-static const double grace_ms = 5000, interrupt_ms = 600;
+// Milliseconds that a process has after an interrupt before it is killed.
+static const double interrupt_ms = 600;
+
+// And beyond its time limit: as long again, from half a second to five.
+static double grace_ms(double limit_s) { return limit_s > 5 ? 5000 : limit_s > 0.5 ? limit_s * 1e3 : 500; }
 
 // --- the process
 
-// What a process sends: this, for each picture a `sent_picture` and its line of the journal, then both texts.
+// What a process sends: this, for each picture a `sent_picture`, its line of the journal and its file, then both texts.
 struct sent {
     int code, warnings;
     bool interrupted;
@@ -36,6 +42,7 @@ struct sent_picture {
     char class[24];
     bool is_new;
     size_t line_size; // 0: no record
+    size_t data_size; // 0: no file
 };
 
 struct work {
@@ -43,16 +50,25 @@ struct work {
     struct batch_unit *unit;
 };
 
+static bool enter(const struct batch *b, const struct batch_task *task, lam_error *error)
+{
+    if (!task->job)
+        return batch_reach_enter(b, b->journal_path, task->model, 1, error);
+    int none = open("/dev/null", O_RDWR | O_CLOEXEC); // the jobs and the answers of others are none of its business
+    bool ok = none >= 0 && dup2(none, STDIN_FILENO) >= 0 && dup2(none, STDOUT_FILENO) >= 0;
+    return ok ? batch_reach_enter_job(task->job, error)
+              : complain(error, LAM_CANNOT_READ, "/dev/null: cannot open: %s", strerror(errno));
+}
+
 static void draw_here(struct batch *b, struct batch_unit *u)
 {
-    struct options options = *b->options;
+    struct options options = *u->task.plan->options;
     options.threads = b->threads;
     options.in_flight = b->workers;
     lam_error error = {0};
-    lam_device *device =
-        batch_reach_enter(b, b->journal_path, u->model, 1, &error) ? device_option_make(&options, &error) : NULL;
+    lam_device *device = enter(b, &u->task, &error) ? device_option_make(&options, &error) : NULL;
     if (device)
-        batch_unit_draw(u, b, &options, device, true);
+        batch_unit_draw(u, b, &options, device, NULL, true);
     else if (asprintf(&u->err, "lambent: %s\n", error.text) >= 0)
         batch_unit_fail(u, b, exit_code_of(error.code)->name, exit_code_of(error.code)->code, error.text);
     lam_device_free(device);
@@ -66,12 +82,15 @@ static void work(void *user, struct batch_answer *answer)
     batch_page_thumbnails(w->batch, u);
     struct sent sent = {u->code, u->warnings, u->interrupted, u->out ? strlen(u->out) : 0, u->err ? strlen(u->err) : 0};
     bool ok = batch_answer_add(answer, &sent, sizeof sent);
-    for (int i = 0; ok && i < w->batch->plan->view_count; i++) {
+    for (int i = 0; ok && i < u->picture_count; i++) {
         char *line = u->is_new[i] && u->records[i] ? journal_line(u->records[i]) : NULL;
         struct sent_picture picture = {
             .picture = u->pictures[i], .is_new = u->is_new[i], .line_size = line ? strlen(line) : 0};
+        const lam_bytes *data = u->contents ? &u->contents[i] : NULL;
+        picture.data_size = data ? data->size : 0;
         snprintf(picture.class, sizeof picture.class, "%s", u->classes[i] ? u->classes[i] : "");
-        ok = batch_answer_add(answer, &picture, sizeof picture) && batch_answer_add(answer, line, picture.line_size);
+        ok = batch_answer_add(answer, &picture, sizeof picture) && batch_answer_add(answer, line, picture.line_size) &&
+             (!data || batch_answer_add(answer, data->data, data->size));
         free(line);
     }
     ok = ok && batch_answer_add(answer, u->out, sent.out_size) && batch_answer_add(answer, u->err, sent.err_size);
@@ -116,13 +135,13 @@ static const char *class_name(const char *name)
 }
 
 // False: the answer is not whole.
-static bool read_answer(struct batch_unit *u, const struct batch *b, const struct batch_answer *answer)
+static bool read_answer(struct batch_unit *u, const struct batch_answer *answer)
 {
     struct rest rest = {answer->data, answer->size};
     struct sent sent;
     if (!read_bytes(&rest, &sent, sizeof sent))
         return false;
-    for (int i = 0; i < b->plan->view_count; i++) {
+    for (int i = 0; i < u->picture_count; i++) {
         struct sent_picture picture;
         char *line = NULL;
         if (!read_bytes(&rest, &picture, sizeof picture) || !read_text(&rest, &line, picture.line_size))
@@ -133,6 +152,12 @@ static bool read_answer(struct batch_unit *u, const struct batch *b, const struc
             u->records[i] = json_loads(line, 0, NULL);
         }
         free(line);
+        char *data = NULL;
+        if (u->contents && picture.data_size) {
+            if (!read_text(&rest, &data, picture.data_size))
+                return false;
+            u->contents[i] = (lam_bytes){(uint8_t *)data, picture.data_size};
+        }
         u->pictures[i] = picture.picture;
         u->is_new[i] = picture.is_new;
         u->classes[i] = class_name(picture.class);
@@ -147,11 +172,12 @@ static bool read_answer(struct batch_unit *u, const struct batch *b, const struc
 
 static void fail_process(struct batch *b, struct batch_unit *u, const struct batch_process *process, int status)
 {
-    const char *model = b->plan->models[u->model].path;
+    const char *model = u->task.plan->models[u->task.model].path;
     lam_error error;
     bool crashed = !process->stopped;
     if (process->stopped)
-        complain(&error, LAM_LIMIT, "%.400s: the time limit of %.10g s was reached", model, limits_time(b->options));
+        complain(&error, LAM_LIMIT, "%.400s: the time limit of %.10g s was reached", model,
+                 limits_time(u->task.plan->options));
     else if (WIFSIGNALED(status))
         complain(&error, LAM_LIMIT, "%.400s: its process was ended by signal %d (%s)", model, WTERMSIG(status),
                  strsignal(WTERMSIG(status)));
@@ -168,40 +194,44 @@ static void fail_process(struct batch *b, struct batch_unit *u, const struct bat
 
 static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_process *process, int status)
 {
-    struct batch_picture *before = malloc((size_t)b->plan->view_count * sizeof *before);
+    size_t size = (size_t)u->picture_count * sizeof *u->pictures;
+    struct batch_picture *before = malloc(size);
     if (before)
-        memcpy(before, u->pictures, (size_t)b->plan->view_count * sizeof *before);
-    bool whole = WIFEXITED(status) && WEXITSTATUS(status) == 0 && read_answer(u, b, &process->answer);
+        memcpy(before, u->pictures, size);
+    bool whole = WIFEXITED(status) && WEXITSTATUS(status) == 0 && read_answer(u, &process->answer);
     if (!whole) {
         if (before)
-            memcpy(u->pictures, before, (size_t)b->plan->view_count * sizeof *before);
-        batch_remove_parts(b, u->model, process->pid, NULL);
-        if (!interrupted())
+            memcpy(u->pictures, before, size);
+        batch_remove_parts(u->task.plan, u->task.model, process->pid, NULL);
+        bool cancelled = u->task.job && u->task.job->cancelled;
+        u->interrupted |= cancelled;
+        if (!interrupted() && !cancelled)
             fail_process(b, u, process, status);
     }
     free(before);
     batch_deliver(b, u);
-    batch_unit_free(u, b);
+    batch_unit_free(u);
     batch_process_free(process);
 }
 
-// Gives the next model to a process. False: there is no more.
+// Gives the next model to a process. False: there is none.
 static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_process *process, int slot)
 {
-    size_t model;
+    struct batch_task task;
     lam_error error = {0};
-    while (batch_take(b, &model)) {
-        if (!batch_unit_start(u, b, model, &error)) {
+    while (batch_take(b, &task, false)) {
+        if (!batch_unit_start(u, b, &task, &error)) {
             batch_stop(b, &error);
             return false;
         }
         struct work w = {b, u};
-        const char *path = b->plan->models[model].path;
+        const char *path = task.plan->models[task.model].path;
+        double limit_s = limits_time(task.plan->options);
         bool open = batch_unit_look(u, b);
         fflush(stdout);
         if (open && batch_process_start(process, work, &w)) {
-            if (limits_time(b->options) > 0)
-                process->stop_ms = clock_ms() + limits_time(b->options) * 1e3 * b->plan->view_count + grace_ms;
+            if (limit_s > 0)
+                process->stop_ms = clock_ms() + limit_s * 1e3 * u->picture_count + grace_ms(limit_s);
             if (b->journal)
                 journal_begin(b->journal, slot, process->pid, path);
             return true;
@@ -214,7 +244,7 @@ static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_proces
         }
         batch_page_thumbnails(b, u);
         batch_deliver(b, u);
-        batch_unit_free(u, b);
+        batch_unit_free(u);
     }
     return false;
 }
@@ -232,6 +262,14 @@ static void end_processes(struct batch_process *processes, int count, double *si
             kill(processes[i].pid, late ? SIGKILL : SIGTERM);
 }
 
+// Ends the processes of jobs that were cancelled.
+static void end_cancelled(const struct batch_unit *units, struct batch_process *processes, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (processes[i].pid > 0 && units[i].task.job && units[i].task.job->cancelled)
+            batch_process_kill(&processes[i]);
+}
+
 void batch_isolate(struct batch *b)
 {
     struct batch_unit *units = calloc((size_t)b->workers, sizeof *units);
@@ -244,15 +282,22 @@ void batch_isolate(struct batch *b)
     int running = 0;
     double since_ms = 0;
     for (bool more = units && processes; more || running;) {
+        if (b->jobs)
+            batch_jobs_step(b->jobs, running ? 0 : 100);
         for (int i = 0; more && i < b->workers; i++)
             if (processes[i].pid == 0) {
                 more = fill_slot(b, &units[i], &processes[i], i);
                 running += more;
             }
-        if (!running)
+        if (b->jobs) // more may come
+            more = units && processes && !batch_jobs_over(b->jobs);
+        if (!running && !b->jobs)
             break;
         end_processes(processes, b->workers, &since_ms);
-        int status, ended = batch_process_wait(processes, b->workers, 100, &status);
+        end_cancelled(units, processes, b->workers);
+        bool reads = b->jobs && batch_jobs_is_ready(b->jobs);
+        int also = b->jobs ? batch_jobs_wanted(b->jobs) : -1, status;
+        int ended = batch_process_wait(processes, b->workers, also, running && !reads ? 100 : 0, &status);
         batch_show_progress(&b->tally);
         if (ended < 0)
             continue;

@@ -11,6 +11,7 @@
 #include "batch_key.h"
 #include "console.h"
 #include "exit_codes.h"
+#include "interrupt.h"
 #include "journal.h"
 #include "limit_options.h"
 #include "output.h"
@@ -65,7 +66,7 @@ static void name_model(const struct job *job, lam_error *error)
     if (error->code == LAM_LIMIT && limits_time(o) > 0 && clock_ms() - job->times.start >= limits_time(o) * 1e3) {
         complain(error, LAM_LIMIT, "%s: the time limit of %.10g s was reached (--time-limit)", name, limits_time(o));
     } else if (error->code == LAM_CANCELLED) {
-        complain(error, LAM_CANCELLED, "%s: interrupted", name);
+        complain(error, LAM_CANCELLED, "%s: %s", name, interrupted() ? "interrupted" : "cancelled");
     } else if (error->code != LAM_CANNOT_WRITE && !names(error->text, name) &&
                !(job->output && strstr(error->text, job->output) == error->text)) {
         lam_error plain = *error;
@@ -133,7 +134,7 @@ static json_t *start_record(const struct batch_item *item, int view, const char 
     const struct job_view *v = &item->views[view];
     json_t *record = json_object();
     set_text(record, "model", item->model);
-    set_text(record, "output", item->outputs[view]);
+    set_text(record, "output", item->contents ? NULL : item->outputs[view]);
     set_text(record, "view", lam_side_name((lam_side)(v->side >= 0 ? v->side : item->options->view)));
     set_text(record, "class", class);
     set(record, "exit", json_integer(exit));
@@ -172,17 +173,24 @@ static json_t *times_of(const struct job_times *times)
     return record;
 }
 
-// The picture's hash, the files that were read, and the key.
+static void add_hash(json_t *record, const struct batch_item *item, int view, const struct job *job)
+{
+    char text[XXH64_TEXT];
+    uint64_t hash;
+    if (item->contents)
+        hash = xxh64_of(item->contents[view].data, item->contents[view].size);
+    else if (!xxh64_file(job->output, &hash))
+        return;
+    xxh64_print(hash, text);
+    set_text(record, "hash", text);
+}
+
+// The files that were read, and the key.
 static void add_key(json_t *record, const struct batch_item *item, int view, const struct job *job,
                     const struct files *files)
 {
     char text[XXH64_TEXT];
-    uint64_t hash;
     const char *format = lam_scene_format(job->scene);
-    if (xxh64_file(job->output, &hash)) {
-        xxh64_print(hash, text);
-        set_text(record, "hash", text);
-    }
     json_t *list = json_array();
     for (int i = 0; i < files->count; i++) {
         json_t *file = json_object();
@@ -191,8 +199,7 @@ static void add_key(json_t *record, const struct batch_item *item, int view, con
         json_array_append_new(list, file);
     }
     set(record, "files", list);
-    set_text(record, "format", *format ? format : "shape");
-    if (files->changed || strcmp(item->model, "-") == 0)
+    if (files->changed || item->model_bytes || strcmp(item->model, "-") == 0)
         return; // without a key, the picture is never taken for the same
     const struct job_view *v = &item->views[view];
     struct batch_key_parts parts = {.options = item->options_text,
@@ -227,7 +234,11 @@ static json_t *record_of(const struct batch_item *item, int view, const struct j
         set(record, "width", json_integer(job->image.width));
         set(record, "height", json_integer(job->image.height));
         set(record, "bytes", json_integer((json_int_t)job->bytes));
-        add_key(record, item, view, job, files);
+        const char *format = lam_scene_format(job->scene);
+        set_text(record, "format", *format ? format : "shape");
+        add_hash(record, item, view, job);
+        if (item->options_text)
+            add_key(record, item, view, job, files);
     }
     return record;
 }
@@ -278,9 +289,9 @@ static void finish_picture(struct reading *r, struct job *job, int view, bool ok
     r->result->outcomes[view].kind = ok                             ? BATCH_WRITTEN
                                      : error->code == LAM_CANCELLED ? BATCH_INTERRUPTED
                                                                     : BATCH_FAILED;
-    if (!r->item->options_text || error->code == LAM_CANCELLED)
+    if (!r->item->has_records || error->code == LAM_CANCELLED)
         return;
-    if (job->written && !r->hashed) {
+    if (job->written && r->item->options_text && !r->hashed) {
         r->hashed = true;
         r->files.changed |= !hash_files(job, &r->start, &r->files);
     }
@@ -293,6 +304,7 @@ static void run_views(struct reading *r, struct job *job, struct progress *progr
     bool read = job_load(job, progress, &error) && job_arrange(job, progress, &error);
     for (int i = 0; i < job->view_count; i++) {
         job->output = r->item->outputs[i];
+        job->picture_bytes = r->item->contents ? &r->item->contents[i] : NULL;
         bool ok = read && job_run_view(job, i, progress, &error);
         progress_end(progress);
         finish_picture(r, job, i, ok, &error);
@@ -310,8 +322,13 @@ static void draw(struct reading *r)
     struct job_view views[VIEWS_MAX * VIEWS_MAX];
     struct options own = *item->options; // sizes of the command line are given like --size
     own.has_size |= own.size_count > 0;
-    struct job job = {
-        .options = item->several ? &own : item->options, .model = item->model, .device = r->artist->device};
+    struct job job = {.options = item->several ? &own : item->options,
+                      .model = item->model,
+                      .model_bytes = item->model_bytes,
+                      .picture_bytes = item->contents,
+                      .makes_folder = item->makes_folders,
+                      .cancel = item->cancel,
+                      .device = r->artist->device};
     job.times.start = clock_ms();
     clock_gettime(CLOCK_REALTIME_COARSE, &r->start);
     struct progress progress;
@@ -353,6 +370,7 @@ void batch_draw(const struct batch_item *item, const struct batch_artist *artist
         struct batch_result own = *result;
         part.views += i;
         part.outputs += i;
+        part.contents += part.contents ? i : 0;
         part.attempts += i;
         part.view_count = together;
         own.records += i;

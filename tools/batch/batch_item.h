@@ -10,13 +10,18 @@
 // A model to draw.
 struct batch_item {
     const struct options *options;
-    const char *options_text; // batch_options_text, for the keys; NULL: no records are wanted
+    const char *options_text; // batch_options_text, for the keys; NULL: records have none
+    bool has_records;         // they are wanted
     const char *model;
+    const lam_bytes *model_bytes; // the model itself, which `model` is then a name for; NULL: a file
     const struct job_view *views; // its pictures
     char *const *outputs;         // and their paths
+    lam_bytes *contents;          // receive the pictures' files in place of the paths; NULL: they are written
     const int *attempts;          // which try each of them is, from 1
     int view_count;
-    bool several; // of the command line: views or sizes, which are not the options' own
+    bool several;             // of the command line: views or sizes, which are not the options' own
+    bool makes_folders;       // of pictures that the options name, too
+    const lam_cancel *cancel; // stops it; NULL: Ctrl-C does
 };
 
 // Who draws it.

@@ -87,7 +87,7 @@ static bool has_picture(const struct batch_picture *picture)
 void batch_page_thumbnails(const struct batch *b, const struct batch_unit *u)
 {
     struct stat found;
-    for (int i = 0; b->options->report_page && i < b->plan->view_count; i++) {
+    for (int i = 0; b->options->report_page && i < u->task.plan->view_count; i++) {
         char *thumbnail = has_picture(&u->pictures[i]) ? thumbnail_path(b->options->report_page, u->outputs[i]) : NULL;
         if (thumbnail && (u->pictures[i].outcome == PICTURE_WRITTEN || stat(thumbnail, &found) != 0))
             make_thumbnail(u->outputs[i], thumbnail);

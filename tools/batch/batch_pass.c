@@ -7,6 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "batch_job.h"
+#include "batch_jobs.h"
 #include "console.h"
 #include "exit_codes.h"
 #include "host_name.h"
@@ -45,15 +47,17 @@ bool batch_begin_pass(struct batch *b, int pass)
     return count > 0;
 }
 
-bool batch_take(struct batch *b, size_t *model)
+bool batch_take(struct batch *b, struct batch_task *task, bool waits)
 {
+    if (b->jobs)
+        return batch_jobs_take(b->jobs, task, waits);
     pthread_mutex_lock(&b->lock);
     while (b->next < b->plan->count && b->taken[b->next])
         b->next++;
     bool found = b->next < b->plan->count && !interrupted() && !b->failed;
     if (found) {
-        *model = b->next++;
-        b->taken[*model] = true;
+        *task = (struct batch_task){.plan = b->plan, .model = b->next++, .options_text = b->options_text};
+        b->taken[task->model] = true;
         pthread_cond_broadcast(&b->changed);
     }
     pthread_mutex_unlock(&b->lock);
@@ -70,12 +74,12 @@ static bool is_part(const char *name, const char *begin)
            strcmp(name + length + strspn(name + length, "0123456789abcdef"), ".part") == 0;
 }
 
-void batch_remove_parts(const struct batch *b, size_t model, int process, const char *host)
+void batch_remove_parts(const struct batch_plan *plan, size_t model, int process, const char *host)
 {
     char begin[40 + HOST_SIZE], here[HOST_SIZE];
     snprintf(begin, sizeof begin, ".lambent-%d-%s-", process, host ? host : host_name(here));
-    for (int i = 0; i < b->plan->view_count; i++) {
-        char *output = batch_plan_output(b->plan, model, i), *slash = output ? strrchr(output, '/') : NULL;
+    for (int i = 0; i < plan->view_count; i++) {
+        char *output = batch_plan_output(plan, model, i), *slash = output ? strrchr(output, '/') : NULL;
         if (slash)
             slash[slash == output] = 0;
         DIR *folder = output ? opendir(slash ? output : ".") : NULL;
@@ -99,7 +103,7 @@ static void note_suspect(void *user, const char *model, int process, const char 
     struct batch *b = s->batch;
     for (size_t i = 0; i < b->plan->count; i++)
         if (strcmp(b->plan->models[i].path, model) == 0) {
-            batch_remove_parts(b, i, process, host);
+            batch_remove_parts(b->plan, i, process, host);
             s->count += b->taken[i];
             b->taken[i] = false;
         }
@@ -173,31 +177,51 @@ static void count(struct batch *b, const struct batch_unit *u, int view)
     }
 }
 
+// Of a model of the batch's plan: its pictures' states, and its records for the page.
+static void keep(struct batch *b, struct batch_unit *u, int view)
+{
+    size_t at = u->task.model * (size_t)b->plan->view_count + (size_t)view;
+    b->pictures[at] = u->pictures[view];
+    if (b->records && u->records[view]) {
+        json_decref(b->records[at]);
+        b->records[at] = u->records[view];
+        u->records[view] = NULL;
+    }
+}
+
 void batch_deliver(struct batch *b, struct batch_unit *u)
 {
     lam_error error = {0};
     bool ok = true;
-    size_t first = u->model * (size_t)b->plan->view_count;
+    const struct batch_job *job = u->task.job;
     pthread_mutex_lock(&b->lock);
-    for (int i = 0; i < b->plan->view_count; i++) {
-        if (b->pictures[first + (size_t)i].outcome != u->pictures[i].outcome)
+    for (int i = 0; i < u->picture_count; i++) {
+        uint8_t before = job ? PICTURE_OPEN : batch_pictures_of(b, u->task.model)[i].outcome;
+        if (before != u->pictures[i].outcome)
             count(b, u, i);
+        if (job && u->pictures[i].outcome == PICTURE_OPEN)
+            b->tally.cancelled++;
+        if (job && u->is_new[i] && u->records[i])
+            json_object_set(u->records[i], "id", job->id);
         if (b->journal && u->is_new[i] && u->records[i] && ok)
             ok = journal_add(b->journal, u->records[i], &error);
-        b->pictures[first + (size_t)i] = u->pictures[i];
-        if (b->records && u->records[i]) {
-            json_decref(b->records[first + (size_t)i]);
-            b->records[first + (size_t)i] = u->records[i];
-            u->records[i] = NULL;
-        }
+        if (!job)
+            keep(b, u, i);
     }
     b->tally.warnings += (size_t)u->warnings;
-    b->code = u->code > b->code ? u->code : b->code;
-    b->interrupted |= u->interrupted;
-    batch_print(&b->texts, u->model, u->out, u->err, u->code == 0, &b->tally);
-    u->out = u->err = NULL;
+    if (job) { // its answer has its errors
+        if (b->options->verbose && u->err)
+            fputs(u->err, stderr);
+    } else {
+        b->code = u->code > b->code ? u->code : b->code;
+        b->interrupted |= u->interrupted;
+        batch_print(&b->texts, u->task.model, u->out, u->err, u->code == 0, &b->tally);
+        u->out = u->err = NULL;
+    }
     batch_show_progress(&b->tally);
     pthread_mutex_unlock(&b->lock);
     if (!ok)
         batch_stop(b, &error);
+    if (job)
+        batch_jobs_answer(b->jobs, u);
 }

@@ -12,10 +12,11 @@ bool batch_begin_pass(struct batch *batch, int pass);
 bool batch_begin_suspects(struct batch *batch);
 void batch_end_suspects(struct batch *batch);
 
-// The next model of the pass. False: there is none, or nothing more is to be begun. Any thread.
-bool batch_take(struct batch *batch, size_t *model);
+// The next model of the pass, or the next job, which is waited for with `waits`. False: there is none, or nothing more is to be
+// begun. Any thread.
+bool batch_take(struct batch *batch, struct batch_task *task, bool waits);
 
-// Takes what a unit brings: counts, lines of the journal, messages. Any thread.
+// Takes what a unit brings: counts, lines of the journal, messages, the answer to a job. Any thread.
 void batch_deliver(struct batch *batch, struct batch_unit *unit);
 
 // Reports an error after which nothing more is begun. Any thread.
@@ -23,6 +24,6 @@ void batch_stop(struct batch *batch, const lam_error *error);
 
 // Removes the temporary files that a process left beside a model's pictures when it was killed. `host`: where it ran; NULL:
 // here.
-void batch_remove_parts(const struct batch *batch, size_t model, int process, const char *host);
+void batch_remove_parts(const struct batch_plan *plan, size_t model, int process, const char *host);
 
 #endif

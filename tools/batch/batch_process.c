@@ -79,9 +79,9 @@ static bool receive(struct batch_process *process)
     return got > 0 && batch_answer_add(&process->answer, piece, (size_t)got);
 }
 
-int batch_process_wait(struct batch_process *list, int count, int wait_ms, int *status)
+int batch_process_wait(struct batch_process *list, int count, int also, int wait_ms, int *status)
 {
-    struct pollfd wait[PROCESSES_MAX];
+    struct pollfd wait[PROCESSES_MAX + 1];
     count = count < PROCESSES_MAX ? count : PROCESSES_MAX;
     double now = clock_ms();
     for (int i = 0; i < count; i++) {
@@ -91,7 +91,8 @@ int batch_process_wait(struct batch_process *list, int count, int wait_ms, int *
             batch_process_kill(&list[i]);
         }
     }
-    if (poll(wait, (nfds_t)count, wait_ms) <= 0)
+    wait[count] = (struct pollfd){.fd = also, .events = POLLIN};
+    if (poll(wait, (nfds_t)count + 1, wait_ms) <= 0)
         return -1;
     for (int i = 0; i < count; i++) {
         if (wait[i].fd < 0 || !wait[i].revents || receive(&list[i]))

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "batch_job.h"
 #include "console.h"
 #include "output.h"
 #include "sandbox_start.h"
@@ -15,7 +16,7 @@ enum { SINGLE = 64 };
 // Whether the pictures' folder as a whole is within reach: they are read again for the journal and the page.
 static bool takes_folder(const struct batch *b)
 {
-    return b->options_text || b->plan->count * (size_t)b->plan->view_count > SINGLE;
+    return !b->options->jobs && (b->options_text || b->plan->count * (size_t)b->plan->view_count > SINGLE);
 }
 
 // The folder of a path, from malloc: "." where it names none.
@@ -84,4 +85,18 @@ bool batch_reach_enter(const struct batch *b, const char *journal, size_t first,
     if (b->options->report_page)
         add_folder(&paths, folder_of(b->options->report_page));
     return sandbox_start(b->options, &paths, error);
+}
+
+bool batch_reach_enter_job(const struct batch_job *job, lam_error *error)
+{
+    struct sandbox_paths paths = {0};
+    struct options options = job->options;
+    options.allow_paths.count = 0;
+    if (!job->in_answer && !make_folder(batch_plan_folder(&job->plan), error))
+        return false;
+    if (!job->in_answer)
+        add_folder(&paths, batch_plan_folder(&job->plan));
+    if (!job->bytes.data)
+        sandbox_add_input(&paths, job->plan.models[0].path);
+    return sandbox_start(&options, &paths, error);
 }

@@ -10,4 +10,7 @@ bool batch_reach_make(const struct batch *batch, const char *journal, lam_error 
 // Enters the sandbox with the models from `first` on, `count` of them. Before threads start. Errors as sandbox_start.
 bool batch_reach_enter(const struct batch *batch, const char *journal, size_t first, size_t count, lam_error *error);
 
+// The same for a process that draws one job: its model's folder, its pictures', and nothing else of --allow-path.
+bool batch_reach_enter_job(const struct batch_job *job, lam_error *error);
+
 #endif

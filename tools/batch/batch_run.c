@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +15,8 @@
 #include <unistd.h>
 
 #include "batch_isolate.h"
+#include "batch_job.h"
+#include "batch_jobs.h"
 #include "batch_key.h"
 #include "batch_page.h"
 #include "batch_pass.h"
@@ -37,33 +40,51 @@ struct worker {
 
 // --- one worker
 
-static void draw_next(struct worker *w, size_t model)
+// Gives back what a device holds for a large picture of a job: the next job is another's.
+static void trim(struct worker *w)
+{
+    enum { KEPT = 128 << 20 };
+    lam_frame_report report;
+    lam_error error;
+    lam_device_report(w->device, &report);
+    if (report.memory_bytes <= KEPT)
+        return;
+    lam_device_free(w->device);
+    w->device = device_option_make(&w->options, &error);
+    if (!w->device)
+        batch_stop(w->batch, &error);
+}
+
+static void draw_next(struct worker *w, const struct batch_task *task)
 {
     struct batch *b = w->batch;
     struct batch_unit unit;
     lam_error error = {0};
     bool alone = b->plan->count == 1;
-    if (!batch_unit_start(&unit, b, model, &error)) {
+    struct batch_job *job = task->job;
+    if (!batch_unit_start(&unit, b, task, &error)) {
         batch_stop(b, &error);
         return;
     }
     if (batch_unit_look(&unit, b)) {
         if (b->journal)
-            journal_begin(b->journal, w->slot, (int)getpid(), b->plan->models[model].path);
-        batch_unit_draw(&unit, b, &w->options, w->device, !alone);
+            journal_begin(b->journal, w->slot, (int)getpid(), task->plan->models[task->model].path);
+        batch_unit_draw(&unit, b, job ? &job->options : &w->options, w->device, job ? &job->cancel : NULL, !alone);
     }
+    if (job)
+        trim(w);
     batch_page_thumbnails(b, &unit);
     batch_deliver(b, &unit);
-    batch_unit_free(&unit, b);
+    batch_unit_free(&unit);
 }
 
 static void *work(void *user)
 {
     struct worker *w = user;
     struct batch *b = w->batch;
-    size_t model;
-    while (batch_take(b, &model))
-        draw_next(w, model);
+    struct batch_task task;
+    while (w->device && batch_take(b, &task, true))
+        draw_next(w, &task);
     pthread_mutex_lock(&b->lock);
     b->drawing--;
     pthread_cond_broadcast(&b->changed);
@@ -108,11 +129,31 @@ static void *read_ahead(void *user)
 
 // --- a pass
 
-// The workers draw while this thread shows the progress. One alone works in this thread.
+// While workers draw, this thread shows the progress.
+static void show_progress(struct batch *b)
+{
+    struct timespec until;
+    clock_gettime(CLOCK_MONOTONIC, &until);
+    until.tv_nsec += 100000000;
+    until.tv_sec += until.tv_nsec / 1000000000;
+    until.tv_nsec %= 1000000000;
+    pthread_cond_timedwait(&b->changed, &b->lock, &until);
+    batch_show_progress(&b->tally);
+}
+
+// Or it reads jobs.
+static void read_jobs(struct batch *b)
+{
+    pthread_mutex_unlock(&b->lock);
+    batch_jobs_step(b->jobs, 100);
+    pthread_mutex_lock(&b->lock);
+}
+
+// The workers draw while this thread waits. One alone works in this thread, unless there are jobs to be read.
 static void run_threads(struct batch *b, struct worker *workers)
 {
     b->drawing = b->workers;
-    if (b->workers == 1) {
+    if (b->workers == 1 && !b->jobs) {
         work(&workers[0]);
         return;
     }
@@ -123,22 +164,19 @@ static void run_threads(struct batch *b, struct worker *workers)
         started++;
     pthread_mutex_lock(&b->lock);
     b->drawing -= b->workers - started;
-    while (b->drawing) {
-        struct timespec until;
-        clock_gettime(CLOCK_MONOTONIC, &until);
-        until.tv_nsec += 100000000;
-        until.tv_sec += until.tv_nsec / 1000000000;
-        until.tv_nsec %= 1000000000;
-        pthread_cond_timedwait(&b->changed, &b->lock, &until);
-        batch_show_progress(&b->tally);
-    }
+    while (b->drawing)
+        (b->jobs ? read_jobs : show_progress)(b);
     pthread_cond_broadcast(&b->changed);
     pthread_mutex_unlock(&b->lock);
     for (int i = 0; i < started; i++)
         pthread_join(workers[i].thread, NULL);
     if (reads)
         pthread_join(reader, NULL);
-    if (!started) { // no thread can be had: this one works
+    lam_error error;
+    if (!started && b->jobs) {
+        complain(&error, LAM_LIMIT, "no thread can be started");
+        batch_stop(b, &error);
+    } else if (!started) { // no thread can be had: this one works
         b->drawing = 1;
         work(&workers[0]);
     }
@@ -180,7 +218,7 @@ static bool run_passes(struct batch *b, lam_error *error)
     draw_suspects(b);
     bool ok = !workers ||
               (batch_reach_enter(b, b->journal_path, 0, b->plan->count, error) && make_workers(b, workers, error));
-    for (int pass = 0; ok && batch_begin_pass(b, pass); pass++) {
+    for (int pass = 0; ok && (b->jobs ? pass == 0 : batch_begin_pass(b, pass)); pass++) {
         if (workers)
             run_threads(b, workers);
         else
@@ -205,7 +243,8 @@ static void share_threads(struct batch *b)
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
     int threads = b->options->threads ? b->options->threads : processors > 0 ? (int)processors : 1;
     int most = draws_with_gl(b->options) ? 1 : threads < WORKERS_MAX ? threads : WORKERS_MAX;
-    b->workers = (size_t)most < b->plan->count ? most : b->plan->count ? (int)b->plan->count : 1;
+    size_t models = b->options->jobs ? (size_t)most : b->plan->count;
+    b->workers = (size_t)most < models ? most : models ? (int)models : 1;
     b->threads = b->workers == 1 ? b->options->threads : threads / b->workers;
 }
 
@@ -261,7 +300,7 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     struct journal_run run = {all, *shard ? shard : NULL, pictures};
     ok = ok && (!journal || (b->journal = journal_open(journal, b->way, &run, b->workers, error)));
     free(all);
-    return ok;
+    return ok && (!o->jobs || (b->jobs = batch_jobs_open(b, error)));
 }
 
 // Names the pictures that failed again and again.
@@ -321,6 +360,8 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     pthread_cond_init(&b.changed, &monotonic);
     pthread_condattr_destroy(&monotonic);
     interrupt_start();
+    if (b.options->jobs)
+        signal(SIGPIPE, SIG_IGN); // that nobody reads the answers is an error of writing them
     bool started = start(&b, journal, &error), ok = started && run_passes(&b, &error);
     if (started && ok)
         finish(&b);
@@ -328,6 +369,7 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     int code = ok ? b.code : report_failure(&error, plan->options);
     if (ok && is_batch && b.tally.failed + b.tally.failed_before && !b.failed)
         code = EXIT_SOME_FAILED;
+    batch_jobs_close(b.jobs);
     free_batch(&b);
     if (interrupted()) {
         fflush(stdout);

@@ -25,11 +25,23 @@ struct batch_picture {
     uint16_t attempts; // tries so far, those of earlier runs included
 };
 
+struct batch_job;
+struct batch_jobs;
+
+// What a worker draws: a model of the batch's plan, or that of a job, which has a plan of its own.
+struct batch_task {
+    const struct batch_plan *plan; // the options, the views and the names
+    size_t model;                  // of the plan
+    const char *options_text;      // for keys; NULL: there are none
+    struct batch_job *job;         // NULL: the plan is the batch's
+};
+
 struct batch {
-    const struct batch_plan *plan;
+    const struct batch_plan *plan; // without models where jobs come
     const struct options *options;
     bool is_batch;
-    char *options_text; // NULL: no records
+    char *options_text;      // NULL: no keys
+    struct batch_jobs *jobs; // --jobs (batch_jobs.h); NULL: the plan has all models
     enum journal_way way;
     struct journal *journal;
     const char *journal_path; // NULL: none
@@ -49,6 +61,7 @@ struct batch {
     bool failed; // the journal cannot be written: nothing more is begun
 };
 
+// The pictures' states of a model of the batch's plan.
 static inline struct batch_picture *batch_pictures_of(const struct batch *b, size_t model)
 {
     return b->pictures + model * (size_t)b->plan->view_count;

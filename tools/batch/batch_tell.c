@@ -74,6 +74,8 @@ void batch_say_summary(const struct batch_tally *t, bool interrupted)
         say_plain(", %zu unchanged", t->same);
     if (t->before)
         say_plain(", %zu done before", t->before);
+    if (t->cancelled)
+        say_plain(", %zu cancelled", t->cancelled);
     size_t failed = t->failed + t->failed_before;
     if (failed)
         say_plain(", %zu failed", failed);

@@ -12,6 +12,7 @@ enum { TALLY_CLASSES = 12 };
 struct batch_tally {
     struct batch_shard shard;
     size_t total, written, failed, same, before, failed_before; // before: by the runs of the journal
+    size_t cancelled;                                           // jobs
     size_t warnings;
     struct {
         const char *name;

@@ -5,43 +5,51 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "batch_job.h"
 #include "batch_key.h"
 #include "console.h"
 #include "exit_codes.h"
 #include "report.h"
 #include "xxh64.h"
 
-bool batch_unit_start(struct batch_unit *u, const struct batch *b, size_t model, lam_error *error)
+bool batch_unit_start(struct batch_unit *u, const struct batch *b, const struct batch_task *task, lam_error *error)
 {
-    size_t count = (size_t)b->plan->view_count;
-    *u = (struct batch_unit){.model = model,
+    size_t count = (size_t)task->plan->view_count;
+    bool in_answer = task->job && task->job->in_answer;
+    *u = (struct batch_unit){.task = *task,
+                             .picture_count = task->plan->view_count,
                              .pictures = calloc(count, sizeof *u->pictures),
                              .outputs = calloc(count, sizeof *u->outputs),
+                             .contents = in_answer ? calloc(count, sizeof *u->contents) : NULL,
                              .classes = calloc(count, sizeof *u->classes),
                              .records = calloc(count, sizeof *u->records),
                              .is_new = calloc(count, sizeof *u->is_new)};
-    bool ok = u->pictures && u->outputs && u->classes && u->records && u->is_new;
+    bool ok = u->pictures && u->outputs && u->classes && u->records && u->is_new && (u->contents || !in_answer);
     for (size_t i = 0; ok && i < count; i++) {
-        u->pictures[i] = batch_pictures_of(b, model)[i];
-        u->outputs[i] = batch_plan_output(b->plan, model, (int)i);
+        if (!task->job)
+            u->pictures[i] = batch_pictures_of(b, task->model)[i];
+        u->outputs[i] = batch_plan_output(task->plan, task->model, (int)i);
         ok = u->outputs[i] != NULL;
     }
     if (ok)
         return true;
-    batch_unit_free(u, b);
+    batch_unit_free(u);
     return complain(error, LAM_LIMIT, "out of memory");
 }
 
-void batch_unit_free(struct batch_unit *u, const struct batch *b)
+void batch_unit_free(struct batch_unit *u)
 {
-    for (int i = 0; i < b->plan->view_count; i++) {
+    for (int i = 0; i < u->picture_count; i++) {
         if (u->outputs)
             free(u->outputs[i]);
+        if (u->contents)
+            lam_bytes_free(&u->contents[i]);
         if (u->records)
             json_decref(u->records[i]);
     }
     free(u->pictures);
     free(u->outputs);
+    free(u->contents);
     free(u->classes);
     free(u->records);
     free(u->is_new);
@@ -66,7 +74,7 @@ static bool is_untouched(const json_t *record, const char *output)
 }
 
 // Whether the files that the model was made of, and the options, give the record's key.
-static bool has_same_key(const json_t *record, const struct batch_unit *u, const struct batch *b, int view)
+static bool has_same_key(const json_t *record, const struct batch_unit *u, int view)
 {
     const json_t *files = json_object_get(record, "files"), *file;
     size_t count = json_array_size(files), i;
@@ -86,11 +94,12 @@ static bool has_same_key(const json_t *record, const struct batch_unit *u, const
             same &= strcmp(hashes[i], text_of(file, "hash")) == 0;
         }
     if (same) {
-        const struct job_view *v = &b->plan->views[view];
+        const struct batch_plan *plan = u->task.plan;
+        const struct job_view *v = &plan->views[view];
         const char *dot = strrchr(u->outputs[view], '.'), *format = text_of(record, "format");
-        struct batch_key_parts parts = {.options = b->options_text,
-                                        .parsed = b->options,
-                                        .model = b->plan->models[u->model].path,
+        struct batch_key_parts parts = {.options = u->task.options_text,
+                                        .parsed = plan->options,
+                                        .model = plan->models[u->task.model].path,
                                         .format = strcmp(format, "shape") == 0 ? "" : format,
                                         .picture = dot ? dot + 1 : "",
                                         .side = v->side,
@@ -111,8 +120,8 @@ static enum picture_outcome look(const struct batch_unit *u, const struct batch 
     struct stat found;
     bool written = strcmp(text_of(record, "class"), "ok") == 0;
     if (b->way == JOURNAL_SAME)
-        return written && has_same_key(record, u, b, view) && is_untouched(record, u->outputs[view]) ? PICTURE_SAME
-                                                                                                     : PICTURE_OPEN;
+        return written && has_same_key(record, u, view) && is_untouched(record, u->outputs[view]) ? PICTURE_SAME
+                                                                                                  : PICTURE_OPEN;
     if (written) {
         bool whole = stat(u->outputs[view], &found) == 0 &&
                      found.st_size == json_integer_value(json_object_get(record, "bytes"));
@@ -125,14 +134,15 @@ static enum picture_outcome look(const struct batch_unit *u, const struct batch 
 bool batch_unit_look(struct batch_unit *u, const struct batch *b)
 {
     bool open = false;
-    for (int i = 0; i < b->plan->view_count; i++) {
+    for (int i = 0; i < u->task.plan->view_count; i++) {
         struct batch_picture *picture = &u->pictures[i];
         // One that this run has tried already is tried again whatever the journal said.
-        bool asks = picture->outcome == PICTURE_OPEN && picture->attempts == 0 && b->journal && b->way != JOURNAL_START;
+        bool asks = picture->outcome == PICTURE_OPEN && picture->attempts == 0 && b->journal &&
+                    b->way != JOURNAL_START && !u->contents;
         json_t *record = asks ? journal_find(b->journal, u->outputs[i]) : NULL;
         if (record)
             picture->outcome = (uint8_t)look(u, b, i, record, &picture->attempts);
-        if (picture->outcome != PICTURE_OPEN && b->records)
+        if (picture->outcome != PICTURE_OPEN && (b->records || u->task.job))
             u->records[i] = record;
         else
             json_decref(record);
@@ -148,19 +158,24 @@ static struct batch_item item_of(const struct batch_unit *u, const struct batch 
                                  struct job_view *views, char **outputs, int *attempts, int *which)
 {
     int count = 0;
-    for (int i = 0; i < b->plan->view_count; i++) {
+    const struct batch_task *task = &u->task;
+    for (int i = 0; i < task->plan->view_count; i++) {
         if (u->pictures[i].outcome != PICTURE_OPEN)
             continue;
-        views[count] = b->plan->views[i];
+        views[count] = task->plan->views[i];
         outputs[count] = u->outputs[i];
         attempts[count] = u->pictures[i].attempts + 1;
         which[count++] = i;
     }
     return (struct batch_item){.options = o,
-                               .options_text = b->options_text,
-                               .model = b->plan->models[u->model].path,
+                               .options_text = task->options_text,
+                               .has_records = b->options_text || task->job,
+                               .model = task->plan->models[task->model].path,
+                               .model_bytes = task->job && task->job->bytes.data ? &task->job->bytes : NULL,
                                .views = views,
                                .outputs = outputs,
+                               .contents = u->contents, // all of them are open then
+                               .makes_folders = task->job != NULL,
                                .attempts = attempts,
                                .view_count = count,
                                .several = o->view_count || o->size_count};
@@ -169,12 +184,13 @@ static struct batch_item item_of(const struct batch_unit *u, const struct batch 
 enum { VIEWS = VIEWS_MAX * VIEWS_MAX };
 
 void batch_unit_draw(struct batch_unit *u, const struct batch *b, const struct options *o, lam_device *device,
-                     bool capture)
+                     const lam_cancel *cancel, bool capture)
 {
     struct job_view views[VIEWS];
     char *outputs[VIEWS];
     int attempts[VIEWS], which[VIEWS];
     struct batch_item item = item_of(u, b, o, views, outputs, attempts, which);
+    item.cancel = cancel;
     struct batch_artist artist = {
         .device = device, .out = stdout, .has_bar = !capture, .is_talkative = !b->is_batch || o->verbose};
     size_t out_size, err_size;
@@ -212,14 +228,14 @@ void batch_unit_fail(struct batch_unit *u, const struct batch *b, const char *cl
     struct job_view views[VIEWS];
     char *outputs[VIEWS];
     int attempts[VIEWS], which[VIEWS];
-    struct batch_item item = item_of(u, b, b->options, views, outputs, attempts, which);
+    struct batch_item item = item_of(u, b, u->task.plan->options, views, outputs, attempts, which);
     u->code = exit;
     for (int i = 0; i < item.view_count; i++) {
         struct batch_picture *picture = &u->pictures[which[i]];
         picture->outcome = PICTURE_FAILED;
         picture->attempts++;
         u->classes[which[i]] = class;
-        u->records[which[i]] = b->options_text ? batch_record_failed(&item, i, class, exit, text) : NULL;
+        u->records[which[i]] = item.has_records ? batch_record_failed(&item, i, class, exit, text) : NULL;
         u->is_new[which[i]] = true;
     }
 }

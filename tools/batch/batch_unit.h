@@ -4,11 +4,13 @@
 
 #include "batch_state.h"
 
-// One model's work and its results. The arrays have plan->view_count elements.
+// One model's work and its results. The arrays have picture_count elements.
 struct batch_unit {
-    size_t model;
+    struct batch_task task;
+    int picture_count;              // task.plan->view_count
     struct batch_picture *pictures; // their states after the work
     char **outputs;                 // paths
+    lam_bytes *contents;            // of a job that wants the pictures' files in its answer; NULL: they are written
     const char **classes;           // of failed pictures: the name of the exit code; static
     json_t **records;               // new lines of the journal; or, for the page, old ones (is_new)
     bool *is_new;
@@ -17,17 +19,19 @@ struct batch_unit {
     bool interrupted;
 };
 
-// Makes the unit of a model with the states of its pictures. False: LAM_LIMIT.
-bool batch_unit_start(struct batch_unit *unit, const struct batch *batch, size_t model, lam_error *error);
-void batch_unit_free(struct batch_unit *unit, const struct batch *batch);
+// Makes the unit of a task with the states of its pictures. False: LAM_LIMIT.
+bool batch_unit_start(struct batch_unit *unit, const struct batch *batch, const struct batch_task *task,
+                      lam_error *error);
+void batch_unit_free(struct batch_unit *unit);
 
 // Finds out what the journal makes of open pictures: those that --resume and --skip-same leave as they are. True: some are
 // to be drawn. Any thread may call it.
 bool batch_unit_look(struct batch_unit *unit, const struct batch *batch);
 
-// Draws the open pictures. `capture`: messages are kept; else they are printed at once, and a terminal has a bar.
+// Draws the open pictures. `cancel` stops it; NULL: Ctrl-C does. `capture`: messages are kept; else they are printed at once, and
+// a terminal has a bar.
 void batch_unit_draw(struct batch_unit *unit, const struct batch *batch, const struct options *options,
-                     lam_device *device, bool capture);
+                     lam_device *device, const lam_cancel *cancel, bool capture);
 
 // Makes all open pictures failed ones, of a class that has no report of its own; `text` names the model.
 void batch_unit_fail(struct batch_unit *unit, const struct batch *batch, const char *class, int exit, const char *text);

@@ -88,6 +88,14 @@ uint64_t xxh64_end(const struct xxh64 *hash)
     return sum ^ sum >> 32;
 }
 
+uint64_t xxh64_of(const void *bytes, size_t size)
+{
+    struct xxh64 hash;
+    xxh64_start(&hash);
+    xxh64_add(&hash, bytes, size);
+    return xxh64_end(&hash);
+}
+
 bool xxh64_file(const char *path, uint64_t *hash)
 {
     static _Thread_local unsigned char piece[PIECE];

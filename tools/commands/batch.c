@@ -12,8 +12,30 @@
 #include "output.h"
 #include "report.h"
 
+// With --jobs each job names its model and its picture, and there is no list to go on with.
+static bool check_jobs(int operands, const struct options *o, lam_error *error)
+{
+    static const char *const others[] = {"output", "files-from", "resume",     "retry-failed", "report",
+                                         "json",   "dry-run",    "save-scene", "shard",        NULL};
+    if (operands)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--jobs': each job names its model, found a model on the command line");
+    for (int i = 0; others[i]; i++)
+        if (option_given(o, others[i]))
+            return complain(error, LAM_BAD_ARGUMENT, "options '--jobs' and '--%s' cannot be used together", others[i]);
+    if (o->skip_same && !o->journal)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--skip-same' goes by a journal, with --jobs expected --journal FILE");
+    return render_check_options(o, error);
+}
+
 static bool check(int operands, const struct options *o, lam_error *error)
 {
+    if (o->jobs)
+        return check_jobs(operands, o, error);
+    if (option_given(o, "ahead") || option_given(o, "line-limit"))
+        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' goes with --jobs",
+                        option_given(o, "ahead") ? "ahead" : "line-limit");
     if (!operands && !o->lists.count)
         return complain(error, LAM_BAD_ARGUMENT,
                         "batch: no model given, expected files, folders, @FILE with a list of names, or - for names on "
@@ -53,7 +75,7 @@ static bool print_mapping(const struct batch_plan *plan, lam_error *error)
 static char *journal_path(const struct batch_plan *plan, bool *none)
 {
     const char *named = plan->options->journal;
-    *none = named && strcmp(named, "none") == 0;
+    *none = named ? strcmp(named, "none") == 0 : plan->options->jobs != NULL;
     if (named)
         return strdup(named);
     char *folder = batch_plan_folder(plan), *path = NULL;

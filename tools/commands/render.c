@@ -58,6 +58,12 @@ static bool check_together(int count, char **models, const struct options *o, la
                         "option '--output' names one picture, but there are %d models; "
                         "name a folder, -o pictures/, or a pattern, -o '{stem}-{view}.png'",
                         count);
+    if (o->jobs || o->ahead || o->line_limit_bytes)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--%s' does not apply to this command; it belongs to batch: lambent batch --jobs -",
+                        o->jobs    ? "jobs"
+                        : o->ahead ? "ahead"
+                                   : "line-limit");
     if (o->save_scene && count > 1)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--save-scene' goes only with a single model, but there are %d", count);

@@ -19,7 +19,8 @@ const struct topic topics[] = {
      "'thumbs/{dir}/{stem}.png'`. `--dry-run` prints which picture each model becomes. Killed at any moment, the same "
      "command with `--resume` goes on; with `--skip-same` it draws only what has changed. The exit code is 7 where "
      "some "
-     "pictures failed. `docs/batch.md` has the details."},
+     "pictures failed. `docs/batch.md` has the details. With `--jobs -` it takes jobs from a server, a line of JSON "
+     "each, and answers them (`docs/worker.md`)."},
     {"picture", "The picture", BIT(PICTURE), TOPIC_NO_TABLE, NULL},
     {"output", "Output", 0, TOPIC_NO_TABLE,
      "Without `-o` the picture of `models/koala.obj` is `koala.png` in the current folder. An older picture "

@@ -395,9 +395,14 @@ static bool write_file(struct job *job, lam_animation *file, lam_error *error)
     lam_control control;
     lam_bytes bytes = {0};
     double start = clock_ms();
-    bool ok = job_control(job, NULL, &control, error) && lam_animation_finish(file, &control, &bytes, error) &&
-              output_save_bytes(&bytes, job->output, job->options->durable, &job->bytes, error);
-    lam_bytes_free(&bytes);
+    bool ok = job_control(job, NULL, &control, error) && lam_animation_finish(file, &control, &bytes, error);
+    if (ok && job->picture_bytes) {
+        *job->picture_bytes = bytes;
+        job->bytes = bytes.size;
+    } else {
+        ok = ok && output_save_bytes(&bytes, job->output, job->options->durable, &job->bytes, error);
+        lam_bytes_free(&bytes);
+    }
     job->times.encode += clock_ms() - start;
     job->written = ok;
     return ok;

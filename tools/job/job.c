@@ -51,7 +51,7 @@ bool job_control(const struct job *job, struct progress *progress, lam_control *
 {
     const struct options *o = job->options;
     *control = limits_control(o);
-    control->cancel = interrupt_flag();
+    control->cancel = job->cancel ? job->cancel : interrupt_flag();
     control->progress = progress ? progress_update : NULL;
     control->user = progress;
     if (interrupted())
@@ -181,7 +181,7 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     progress_phase(progress, 0, 0.5);
     if (!job_control(job, progress, &control, error))
         return false;
-    if (lam_shape_find(job->model) >= 0) {
+    if (!job->model_bytes && lam_shape_find(job->model) >= 0) {
         job->scene = make_shape(job->model, o, &control, error);
         job->times.prepare = clock_ms() - job->times.start;
     } else {
@@ -201,10 +201,12 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
                                   .time_s = o->time_s,
                                   .polygon_edges = o->draw.wireframe || o->draw.edges,
                                   .normals_when_drawn = draws_once(job)};
-        job->scene = lam_scene_load(job->model, &params, &control, error);
+        const lam_bytes *bytes = job->model_bytes;
+        job->scene = bytes ? lam_scene_load_memory(bytes->data, bytes->size, job->model, &params, &control, error)
+                           : lam_scene_load(job->model, &params, &control, error);
         if (job->scene)
             lam_scene_times(job->scene, &job->times.read, &job->times.prepare);
-        else
+        else if (!bytes)
             add_guess(job, error);
     }
     if (!job->scene)
@@ -420,12 +422,14 @@ bool job_write(struct job *job, lam_error *error)
     bool ok;
     uint64_t bytes = 0;
     if (show_is_all(job->options)) {
-        ok = output_make_folder(job->output, error) && show_all_write(job, &control, error);
+        ok = (job->picture_bytes || output_make_folder(job->output, error)) && show_all_write(job, &control, error);
         bytes = ok ? output_size(job->output) : 0;
+    } else if (job->picture_bytes) {
+        ok = lam_image_encode(&job->image, job->format, &params, job->picture_bytes, error);
     } else {
         ok = output_save(&job->image, job->output, &params, &bytes, error);
     }
-    job->bytes += bytes;
+    job->bytes += job->picture_bytes ? job->picture_bytes->size : bytes;
     job->times.encode += clock_ms() - start;
     job->written = ok;
     return ok;
@@ -468,12 +472,14 @@ bool job_draw(struct job *job, lam_pixel_format format, struct progress *progres
 
 bool job_check_output(struct job *job, lam_error *error)
 {
-    bool stream = output_is_stream(job->output);
-    if (!output_format(job->output, &job->pixels, error))
+    bool stream = !job->picture_bytes && output_is_stream(job->output);
+    if (job->picture_bytes ? !lam_image_format_for(job->output, &job->pixels, error)
+                           : !output_format(job->output, &job->pixels, error))
         return false;
     job->format = stream ? "png" : strrchr(job->output, '.') + 1;
-    if (strcmp(job->output, "-") != 0 &&
-        !output_check(job->output, job->model, output_given(job->options->output), error))
+    enum output_given given = output_given(job->options->output);
+    given = given == OUTPUT_NAMED && job->makes_folder ? OUTPUT_PATTERN : given;
+    if (strcmp(job->output, "-") != 0 && !job->picture_bytes && !output_check(job->output, job->model, given, error))
         return false;
     return !show_is_all(job->options) || show_all_check(job, error);
 }

@@ -46,10 +46,14 @@ struct job_frames {
 
 struct job {
     const struct options *options;
-    const char *model;       // as typed
-    const char *output;      // path of the picture; "-": standard output
-    const char *format;      // of the picture: "png"
-    lam_pixel_format pixels; // that it is drawn with
+    const char *model;            // as typed
+    const lam_bytes *model_bytes; // the model itself, which `model` is then a name for; NULL: a file
+    const char *output;           // path of the picture; "-": standard output
+    lam_bytes *picture_bytes;     // receives the picture's file, whose format `output` names; NULL: the file is written
+    bool makes_folder;            // of a picture that the options name, too
+    const lam_cancel *cancel;     // stops it; NULL: Ctrl-C does
+    const char *format;           // of the picture: "png"
+    lam_pixel_format pixels;      // that it is drawn with
     struct job_frames frames;
     struct animation *animation; // while one is made (animate.h); NULL: none is
     lam_scene *scene;            // NULL until the model is loaded

@@ -66,6 +66,8 @@ static bool draw_all(struct layers *layers, struct job *job, const lam_light *li
 static bool save_layers(const struct layers *layers, const struct job *job, lam_error *error)
 {
     lam_bytes bytes = {0};
+    if (job->picture_bytes)
+        return lam_image_encode_layers(layers->list, layers->count, job->picture_bytes, error);
     if (!job->options->durable)
         return lam_image_save_layers(layers->list, layers->count, job->output, error);
     bool ok = lam_image_encode_layers(layers->list, layers->count, &bytes, error) &&

@@ -36,17 +36,14 @@ void look_summary(const char *text, char *out, size_t size)
     snprintf(out, size, "%.*s", *text == '#' ? (int)strcspn(from, "\n") : 0, from);
 }
 
-// The text of a look, to be changed: the values of options point into it until the program ends.
+// The text of a look, to be changed; from malloc.
 static char *copy_of_look(const char *name, lam_error *error)
 {
-    static struct kept {
-        struct kept *next;
-        char text[];
-    } *all;
     const char *built_in = look_find(name);
-    struct kept *kept = malloc(sizeof *kept + FILE_MAX + 1);
+    size_t room = built_in ? strlen(built_in) : FILE_MAX;
+    char *text = malloc(room + 1);
     FILE *file = built_in ? NULL : fopen(name, "rb");
-    if (!kept || (!built_in && !file)) {
+    if (!text || (!built_in && !file)) {
         int reason = errno;
         struct suggestion nearest = suggest_start(name);
         for (int i = 0; i < LOOKS; i++)
@@ -55,31 +52,33 @@ static char *copy_of_look(const char *name, lam_error *error)
                  "found '%.100s', expected studio, classic, catalog, technical or a file (%s)%s%s%s", name,
                  strerror(reason), nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
                  nearest.best ? "'?" : "");
-        free(kept);
+        if (file)
+            fclose(file);
+        free(text);
         return NULL;
     }
-    kept->next = all;
-    all = kept;
-    size_t length = 0;
+    size_t length = room;
     if (built_in)
-        length = (size_t)snprintf(kept->text, FILE_MAX, "%s", built_in);
+        memcpy(text, built_in, room);
     else
-        length = fread(kept->text, 1, FILE_MAX, file);
+        length = fread(text, 1, FILE_MAX, file);
     bool whole = built_in || (!ferror(file) && fgetc(file) == EOF);
     if (file)
         fclose(file);
-    kept->text[length] = 0;
-    if (whole && strlen(kept->text) == length)
-        return kept->text;
+    text[length] = 0;
+    if (whole && strlen(text) == length)
+        return text;
+    free(text);
     complain(error, LAM_BAD_ARGUMENT, "%.200s: not a look: it cannot be read, is longer than 64 KiB, or is no text",
              name);
     return NULL;
 }
 
-bool look_read(const char *name, bool (*take)(void *user, int line, char *option, char *value, lam_error *error),
-               void *user, lam_error *error)
+bool look_read(const char *name, char **kept,
+               bool (*take)(void *user, int line, char *option, char *value, lam_error *error), void *user,
+               lam_error *error)
 {
-    char *text = copy_of_look(name, error);
+    char *text = *kept = copy_of_look(name, error);
     int number = 1;
     for (char *line = text, *next; line; line = next, number++) {
         next = strchr(line, '\n');

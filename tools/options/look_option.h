@@ -15,8 +15,10 @@ const char *look_find(const char *name);
 void look_summary(const char *text, char *out, size_t size);
 
 // Calls `take` for each option of a look, a built-in one or a file, until it returns false: the line's number, the name without
-// dashes and the value, "" where there is none, which live until the program ends. False: LAM_BAD_ARGUMENT.
-bool look_read(const char *name, bool (*take)(void *user, int line, char *option, char *value, lam_error *error),
-               void *user, lam_error *error);
+// dashes and the value, "" where there is none, which live as long as *kept: the caller frees it, also after a failure. False:
+// LAM_BAD_ARGUMENT.
+bool look_read(const char *name, char **kept,
+               bool (*take)(void *user, int line, char *option, char *value, lam_error *error), void *user,
+               lam_error *error);
 
 #endif

@@ -267,15 +267,15 @@ const struct option option_table[] = {
      "option the picture is written to the current folder under the model's name with the extension `.png` "
      "(`model.png` if the model comes from standard input); a file of that name that lambent did not write is "
      "never overwritten. `-o pictures/`, with a trailing slash, does the same in that folder, and makes it if it "
-     "is missing; every command that writes files takes it.\n"
+     "is missing; every command that writes files takes it. `--out` is another name of the option.\n"
      "A name with words in braces is a pattern, which each model fills in: `-o 'thumbs/{dir}/{stem}-{view}.png'`. "
      "`{stem}` is the model's file name without its ending, `{ext}` that ending, `{dir}` its folder (without `..` and "
      "a leading slash), "
      "`{view}` the word of `--view`, `{size}` the size in pixels, `256` or `256x128`. Missing folders are made, and "
      "existing files replaced. Two models whose pictures would have one name are an error before the start. `{{` "
      "and `}}` are braces.",
-     .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .store = store_text,
-     .others = "out outfile file format export save write", FIELD(output), .single = TAKES_OUTPUT},
+     .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .store = store_text, .alias = "out",
+     .others = "outfile file format export save write", FIELD(output), .single = TAKES_OUTPUT},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.", NULL,
      .brief = "pixels: 800, or 1920x1080", .store = store_size, .others = "resolution width height dimensions pixels",
      .max = 65535, .single = TAKES_SIZE},
@@ -799,6 +799,24 @@ const struct option option_table[] = {
      "nothing. The journal and the page of each part have names of their own: `lambent-2-of-4.jsonl` "
      "(`docs/batch.md`).",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(shard)},
+    {"jobs", 0, GROUP_BATCH, "-", NULL, "`batch`: Take jobs, a line of JSON each, and answer each with a line of JSON.",
+     "For servers: one process draws whatever comes until its standard input ends (`docs/worker.md`). A job has an "
+     "`id`, a "
+     "`model` or its bytes, `options`, and an `output`, without which the picture is part of the answer. Files are "
+     "read and "
+     "written only below the folders of `--allow-path`. The options of the command line are those of every job, before "
+     "its "
+     "own. A file or a pipe takes the place of `-`.",
+     .kind = VALUE_FILE, .store = store_jobs, .others = "worker server daemon serve", FIELD(jobs)},
+    {"ahead", 0, GROUP_BATCH, "N", "twice as many as are drawn at once",
+     "How many jobs may wait; then no more lines are read.", NULL, .store = store_integer,
+     .others = "queue backlog queue-length", FIELD(ahead), .min = 1, .max = 100000},
+    {"line-limit", 0, GROUP_BATCH, "BYTES", "64M",
+     "The largest line of `--jobs`; a longer one is an error, and is not kept.",
+     "Lines are as long as the models in them: base64 takes four bytes for three. Jobs that wait hold at most twice as "
+     "much "
+     "of models.",
+     .store = store_bytes, .others = "line-length job-limit", FIELD(line_limit_bytes)},
     {"report", 0, GROUP_BATCH, "FILE.html", NULL, "Also write a page of all pictures, failures first.",
      "Thumbnails go to the folder FILE-files beside it. It needs no other file and no network.", .kind = VALUE_FILE,
      .store = store_text, .others = "contact-sheet html gallery page", FIELD(report_page)},

@@ -415,6 +415,16 @@ bool store_list(const struct option *option, const char *value, struct options *
                   : complain(error, LAM_BAD_ARGUMENT, "its value is empty, expected a file of names");
 }
 
+// "-", or a file; a number is what other programs take.
+bool store_jobs(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    if (*value && strspn(value, "0123456789") == strlen(value))
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "found '%.20s', expected - (standard input) or a file; -j %.20s draws so many models at once",
+                        value, value);
+    return store_text(option, value, options, error);
+}
+
 bool store_light(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     bool ok = strcmp(value, "none") == 0 || lam_scene_add_light_text(NULL, value + (*value == '+'), NULL, error) == 0;

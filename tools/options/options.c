@@ -32,6 +32,7 @@ void options_free(struct options *options)
     free(options->allow_paths.items);
     free(options->lists.items);
     free(options->sweeps.items);
+    free(options->look_text);
 }
 
 static bool texts_copy(struct texts *texts)
@@ -46,6 +47,7 @@ static bool texts_copy(struct texts *texts)
 bool options_copy(struct options *to, const struct options *from)
 {
     *to = *from;
+    to->look_text = NULL; // a copy ends before what it was made of
     bool ok = texts_copy(&to->lights);
     ok = texts_copy(&to->materials) && ok;
     ok = texts_copy(&to->back_materials) && ok;
@@ -65,10 +67,15 @@ bool option_is_taken(const struct option *option, unsigned groups)
     return groups & (1u << option->group | option->single);
 }
 
+static bool is_name(const char *word, const char *name, size_t length)
+{
+    return strlen(word) == length && memcmp(word, name, length) == 0;
+}
+
 static const struct option *find_long(const char *name, size_t length)
 {
     for (const struct option *o = option_table; o->name; o++)
-        if (strlen(o->name) == length && memcmp(o->name, name, length) == 0)
+        if (is_name(o->name, name, length) || (o->alias && is_name(o->alias, name, length)))
             return o;
     return NULL;
 }
@@ -190,7 +197,7 @@ static bool apply_look(const char *name, struct options *options, lam_error *err
     struct look_lines lines = {options, &before, own_lights(options)};
     options->look = name;
     options->look_first = options->lights.count;
-    return look_read(name, take_look_line, &lines, error);
+    return look_read(name, &options->look_text, take_look_line, &lines, error);
 }
 
 static void look_drop_lights(struct options *options)

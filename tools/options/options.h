@@ -50,6 +50,7 @@ struct options {
     // Lights
     struct texts lights;         // as written, checked
     const char *look;            // as written; NULL: none
+    char *look_text;             // its file, which values point into; from malloc; of the options that read it
     int look_first, look_lights; // the lights above that are the look's
     int rig;                     // lam_rig, or RIG_DARK
     bool has_rig;
@@ -120,6 +121,9 @@ struct options {
     const char *report_page; // NULL: none
     int retry_failed;
     bool resume, skip_same, isolate;
+    const char *jobs;          // "-" or a file; NULL: none come
+    int ahead;                 // 0: the default
+    uint64_t line_limit_bytes; // 0: the default
 
     // Comparison of pictures
     double tolerance, gain;
@@ -256,6 +260,7 @@ struct option {
     unsigned single;         // TAKES_…, if commands may accept it without its group
     const char *brief;       // for -h: a few words; NULL: not shown there
     size_t letter_field;     // a bool to set as well where the option is given by its letter; 0: none
+    const char *alias;       // another long name that is the same; NULL: none
     const char *others;      // other names that people try, separated by spaces, for suggestions; NULL: none
     const char *alone;       // its value where the word after it is none of its own; NULL: it needs one
     bool loads;              // the model is read anew where it changes
@@ -306,6 +311,7 @@ bool store_exposure(const struct option *, const char *, struct options *, lam_e
 bool store_size(const struct option *, const char *, struct options *, lam_error *);         // width, height
 bool store_views(const struct option *, const char *, struct options *, lam_error *);        // views, view_count
 bool store_sizes(const struct option *, const char *, struct options *, lam_error *);        // sizes, size_count
+bool store_jobs(const struct option *, const char *, struct options *, lam_error *);         // const char *
 bool store_list(const struct option *, const char *, struct options *, lam_error *);         // struct texts
 bool store_segments(const struct option *, const char *, struct options *, lam_error *);     // slices, stacks
 bool store_bytes(const struct option *, const char *, struct options *, lam_error *);        // uint64_t

@@ -1,0 +1,15 @@
+// base64.h: bytes in JSON: base64 of RFC 4648, section 4, with padding and without line breaks.
+#ifndef BASE64_H
+#define BASE64_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+// From malloc, `*size` bytes; NULL: out of memory, or (*at is then where) `text` is no base64.
+uint8_t *base64_decode(const char *text, size_t length, size_t *size, size_t *at);
+
+// From malloc, with a closing zero, *length characters. NULL: out of memory.
+char *base64_encode(const uint8_t *bytes, size_t size, size_t *length);
+
+#endif

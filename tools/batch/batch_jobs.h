@@ -1,0 +1,33 @@
+// batch_jobs.h: --jobs: jobs come as lines of JSON, wait for a worker, and are answered by a line each (docs/worker.md).
+//
+// The main thread reads lines; workers take jobs and answer them, in any order. Reading stops while `--ahead` jobs wait. A job is
+// waiting, being drawn, or answered, and under its id at most one job is waiting or being drawn.
+#ifndef BATCH_JOBS_H
+#define BATCH_JOBS_H
+
+#include "batch_unit.h"
+
+// Opens the stream of jobs that the batch's options name. NULL: LAM_CANNOT_READ, LAM_BAD_ARGUMENT, LAM_LIMIT.
+struct batch_jobs *batch_jobs_open(struct batch *batch, lam_error *error);
+void batch_jobs_close(struct batch_jobs *jobs); // NULL is fine
+
+// Reads the next line, waiting for it up to `wait_ms`, and does what it says: accepts, refuses or cancels a job. After an
+// interrupt, or when the batch or the answers have failed, gives up all jobs. The main thread alone.
+void batch_jobs_step(struct batch_jobs *jobs, int wait_ms);
+
+// What to poll() for the next line; −1: none is wanted at the moment.
+int batch_jobs_wanted(const struct batch_jobs *jobs);
+
+// Whether batch_jobs_step has something to do without anything being read.
+bool batch_jobs_is_ready(const struct batch_jobs *jobs);
+
+// Whether no job waits, and none will.
+bool batch_jobs_over(struct batch_jobs *jobs);
+
+// The next job that waits; with `waits` it is waited for. False: there is none. Any thread.
+bool batch_jobs_take(struct batch_jobs *jobs, struct batch_task *task, bool waits);
+
+// Answers a job with what came of it, and frees it. Any thread.
+void batch_jobs_answer(struct batch_jobs *jobs, struct batch_unit *unit);
+
+#endif

@@ -1,0 +1,95 @@
+// job_roots.c: the folders that files of jobs may lie in.
+//
+// The kernel holds a worker to them too, where it has Landlock (sandbox_start.c): this check makes a sentence of it, and holds
+// without Landlock as long as nobody moves links about in these folders meanwhile.
+#include "job_roots.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "console.h"
+
+bool job_roots_start(struct job_roots *roots, const struct options *options, lam_error *error)
+{
+    const struct texts *given = &options->allow_paths;
+    *roots = (struct job_roots){.paths = calloc((size_t)given->count + 1, sizeof *roots->paths)};
+    if (!roots->paths)
+        return complain(error, LAM_LIMIT, "out of memory");
+    for (int i = 0; i < given->count; i++) {
+        struct stat about;
+        if (stat(given->items[i], &about) != 0 || !S_ISDIR(about.st_mode))
+            return complain(error, LAM_BAD_ARGUMENT,
+                            "option '--allow-path': found '%.200s', with --jobs expected a folder", given->items[i]);
+        char *real = realpath(given->items[i], NULL);
+        if (!real)
+            return complain(error, LAM_BAD_ARGUMENT, "option '--allow-path': %.200s: %s", given->items[i],
+                            strerror(errno));
+        roots->paths[roots->count++] = real;
+    }
+    return true;
+}
+
+void job_roots_free(struct job_roots *roots)
+{
+    for (int i = 0; i < roots->count; i++)
+        free(roots->paths[i]);
+    free(roots->paths);
+    *roots = (struct job_roots){0};
+}
+
+static bool is_below(const struct job_roots *roots, const char *real)
+{
+    for (int i = 0; i < roots->count; i++) {
+        size_t length = strlen(roots->paths[i]);
+        if (strncmp(real, roots->paths[i], length) == 0 &&
+            (real[length] == '/' || !real[length] || roots->paths[i][length - 1] == '/'))
+            return true;
+    }
+    return false;
+}
+
+// The real path of a path, or of the nearest folder above it that exists. NULL: there is none, or what is missing is more than
+// folders to be made: "..", or a link that leads nowhere.
+static char *resolve(const char *path, bool *exists)
+{
+    char *real = realpath(path, NULL), *copy = real ? NULL : strdup(path);
+    struct stat about;
+    *exists = real != NULL;
+    while (copy && !real) {
+        size_t length = strlen(copy);
+        while (length > 1 && copy[length - 1] == '/')
+            copy[--length] = 0;
+        char *slash = strrchr(copy, '/'), *name = slash ? slash + 1 : copy;
+        bool there = lstat(copy, &about) == 0 || (errno != ENOENT && errno != ENOTDIR);
+        if (there || strcmp(name, "..") == 0 || strcmp(copy, "/") == 0)
+            break;
+        bool top = slash == copy;
+        if (slash)
+            slash[top] = 0;
+        real = realpath(slash ? copy : ".", NULL);
+        if (!slash)
+            break;
+    }
+    free(copy);
+    return real;
+}
+
+bool job_roots_have(const struct job_roots *roots, const char *path, bool writes, lam_error *error)
+{
+    lam_code code = writes ? LAM_CANNOT_WRITE : LAM_CANNOT_READ;
+    if (!roots->count)
+        return complain(error, code, "%.400s: jobs may reach no files; --allow-path DIR lets them, for files below DIR",
+                        path);
+    bool exists;
+    char *real = resolve(path, &exists);
+    bool below = real && is_below(roots, real);
+    struct stat about;
+    bool odd = below && writes && exists && stat(real, &about) == 0 && !S_ISREG(about.st_mode);
+    free(real);
+    if (odd)
+        return complain(error, code, "%.400s: cannot write: is not a regular file", path);
+    return below ||
+           complain(error, code, "%.400s: lies outside of the folders that jobs may reach (--allow-path)", path);
+}

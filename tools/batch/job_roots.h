@@ -1,0 +1,20 @@
+// job_roots.h: the folders that files of jobs may lie in: those of --allow-path.
+#ifndef JOB_ROOTS_H
+#define JOB_ROOTS_H
+
+#include "options.h"
+
+struct job_roots {
+    char **paths; // after every link is followed; from malloc
+    int count;
+};
+
+// Error: LAM_BAD_ARGUMENT (one that is no folder), LAM_LIMIT.
+bool job_roots_start(struct job_roots *roots, const struct options *options, lam_error *error);
+void job_roots_free(struct job_roots *roots);
+
+// Whether a file lies below one of the folders, wherever links and ".." lead; it need not exist. `writes`: it is to be written, and is
+// then no pipe, no device and no link that leads nowhere. Error: LAM_CANNOT_READ, or with `writes` LAM_CANNOT_WRITE.
+bool job_roots_have(const struct job_roots *roots, const char *path, bool writes, lam_error *error);
+
+#endif

@@ -1,0 +1,28 @@
+// job_stream.h: lines of a file or a pipe, each no longer than a limit.
+#ifndef JOB_STREAM_H
+#define JOB_STREAM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct job_stream {
+    int file;
+    char *data; // what has been read, from `start` on
+    size_t start, end, capacity;
+    size_t searched; // from `start` on there is no line end in so many bytes
+    size_t limit;    // bytes of a line
+    uint64_t line;   // of the last line that was taken, from 1
+    bool skips;      // the rest of a line that is too long
+    bool ended;      // nothing more can be read
+};
+
+// Reads what is there, once; waits if nothing is. False: errno (ENOMEM: out of memory). An end is none of that.
+bool job_stream_read(struct job_stream *stream);
+
+// A line that is whole, without its end; at the end of the stream also one without an end. It lives until the next call of any
+// of these. TOO_LONG: a line that was longer than the limit; its bytes are not kept. NONE: there is no whole line yet, or no more.
+enum job_line { JOB_LINE_NONE, JOB_LINE_WHOLE, JOB_LINE_TOO_LONG };
+enum job_line job_stream_next(struct job_stream *stream, const char **text, size_t *size);
+
+#endif

@@ -1,0 +1,172 @@
+// job_words.c: the options of a job.
+#include "job_words.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "console.h"
+#include "json.h"
+
+enum { WORDS_MAX = 1000 };
+
+// --- from JSON to words
+
+// Appends a word from malloc, which it takes over; NULL: out of memory.
+static bool append(char ***words, int *count, char *word, lam_error *error)
+{
+    char **more = word && *count < WORDS_MAX ? realloc(*words, ((size_t)*count + 2) * sizeof *more) : NULL;
+    if (!more) {
+        free(word);
+        return *count < WORDS_MAX ? complain(error, LAM_LIMIT, "out of memory")
+                                  : complain(error, LAM_BAD_ARGUMENT, "key 'options': more than %d words", WORDS_MAX);
+    }
+    *words = more;
+    more[(*count)++] = word;
+    more[*count] = NULL;
+    return true;
+}
+
+// A string or a number as it is typed. False: it is neither.
+static bool typed(const json_t *value, char number[32], const char **text)
+{
+    *text = json_is_string(value) ? json_string_value(value) : number;
+    if (json_is_integer(value))
+        snprintf(number, 32, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
+    else if (json_is_real(value))
+        shortest_number(json_real_value(value), number);
+    return json_is_string(value) || json_is_number(value);
+}
+
+static bool has_word(const struct option *option, const char *name)
+{
+    for (const struct word *w = option ? option->words : NULL; w && w->name; w++)
+        if (strcmp(w->name, name) == 0)
+            return true;
+    return false;
+}
+
+// One value of an option: --name=value, or --name for true.
+static bool append_option(char ***words, int *count, const char *name, const json_t *value, lam_error *error)
+{
+    const struct option *option = option_find(name);
+    char number[32], *word = NULL;
+    const char *text;
+    if (json_is_boolean(value) && has_word(option, "off")) {
+        text = json_is_true(value) ? "on" : "off";
+        if (json_is_true(value) && option->alone)
+            text = option->alone;
+    } else if (json_is_false(value) || json_is_null(value)) {
+        return true;
+    } else if (json_is_true(value)) {
+        text = NULL;
+    } else if (!typed(value, number, &text)) {
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "key 'options': option '%.60s': expected a string, a number, true, or a list of them", name);
+    }
+    if ((text ? asprintf(&word, "--%s=%s", name, text) : asprintf(&word, "--%s", name)) < 0)
+        word = NULL;
+    return append(words, count, word, error);
+}
+
+static bool from_object(json_t *object, char ***words, int *count, lam_error *error)
+{
+    const char *name;
+    json_t *value, *item;
+    size_t i;
+    json_object_foreach(object, name, value)
+    {
+        if (!*name || strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-") != strlen(name))
+            return complain(error, LAM_BAD_ARGUMENT,
+                            "key 'options': found '%.60s', expected the name of an option without its dashes", name);
+        if (!json_is_array(value) && !append_option(words, count, name, value, error))
+            return false;
+        json_array_foreach(value, i, item) if (!append_option(words, count, name, item, error)) return false;
+    }
+    return true;
+}
+
+bool job_words_make(const json_t *value, char ***words, int *count, lam_error *error)
+{
+    json_t *item;
+    size_t i;
+    *words = NULL;
+    *count = 0;
+    if (!value || json_is_null(value))
+        return true;
+    if (json_is_object(value))
+        return from_object((json_t *)(uintptr_t)value, words, count, error);
+    if (!json_is_array(value))
+        return complain(
+            error, LAM_BAD_ARGUMENT,
+            "key 'options': expected a list of words or an object of options, such as [\"--size\", \"256\"] or "
+            "{\"size\": 256}");
+    json_array_foreach(value, i, item)
+    {
+        char number[32];
+        const char *text;
+        if (!typed(item, number, &text))
+            return complain(error, LAM_BAD_ARGUMENT, "key 'options': word %zu is neither a string nor a number", i + 1);
+        if (!append(words, count, strdup(text), error))
+            return false;
+    }
+    return true;
+}
+
+void job_words_free(char **words, int count)
+{
+    for (int i = 0; i < count; i++)
+        free(words[i]);
+    free(words);
+}
+
+// --- from words to options
+
+// Options of the picture alone: limits, processors and files to write are the worker's.
+static bool fits(const struct option *option)
+{
+    static const char *const others[] = {"output", "save-scene", "durable"};
+    bool fits = option->group == GROUP_PICTURE || option->group == GROUP_MODEL || option->group == GROUP_VIEW ||
+                option->group == GROUP_LIGHTS || option->group == GROUP_MATERIALS || option->group == GROUP_SHADING ||
+                option->group == GROUP_ANIMATION || strcmp(option->name, "views") == 0 ||
+                strcmp(option->name, "sizes") == 0;
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        fits &= strcmp(option->name, others[i]) != 0;
+    return fits;
+}
+
+static bool check(const struct options *given, lam_error *error)
+{
+    for (const struct option *option = option_table; option->name; option++) {
+        if (!given->given[option - option_table] || fits(option))
+            continue;
+        bool output = strcmp(option->name, "output") == 0;
+        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' is not a job's: %s", option->name,
+                        output ? "key 'output' names its picture" : "it belongs to the worker's command line");
+    }
+    return true;
+}
+
+// Parses into `options`; the list of words is copied, since parsing changes its order.
+static bool parse(char *const *words, int count, struct options *options, lam_error *error)
+{
+    char **list = calloc((size_t)count + 1, sizeof *list);
+    if (!list)
+        return complain(error, LAM_LIMIT, "out of memory");
+    for (int i = 0; i < count; i++)
+        list[i] = words[i];
+    int operands = options_parse(count, list, ~0u, options, error);
+    if (operands > 0)
+        complain(error, LAM_BAD_ARGUMENT, "key 'options': unexpected word '%.100s'", list[0]);
+    free(list);
+    return operands == 0;
+}
+
+bool job_words_apply(char *const *words, int count, struct options *options, lam_error *error)
+{
+    struct options given = option_defaults();
+    bool ok = !count || (parse(words, count, &given, error) && check(&given, error));
+    options_free(&given);
+    return ok && (!count || parse(words, count, options, error));
+}

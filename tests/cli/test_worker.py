@@ -322,7 +322,7 @@ class Refusals(Jobs):
 
     def test_command_line(self):
         for words, says in ((["in/cube.stl"], "names its model"), (["-o", "out/"], "'--jobs' and '--output'"), (["--resume"], "'--resume'"), (["--report", "r.html"], "'--report'"),
-                            (["--skip-same"], "--journal FILE"), (["--allow-path", "in/cube.stl"], "expected a folder"), (["--json"], "'--json'"), (["--ahead", "0"], "'--ahead'")):
+                            (["--skip-same"], "--journal FILE"), (["--allow-path", "in/cube.stl"], "expected a folder"), (["--json"], "'--json'"), (["--shard", "1/2"], "'--shard'"), (["--ahead", "0"], "'--ahead'")):
             done = self.run_program("batch", "--jobs", "-", *words)
             self.assertEqual(done.returncode, 1, (words, done.stderr))
             self.assertIn(says, done.stderr.decode())

@@ -224,8 +224,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
 
 lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error)
 {
-    static const struct device_type type = {
-        cpu_draw, cpu_memory, cpu_free, .makes_normals = true, .casts_shadows = true, .draws_ground = true};
+    static const struct device_type type = {cpu_draw, cpu_memory, cpu_free, .makes_normals = true};
     static const lam_cpu_params plain = {0};
     if (!params)
         params = &plain;

@@ -91,11 +91,7 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
                   "lam_draw: meshes of the scene have no normals (normals_when_drawn), which this device "
                   "does not make; "
                   "lam_scene_make_normals does");
-    if (ok && device->frame.shadows && !device->type->casts_shadows)
-        ok = fail(error, LAM_UNSUPPORTED, "the device '%s' draws no shadows, the CPU device does", device->name);
     const struct frame_ground *ground = &device->frame.ground;
-    if (ok && params->ground && !device->type->draws_ground)
-        ok = fail(error, LAM_UNSUPPORTED, "the device '%s' draws no ground, the CPU device does", device->name);
     if (ok && ground->kind) {
         device->report.ground = true;
         device->report.ground_height = v3_dot(ground->middle, ground->up);

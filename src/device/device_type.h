@@ -17,8 +17,6 @@ struct device_type {
     uint64_t (*memory)(const struct lam_device *device);
     void (*free)(struct lam_device *device); // frees the device itself too
     bool makes_normals;                      // can draw frames whose makes_normals is set
-    bool casts_shadows;                      // can draw frames whose shadows is set
-    bool draws_ground;                       // can draw frames with a ground
 };
 
 // The base of every device; a device's own struct begins with it.

@@ -28,8 +28,7 @@ static void null_free(struct lam_device *device) { free(device); }
 
 lam_device *lam_device_null(lam_error *error)
 {
-    static const struct device_type type = {
-        null_draw, null_memory, null_free, .makes_normals = true, .casts_shadows = true, .draws_ground = true};
+    static const struct device_type type = {null_draw, null_memory, null_free, .makes_normals = true};
     struct lam_device *device = calloc(1, sizeof *device);
     if (!device) {
         fail_memory(error, sizeof *device);

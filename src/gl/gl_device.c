@@ -28,7 +28,8 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->output = wanted.output;
     c->stage = wanted.stage;
     c->shading = wanted.shading;
-    c->occlusion = f->occlusion && !range->translucent;
+    bool ground = f->frame->draws[range->draw].ground;
+    c->occlusion = f->occlusion && (!range->translucent || ground);
     c->reflection = LAM_REFLECTION_LAMBERT;
     c->alpha[0] = c->alpha[1] = LAM_ALPHA_BLEND;
     bool geometry = glsl_output_is_geometry(c->output),
@@ -70,6 +71,7 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->light_count = wanted.light_count;
     c->hemisphere_count = wanted.hemisphere_count;
     c->shadows = f->frame->shadows && c->light_count && c->reflection != LAM_REFLECTION_NONE;
+    c->catches = ground && f->frame->ground.kind == LAM_GROUND_SHADOW && !output_is_value(c->output);
 }
 
 // The mesh of a draw, without the texture coordinates that no map reads.
@@ -148,8 +150,8 @@ static bool set_up_draw(struct gl_frame *f, const struct frame_draw_range *list,
         return false;
     const struct frame_draw *draw = &frame->draws[list->draw];
     lam_mesh drawn = mesh_as_drawn(f, list, count);
-    struct gl_mesh *mesh = mesh_upload(f, &drawn, form_of(f, draw, &drawn, f->draw_call_count - first), draw->strokes,
-                                       f->device->runs.data, runs, error);
+    struct gl_mesh *mesh = mesh_upload(f, &drawn, form_of(f, draw, &drawn, f->draw_call_count - first),
+                                       draw->strokes || draw->ground, f->device->runs.data, runs, error);
     if (!mesh)
         return false;
     bool colors = f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->output);
@@ -187,6 +189,8 @@ static bool set_up(struct gl_frame *f, lam_error *error)
     choices_of(f, &frame->ranges[0], &any);
     f->storage = light_buffers_storage(f->device, &any);
     any.storage = f->storage;
+    any.occlusion = f->occlusion != NULL; // the lights serve all programs
+    any.shadows = frame->shadows;
     if (reads_light_buffers(&any) && !light_buffers_send(f, &any, error))
         return false;
     for (int i = 0; i < frame->range_count; i++) { // before set_up_draw keeps pointers into device->programs
@@ -407,8 +411,7 @@ static bool find_limits(struct gl_device *device, lam_error *error)
 
 lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
 {
-    static const struct device_type type = {
-        .draw = gl_draw, .memory = gl_memory, .free = gl_free, .casts_shadows = true};
+    static const struct device_type type = {.draw = gl_draw, .memory = gl_memory, .free = gl_free};
     static const lam_gl_params plain = {0};
     params = params ? params : &plain;
     if (!check_reserved("lam_gl_params", params, error))

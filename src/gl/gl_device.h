@@ -30,14 +30,16 @@ enum texture_unit {
     UNIT_ENVIRONMENT,
     UNIT_LIGHTS,
     UNIT_PRODUCTS,
-    UNIT_NEARER_DEPTH_IDS,                  // of the previous layer
-    UNIT_OPAQUE_DEPTH_IDS,                  // of the opaque surfaces
-    UNIT_OCCLUSION = UNIT_NEARER_DEPTH_IDS, // those are read by translucent surfaces, which no occlusion dims
+    UNIT_NEARER_DEPTH_IDS, // of the previous layer
+    UNIT_OPAQUE_DEPTH_IDS, // of the opaque surfaces
+    UNIT_OCCLUSION =
+        UNIT_NEARER_DEPTH_IDS, // those are read by translucent surfaces, which no occlusion dims but the ground
     UNIT_ENVIRONMENT_LIGHT = UNIT_OPAQUE_DEPTH_IDS + 1,
     UNIT_COPY,
-    UNIT_SHADOW_TREE = UNIT_COPY, // no program reads both
-    UNIT_FIRST_MAP,               // the maps of materials
-    UNIT_COUNT = 48               // at most; every driver has 16 (OpenGL 3.3 and ES 3.0), most 32: gl_device.unit_count
+    UNIT_SHADOW_TREE = UNIT_COPY,           // no program reads both
+    UNIT_FIRST_MAP,                         // the maps of materials
+    UNIT_GROUND_OCCLUSION = UNIT_FIRST_MAP, // a ground has none
+    UNIT_COUNT = 48 // at most; every driver has 16 (OpenGL 3.3 and ES 3.0), most 32: gl_device.unit_count
 };
 enum block_point { POINT_LIGHTS, POINT_PRODUCTS, POINT_BACK_PRODUCTS, POINT_COUNT };
 
@@ -109,6 +111,7 @@ enum uniform {
     UNIFORM_OBJECT,
     UNIFORM_SHADOW_MATRIX,
     UNIFORM_SHADOW_PLACES,
+    UNIFORM_SHADOW_SAMPLES,
     UNIFORM_HEAD, // one for each field of glsl_material_layout
     UNIFORM_BACK_HEAD = UNIFORM_HEAD + LAM_FIELDS_MAX,
     UNIFORM_ALPHA_CUTOFF = UNIFORM_BACK_HEAD + LAM_FIELDS_MAX,
@@ -334,6 +337,11 @@ GLuint vertex_lighting_upload(struct gl_frame *f, int draw, struct gl_mesh *mesh
 void vertex_lighting_free(struct gl_device *device);
 
 // --- gl_occlusion.c
+// The unit from which a program reads ambient occlusion.
+static inline enum texture_unit gl_occlusion_unit(const struct gl_program *program)
+{
+    return program->choices.layer == GLSL_PEELS ? UNIT_GROUND_OCCLUSION : UNIT_OCCLUSION;
+}
 // Finds the ambient occlusion of the frame's pixels from a float picture of the distances of its opaque surfaces
 // (LAM_OUTPUT_DEPTH). The rows belong to the device.
 bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct screen_occlusion *occlusion,

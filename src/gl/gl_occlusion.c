@@ -19,8 +19,10 @@ bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct scree
     for (int y = 0; y < occlusion->height; y++) {
         const float *row = (const float *)((const char *)distances->pixels + (size_t)y * distances->stride);
         for (int x = 0; x < occlusion->width; x++)
-            if (row[4 * x + 3] > 0)
-                occlusion->depth[screen_pixel(occlusion, x, y)] = row[4 * x];
+            occlusion->depth[screen_pixel(occlusion, x, y)] = row[4 * x + 3] > 0 ? row[4 * x]
+                                                              : f->frame->ground.kind
+                                                                  ? screen_ground_depth(f->frame, x, y)
+                                                                  : SCREEN_EMPTY;
     }
     screen_occlusion_find(occlusion, &occlusion_kernels, NULL, f->call);
     return call_should_continue(f->call) || call_error(f->call, error);

@@ -122,7 +122,7 @@ static void issue_draw_call(struct gl_frame *f, const struct gl_draw_call *call)
     if (call->program->choices.shadows)
         shadows_use(f, call->program);
     if (call->program->choices.occlusion)
-        gl_use_texture(f->device, UNIT_OCCLUSION, GL_TEXTURE_2D, f->device->occlusion_texture);
+        gl_use_texture(f->device, gl_occlusion_unit(call->program), GL_TEXTURE_2D, f->device->occlusion_texture);
     float object = (float)draw->object;
     program_set(f, call->program, UNIFORM_OBJECT, &object, 1);
     program_set_int(f, call->program, UNIFORM_FIRST_TRIANGLE, (int)draw->first_id);

@@ -15,6 +15,7 @@ static const char *const uniform_names[UNIFORM_COUNT] = {
     [UNIFORM_OBJECT] = "object",
     [UNIFORM_SHADOW_MATRIX] = "shadow_matrix",
     [UNIFORM_SHADOW_PLACES] = "shadow_places",
+    [UNIFORM_SHADOW_SAMPLES] = "shadow_samples",
     [UNIFORM_FIRST_PRODUCT] = "first_product",
     [UNIFORM_BACK_FIRST_PRODUCT] = "back_first_product",
     [UNIFORM_FIRST_TRIANGLE] = "first_triangle",
@@ -120,7 +121,7 @@ static bool find_uniforms(struct gl_frame *f, struct gl_program *program, lam_er
         gl->Uniform1i(tree, UNIT_SHADOW_TREE);
     GLint occlusion = gl->GetUniformLocation(program->name, "ambient_occlusion");
     if (occlusion >= 0)
-        gl->Uniform1i(occlusion, UNIT_OCCLUSION);
+        gl->Uniform1i(occlusion, gl_occlusion_unit(program));
     static const char *const blocks[POINT_COUNT] = {"Lights", "Products", "BackProducts"};
     for (GLuint point = 0; point < POINT_COUNT; point++) {
         GLuint block = gl->GetUniformBlockIndex(program->name, blocks[point]);

@@ -10,7 +10,7 @@
 #include <string.h>
 
 enum { WIDTH = GLSL_LIST_WIDTH, TEXEL = 4 * sizeof(float), NODE = 4, TRIANGLE = 6, STACK = 64 };
-enum { KIND_FLAT, KIND_CURVED, KIND_STROKE };
+enum { KIND_FLAT, KIND_CURVED, KIND_APART }; // APART: casts no shadow, and is in no ray's way
 
 // The nodes between the root and the deepest leaf.
 static int depth_of(const struct hierarchy *h)
@@ -64,7 +64,7 @@ static void pack_normal(float *out, const struct frame_draw *draw, uint32_t corn
 static void pack_triangle(float *out, const struct frame *frame, const struct ray_triangle *t)
 {
     const struct frame_draw *draw = &frame->draws[frame->ranges[frame_range_of(frame, t->number)].draw];
-    bool curved = draw->mesh->normals && !draw->strokes;
+    bool curved = draw->mesh->normals && frame_draw_casts(draw);
     for (uint32_t k = 0; k < 3; k++) {
         for (int i = 0; i < 3; i++)
             out[4 * k + (uint32_t)i] = (float)t->p[k][i];
@@ -72,18 +72,17 @@ static void pack_triangle(float *out, const struct frame *frame, const struct ra
             pack_normal(out + 4 * (3 + k), draw, 3 * (t->number - draw->first_id) + k);
     }
     out[3] = (float)t->twin;
-    out[7] = draw->strokes ? KIND_STROKE : curved ? KIND_CURVED : KIND_FLAT;
+    out[7] = !frame_draw_casts(draw) ? KIND_APART : curved ? KIND_CURVED : KIND_FLAT;
 }
 
 static bool check(const struct frame *frame, lam_error *error)
 {
     const char *what = frame->shading != LAM_SHADING_PHONG ? "colours lit at vertices (flat or Gouraud shading)" : NULL;
-    for (int i = 0; i < frame->light_count; i++)
-        what = frame->lights[i].casts_shadows && frame->lights[i].radius > 0 ? "lights with a radius" : what;
-    for (int i = 0; i < frame->range_count; i++)
-        what = frame->ranges[i].translucent ? "masked and translucent surfaces" : what;
-    return !what || fail(error, LAM_UNSUPPORTED,
-                         "OpenGL: this device draws no shadows where there are %s; the CPU device does", what);
+    if (frame->passes_rays)
+        what = "masked, translucent or transmitting surfaces";
+    return !what ||
+           fail(error, LAM_UNSUPPORTED,
+                "OpenGL: this device draws no shadows where there are %s; use the CPU device, or no shadows", what);
 }
 
 bool shadows_send(struct gl_frame *f, lam_error *error)
@@ -153,6 +152,8 @@ void shadows_use(struct gl_frame *f, struct gl_program *program)
     gl_use_texture(f->device, UNIT_SHADOW_TREE, GL_TEXTURE_2D, f->device->shadow_texture);
     program_set(f, program, UNIFORM_SHADOW_MATRIX, matrix, 16);
     program_set(f, program, UNIFORM_SHADOW_PLACES, places, 4);
+    float samples[4] = {(float)f->frame->shadow_samples, (float)h->scale, (float)f->left, (float)f->top};
+    program_set(f, program, UNIFORM_SHADOW_SAMPLES, samples, 4);
 }
 
 void shadows_free(struct gl_device *device)

@@ -126,6 +126,14 @@ void main()
     vec3 rest;
 //@end
     vec4 light = light_point(@fragment_arguments@);
+//@if catches
+    // Black, with the share of the light as alpha that does not reach the point.
+    const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
+    float received = dot(luminance, light.rgb);
+    unobstructed = true;
+    float all = dot(luminance, light_point(@fragment_arguments@).rgb);
+    light = vec4(0.0, 0.0, 0.0, all > received ? light.a * (1.0 - received / all) : 0.0);
+//@end
 //@else
     vec4 light = front_light;
 //@if apart

@@ -63,7 +63,7 @@ static void add_groups(struct text *text, const struct glsl_facts *f)
             text_add(text, "        t.attenuation = t.attenuation * passed_light(i, s.p);\n");
         if (c->shadows)
             text_print(text, "        t.attenuation = t.attenuation * passed_light(%s, light, t, %s, %s);\n",
-                       c->storage == GLSL_TEXTURE ? "list_texel(light_list, i * 4 + 1).w" : "lights[i].direction.w",
+                       c->storage == GLSL_TEXTURE ? "list_texel(light_list, i * 4)" : "lights[i].position",
                        f->tangent || f->layers ? "1.0" : "dot3(s.n, t.l)", kind_words[group->kind]);
         if (f->layers) {
             text_add(text, "        sum = add_layered(sum, light, t, layered_light(s, layering, t.l, 0));\n");
@@ -331,6 +331,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"triangle_ids", triangle_ids},
         {"depth_ids", c->layer != GLSL_NO_LAYERS},
         {"shadows", c->shadows},
+        {"catches", c->catches},
         {"passes_lights", c->passed},
         {"numbers_triangles", c->layer != GLSL_NO_LAYERS || c->shadows},
         {"peels", c->layer == GLSL_PEELS},
@@ -461,6 +462,8 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         preprocess_add(text, text_texture_glsl, &words);
         glsl_add_maps(text, f);
     }
+    if (lights_here && c->catches)
+        text_add(text, "\nbool unobstructed = false; // the point is lit as if nothing were in the way\n");
     if (lights_here && c->shadows)
         preprocess_add(text, text_shadows_glsl, &words);
     if (lights_here)

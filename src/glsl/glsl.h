@@ -79,6 +79,7 @@ struct glsl_choices {
     bool single_scattering;
     bool passed;        // of each light a share is taken, a uniform that the program sets (texels: position.w)
     bool shadows;       // walks the hierarchy in a texture (shadows.glsl); Phong shading, not in 120
+    bool catches;       // black, with the share of the light as opacity that shadows and occlusion take away
     lam_tone tone;      // of GLSL_ENCODED; AUTO, NONE: the light is clamped
     bool exposes;       // the fragment multiplies its light by the uniform `exposure`
     bool products;      // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
@@ -124,7 +125,9 @@ void glsl_free(struct glsl_text *text);
 
 // A light, with the layout of struct Light. With products the struct ends after `cone`, without gl1 before `ambient`.
 struct glsl_light {
-    float position[4];    // eye space; w 1
+    // Eye space; w 1. In shaders with shadows w is the radius, negative where the light casts none, and the position of a
+    // directional light is the axis in world space of which its direction has the smallest part.
+    float position[4];
     float direction[4];   // eye space, unit, in the direction of travel; w 0, with `occlusion` the share occluded
     float attenuation[4]; // constant, linear, quadratic, 1 / range (0: none)
     float cone[4];        // cos cutoff, exponent, cos outer, 1 / max(0.001, cos inner − cos outer)

@@ -76,7 +76,7 @@ struct glsl_light glsl_light_of(const struct frame_light *light)
 {
     struct glsl_light out;
     set3(out.position, light->position, 1);
-    set3(out.direction, light->axis, light->casts_shadows ? 1 : 0); // w: of shaders with shadows
+    set3(out.direction, light->axis, 0);
     set3(out.attenuation, light->attenuation, light->inverse_range);
     const float cone[4] = {light->cos_cutoff, light->exponent, light->cos_outer, light->inverse_width};
     memcpy(out.cone, cone, sizeof cone);
@@ -153,6 +153,19 @@ size_t glsl_lights_bytes(const struct glsl_choices *c)
     return (all ? all : 4) * sizeof(float);
 }
 
+// What shaders with shadows read in place of w 1, and of the position of a light that has none.
+static void pack_shadow(float position[4], const struct frame_light *light)
+{
+    position[3] = light->casts_shadows ? (float)light->radius : -1;
+    if (light->kind != LIGHT_DIRECTIONAL)
+        return;
+    int least = 0;
+    for (int i = 1; i < 3; i++)
+        least = __builtin_fabs(light->world_axis[i]) < __builtin_fabs(light->world_axis[least]) ? i : least;
+    for (int i = 0; i < 3; i++)
+        position[i] = i == least;
+}
+
 void glsl_pack_lights(const struct glsl_choices *c, const struct frame *frame, float *out)
 {
     if (!c->products && c->storage == GLSL_BLOCK) {
@@ -168,6 +181,8 @@ void glsl_pack_lights(const struct glsl_choices *c, const struct frame *frame, f
             struct glsl_light packed = glsl_light_of(light);
             if (c->occlusion)
                 packed.direction[3] = light->occluded;
+            if (c->shadows)
+                pack_shadow(packed.position, light);
             memcpy(out, &packed, each * sizeof *out);
             out += each;
         }

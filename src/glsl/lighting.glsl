@@ -98,7 +98,15 @@ surroundings surroundings_of(surface s, float roughness)
 // --- ambient occlusion
 
 // The share of the light from all around that reaches this pixel's surface.
-float unoccluded_share() { return texelFetch(ambient_occlusion, ivec2(gl_FragCoord.xy), 0).r; }
+float unoccluded_share()
+{
+//@if catches
+    if (unobstructed) {
+        return 1.0;
+    }
+//@end
+    return texelFetch(ambient_occlusion, ivec2(gl_FragCoord.xy), 0).r;
+}
 //@end
 //@if reads_lights
 

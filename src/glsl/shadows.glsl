@@ -4,6 +4,7 @@
 uniform sampler2D shadow_tree; // nodes of the hierarchy, its triangles, and the place of each triangle by its number
 uniform mat4 shadow_matrix;    // eye space to the hierarchy's, where all triangles lie within -1...1
 uniform vec4 shadow_places;    // first texel of the triangles, and of the places; 1: the terminator is cured
+uniform vec4 shadow_samples;   // rays to a light with a radius; world units to the hierarchy's; the picture's pixel at the target's corner
 
 int lit_triangle; // number in the frame of the triangle that the fragment shows
 vec3 ray_origin;
@@ -29,7 +30,7 @@ void start_rays(vec3 p, int number, float side)
     vec3 eye = (shadow_matrix * vec4(p, 1.0)).xyz;
     ray_origin = eye;
     ray_twin = a.w;
-    if (b.w > 1.5) { // a line or a point
+    if (b.w > 1.5) { // a line, a point or the ground: in no ray's way
         return;
     }
     vec3 e1 = b.xyz - a.xyz;
@@ -134,13 +135,66 @@ bool any_hit(vec3 d, float end)
     return false;
 }
 
-// The share of a light that reaches the point. `casts` is the light's own flag. Where it does not shine no ray is needed.
-float passed_light(float casts, light_source light, light_sample t, float n_dot_l, int kind)
+// light_turn of light_pattern.h: the product of its two numbers has more than 32 bits, of which 40 to 47 are the turn.
+float turn_of_pixel()
 {
-    if (casts < 0.5 || !(n_dot_l > 0.0) || !(t.attenuation * t.spot > 0.0)) {
+    uvec2 at = uvec2(gl_FragCoord.xy) + uvec2(shadow_samples.zw);
+    uint part = at.x * 0x112e0be8u + at.y * 0x017e8cd9u;
+    uint low = part & 0xffffu;
+    uint high = part >> 16u;
+    uint middle = high * 64417u + (low * 64417u >> 16u);
+    uint upper = high * 52u + (middle >> 16u) + ((middle & 0xffffu) + low * 52u >> 16u);
+    return float(upper >> 8u & 255u) * (6.28318531 / 256.0);
+}
+
+// The rays, of N, that reach the points of a light's disc around p + d (light_pattern.h). `across` has the length of its radius.
+int count_reaching(vec3 d, vec3 across, float end, int count)
+{
+    vec3 along = normalize(d);
+    vec3 u = normalize(across - along * dot(along, across)) * length(across);
+    vec3 v = cross(along, u);
+    float turn = turn_of_pixel();
+    int reaching = 0;
+    for (int i = 0; i < count; i++) {
+        float angle = 6.28318531 * fract(float(i) * 0.381966011) + turn;
+        float distance = sqrt((float(i) + 0.5) / float(count));
+        if (!any_hit(d + distance * (u * cos(angle) + v * sin(angle)), end)) {
+            reaching = reaching + 1;
+        }
+    }
+    return reaching;
+}
+
+// The axis of which d has the smallest part, the first of equals.
+vec3 least_axis(vec3 d)
+{
+    vec3 size = abs(d);
+    if (size.x <= size.y && size.x <= size.z) {
+        return vec3(1.0, 0.0, 0.0);
+    }
+    return size.y <= size.z ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
+}
+
+// The share of a light that reaches the point. place.w: its radius, below 0 where it casts no shadow; place.xyz of a directional
+// light: the axis of which its direction has the smallest part. Where a light does not shine no ray is needed.
+float passed_light(vec4 place, light_source light, light_sample t, float n_dot_l, int kind)
+{
+    if (place.w < 0.0 || !(n_dot_l > 0.0) || !(t.attenuation * t.spot > 0.0)) {
         return 1.0;
     }
-    bool hit = kind == LIGHT_DIRECTIONAL ? any_hit(-(mat3(shadow_matrix) * light.direction), 1.0e30)
-                                         : any_hit((shadow_matrix * vec4(light.position, 1.0)).xyz - ray_origin, 1.0);
-    return hit ? 0.0 : 1.0;
+//@if catches
+    if (unobstructed) {
+        return 1.0;
+    }
+//@end
+    bool directional = kind == LIGHT_DIRECTIONAL;
+    float end = directional ? 1.0e30 : 1.0;
+    vec3 d = directional ? -normalize(mat3(shadow_matrix) * light.direction)
+                         : (shadow_matrix * vec4(light.position, 1.0)).xyz - ray_origin;
+    if (place.w == 0.0) {
+        return any_hit(d, end) ? 0.0 : 1.0;
+    }
+    vec3 across = directional ? place.xyz * place.w : least_axis(d) * (place.w * shadow_samples.y);
+    int count = int(shadow_samples.x);
+    return float(count_reaching(d, across, end, count)) / float(count);
 }

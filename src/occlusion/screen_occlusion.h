@@ -53,6 +53,28 @@ static inline size_t screen_pixel(const struct screen_occlusion *o, int x, int y
            (size_t)(x >> half);
 }
 
+// The distance of a frame's ground at a pixel's centre, SCREEN_EMPTY where it is not seen.
+static inline float screen_ground_depth(const struct frame *frame, int x, int y)
+{
+    const struct frame_ground *ground = &frame->ground;
+    const float *up = ground->eye_up;
+    float right = ((float)x + 0.5f - 0.5f * (float)frame->width) * frame->pixel_size;
+    float above = (0.5f * (float)frame->height - (float)y - 0.5f) * frame->pixel_size;
+    float across = right * up[0] + above * up[1], depth;
+    if (frame->orthographic) { // the point (right, above, -depth)
+        depth = up[2] != 0 ? (across - ground->eye_height) / up[2] : SCREEN_EMPTY;
+    } else { // the point depth (right, above, -1)
+        float along = across - up[2];
+        depth = along != 0 ? ground->eye_height / along : SCREEN_EMPTY;
+        right *= depth;
+        above *= depth;
+    }
+    float dx = right - ground->eye_middle[0], dy = above - ground->eye_middle[1], dz = -depth - ground->eye_middle[2];
+    float end = (float)ground->end;
+    bool seen = depth > 0 || frame->orthographic;
+    return seen && (dx * dx + dy * dy) + dz * dz < end * end ? depth : SCREEN_EMPTY;
+}
+
 // Sets up a picture's rows in `storage`, without any surface.
 bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct buffer *storage,
                             struct call_control *call, lam_error *error);

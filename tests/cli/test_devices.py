@@ -78,6 +78,18 @@ class Drawing(Case):
                 self.assertTrue(steps["draw"] > 0 and steps["read"] > 0)
                 self.assertEqual(steps["lighting"] > 0, "application" in more)
 
+    def test_shadows_and_grounds(self):
+        plain = self.png("torus-knot", "--samples", 1, "-s", "64x48", "--device", "gl")
+        for more in (["--shadows"], ["--ground"], ["--ground", "checker", "--shadow-samples", 5], ["--ground", "#c08040", "--ao", "off"],
+                     ["--ground", "--rig", "headlight"], ["--ground", "checker", "--show", "normals"], ["--ground", "--show", "ao"]):
+            differ, _ = self.apart("torus-knot", "--samples", 1, *more)
+            self.assertLessEqual(differ, 8, more)
+            self.assertNotEqual((self.folder / "gl.png").read_bytes(), plain, more)
+
+    def test_shadows_that_it_cannot_draw(self):
+        for more, what in ((["--opacity", 0.5], "translucent"), (["--shading", "gouraud"], "vertices")):
+            self.bad(3, "cube", "--shadows", "--device", "gl", *more, "-o", "n.png", says=(what, "CPU device", "no shadows"))
+
     def test_samples_and_repeated_frames(self):
         differ, _ = self.apart("cube", "--samples", 8, "--show", "coverage")
         self.assertLessEqual(differ, 3)

@@ -132,7 +132,10 @@ typedef struct lam_check_params {
     // The terms that the shaders are expected to compute, bits of lam_check_term; 0: those of which they declare a name.
     // A colour that is not declared is taken as white.
     unsigned terms;
-    LAM_RESERVED(15);
+    // The search for mistakes ends after so many pictures of sets of them; 0: 10000. The result is the same on every
+    // machine, with a cache or without.
+    uint64_t max_pictures;
+    LAM_RESERVED(14);
 } lam_check_params;
 
 // The result of a check.
@@ -212,7 +215,9 @@ typedef struct lam_check_report {
     int diagnostic_count;              // of `diagnostics`
     void *memory;                      // owns the strings above
     int scenes_wanted;                 // that the shaders were to draw
-    LAM_RESERVED(7);
+    bool search_stopped;               // the search for mistakes ended at max_pictures
+    uint64_t tried;                    // mistakes, and sets of several, that were compared; 0: no search was needed
+    LAM_RESERVED(6);
 } lam_check_report;
 
 // Checks. False only without a verdict: LAM_BAD_ARGUMENT (no contract fits, an unknown scene), LAM_UNSUPPORTED (no

@@ -11,6 +11,9 @@
 #include "fault_search.h"
 #include "srgb.h"
 
+// Some seconds with a software driver on one processor (docs/check.md).
+static const uint64_t default_max_pictures = 10000;
+
 // --- the pictures
 
 static bool make_scenes(struct run *r, unsigned scenes, lam_error *error)
@@ -231,6 +234,7 @@ static bool explain(struct run *r, bool writes, lam_error *error)
                              .light_capacity = shader_interface_light_count(&r->interface),
                              .expectation = r->expectation,
                              .tolerance = r->tolerance,
+                             .max_pictures = r->params->max_pictures ? r->params->max_pictures : default_max_pictures,
                              .has_unset_names = r->drawn.unknown_count > 0 || r->drawn.types_count > 0};
     int usable = 0;
     for (int i = 0; i < r->scene_count; i++) {
@@ -248,6 +252,8 @@ static bool explain(struct run *r, bool writes, lam_error *error)
         return fail_memory(error, 1);
     if (!fault_search_run(&s, error))
         return false;
+    r->report->tried = s.tried;
+    r->report->search_stopped = s.stopped;
     if (s.style_count && !accept_styles(r, &s, writes, error))
         return false;
     if (r->report->verdict == LAM_CHECK_PASSES)

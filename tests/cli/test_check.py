@@ -21,12 +21,6 @@ from mistakes import MISTAKES  # noqa: E402
 
 SHADERS = ROOT / "tests" / "check"
 EVERY = int(os.environ.get("LAMBENT_CHECK_EVERY", "1"))  # only every n-th mistake is checked
-PHYSICAL = int(os.environ.get("LAMBENT_CHECK_PHYSICAL", "1"))  # the same of shaders with metalness and roughness, which take longest
-
-
-def step_of(name):
-    """Of a shader's mistakes every n-th is checked: this n."""
-    return max(EVERY, PHYSICAL if "pbr" in name or name == "gltf" else 1)
 SCHEMA = json.loads((ROOT / "docs" / "check.schema.json").read_text())
 
 
@@ -104,17 +98,18 @@ class Right(CheckTest):
     def test_every_correct_style(self):
         """The shaders of tests/check/correct.py, each of which is correct in its own way."""
         self.assertGreaterEqual(len(CORRECT), 60)
-        for number, (name, options, texts) in enumerate(CORRECT):
-            physical = re.search("metal", texts["frag"], re.I)
-            if number % max(EVERY, PHYSICAL if physical else 1):
-                continue
-            with self.subTest(name):
-                for ending in ("frag", "vert"):
-                    (self.folder / f"s.{ending}").unlink(missing_ok=True)
-                    if ending in texts:
-                        (self.folder / f"s.{ending}").write_text(texts[ending], newline="")
-                report = self.report_of("s.frag", *(["--vertex", "s.vert"] if "vert" in texts else []), *options)
-                self.assertEqual((report["verdict"], report["mistakes"], self.notes(report, "unknown")), ("passes", [], []))
+        groups = {}  # those with the same options are checked together
+        for number, (name, options, texts) in list(enumerate(CORRECT))[::EVERY]:
+            for ending, text in texts.items():
+                (self.folder / f"{number:03}.{ending}").write_text(text, newline="")
+                groups.setdefault(tuple(options), []).append(f"{number:03}.{ending}")
+        for options, files in groups.items():
+            done = self.run_program("check", *files, *options, "-s", 64, "--json")
+            for report in map(json.loads, done.stdout.splitlines()):
+                with self.subTest(CORRECT[int(report["fragment"][:3])][0]):
+                    check_value(self, report, SCHEMA, "check")
+                    self.assertEqual((report.get("verdict"), report["mistakes"], self.notes(report, "unknown")), ("passes", [], []), report)
+            self.assertEqual(done.stdout.count(b"\n"), sum(file.endswith("frag") for file in files), done.stderr)
 
     def test_printed_shaders(self):
         """Shaders printed by `lambent shader` pass: their loops say which lights they have."""
@@ -256,7 +251,7 @@ class Mistakes(CheckTest):
         cls.addClassCleanup(shutil.rmtree, folder, True)
         files = ([], [])  # pictures are cached by contract, so a contract's shaders stay together
         for number, (name, _, edits) in enumerate(MISTAKES):
-            if number % step_of(name):
+            if number % EVERY:
                 continue
             for ending, text in edited(name, edits).items():
                 (folder / f"{number:03}.{ending}").write_text(text)
@@ -272,9 +267,8 @@ class Mistakes(CheckTest):
         cls.reports = {r["fragment"]: r for d in done for r in map(json.loads, d.stdout.splitlines())}
 
     def tell(self, number, expected):
-        step = step_of(MISTAKES[number][0])
-        if number % step:
-            self.skipTest(f"only every {step}th of these mistakes; make test-long has all")
+        if number % EVERY:
+            self.skipTest(f"only every {EVERY}th of the mistakes; the plain build has all")
         report = self.reports.get(f"{number:03}.frag")
         self.assertTrue(report, self.said)
         check_value(self, report, SCHEMA, "check")
@@ -385,6 +379,23 @@ class Unruly(CheckTest):
                                 "--scenes", "all,diffuse,gate", code=6)
         self.assertEqual((report["verdict"], report["mistakes"]), ("differs", []))
         self.assertIn("No known mistake", self.run_program("check", "s.frag", "-s", 32, "--scenes", "all").stdout.decode())
+
+    def test_search_limit(self):
+        """The search ends at its limit, and says so; where it is long enough, the limit changes nothing."""
+        words = self.shader("oregon", [("frag", "vec4(color, 1.0)", "vec4(color.bgr * gl_FragCoord.y / 60.0, 1.0)")])
+        told = [self.report_of(*words, "--search-limit", n, code=6) for n in (100, 20000, 10000)]
+        self.assertEqual([(r["verdict"], r["mistakes"]) for r in told], [("differs", [])] * 3)
+        self.assertEqual([r["search_stopped"] for r in told], [1, 0, 0])
+        self.assertEqual(told[1]["tried"], told[2]["tried"])
+        self.assertTrue(1 <= told[0]["tried"] <= 100 < told[1]["tried"], [r["tried"] for r in told])
+        text = self.run_program("check", *words, "-s", 64, "--search-limit", 100).stdout.decode()
+        self.assertIn(f"No explanation among {told[0]['tried']} mistakes and sets of them; there the search ended, and --search-limit", text)
+        words = self.shader("oregon", [("frag", "dot(n, l) > 0.0 ?", "true ?")])
+        for limit, ids in ((1, []), (10000, ["no-gate"])):
+            self.assertEqual([m["id"] for m in self.report_of(*words, "--search-limit", limit, code=6)["mistakes"]], ids)
+        report = self.report_of(*self.shader("oregon"))
+        self.assertEqual((report["tried"], report["search_stopped"]), (0, 0))
+        self.bad(1, "check", "s.frag", "--search-limit", "0", says="--search-limit", leaves=("s.frag", "s.vert"))
 
     def test_two_together(self):
         report = self.report_of(*self.shader("nyu", [("frag", "normalize(varyingNormal)", "varyingNormal"), ("frag", "* s * attenuation", "* s")]),
@@ -660,11 +671,16 @@ class Contracts(CheckTest):
 
     def test_lectures(self):
         """What is found in the courses' own programs (docs/check/contracts.md)."""
+        files = [f"{name}.{ending}" for name, *_ in LECTURES[::EVERY] for ending in ("vert", "frag")]
+        for file in files:
+            shutil.copy(SHADERS / "lectures" / file, self.folder)
+        done = self.run_program("check", *files, "-s", 64, "--json")
+        reports = {r["fragment"]: r for r in map(json.loads, done.stdout.splitlines())}
+        self.assertEqual((done.returncode, len(reports)), (6, len(files) // 2), done.stderr)
         for name, contract, _, verdict, expected in LECTURES[::EVERY]:
             with self.subTest(name):
-                for ending in ("vert", "frag"):
-                    shutil.copy(SHADERS / "lectures" / f"{name}.{ending}", self.folder / f"s.{ending}")
-                report = self.report_of("s.frag", "--vertex", "s.vert", code=6)
+                report = reports[f"{name}.frag"]
+                check_value(self, report, SCHEMA, "check")
                 self.assertEqual((report["verdict"], report["contract"]), (verdict, contract))
                 hints = " | ".join(self.notes(report, "hint"))
                 for part in expected if verdict == "refused" else ():

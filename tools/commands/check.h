@@ -80,6 +80,8 @@ struct check_points check_points_of(const lam_check_report *report);
 
 // --- output
 
+// A sentence, without the end of its line: no mistake was found.
+void check_print_no_finding(FILE *file, const lam_check_report *report);
 void check_report_text(FILE *file, const lam_check_report *report, const char *shader, double tolerance);
 void check_report_line(FILE *file, const struct check_result *result); // a class's line of text
 // `name`: of a class's submission; NULL: not in a class.

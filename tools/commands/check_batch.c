@@ -85,6 +85,7 @@ static void run_check_of(struct check_batch *b, struct check_result *result)
             .light_frame = (lam_light_frame)o->light_frame,
             .reflection = (lam_reflection)o->highlight,
             .terms = (unsigned)o->terms,
+            .max_pictures = (uint64_t)o->search_limit,
             .scenes = b->scenes,
             .scene_count = b->scene_count,
             .cache = b->cache,

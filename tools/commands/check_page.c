@@ -93,9 +93,11 @@ static void put_findings(FILE *file, const lam_check_report *r)
     if (r->finding_count && !r->findings[0].certain)
         fprintf(file, "<p>This explains %.0f %% of the difference; there is more.</p>",
                 r->findings[r->finding_count - 1].share * 100);
-    if (!r->finding_count && r->verdict == LAM_CHECK_DIFFERS)
-        fputs("<p>No known mistake explains it.</p>", file);
-    else if (r->verdict != LAM_CHECK_DIFFERS && r->verdict != LAM_CHECK_PASSES)
+    if (!r->finding_count && r->verdict == LAM_CHECK_DIFFERS) {
+        fputs("<p>", file);
+        check_print_no_finding(file, r);
+        fputs("</p>", file);
+    } else if (r->verdict != LAM_CHECK_DIFFERS && r->verdict != LAM_CHECK_PASSES)
         fprintf(file, "<p>It %s.</p>", check_verdict_text(r->verdict));
     for (int i = 0; i < r->diagnostic_count; i++) {
         const lam_check_diagnostic *d = &r->diagnostics[i];

@@ -41,11 +41,27 @@ static void print_scenes(FILE *file, const lam_check_report *r, double tolerance
     }
 }
 
+void check_print_no_finding(FILE *file, const lam_check_report *r)
+{
+    unsigned long long tried = (unsigned long long)r->tried;
+    if (r->search_stopped)
+        fprintf(file,
+                "No explanation among %llu mistakes and sets of them; there the search ended, and --search-limit sets "
+                "its limit.",
+                tried);
+    else if (tried)
+        fprintf(file, "No known mistake explains it, of %llu mistakes and sets of them that were tried.", tried);
+    else
+        fputs("No known mistake explains it.", file);
+}
+
 static void print_findings(FILE *file, const lam_check_report *r)
 {
     if (!r->finding_count) {
-        if (r->verdict == LAM_CHECK_DIFFERS)
-            fputs("No known mistake explains it.\n", file);
+        if (r->verdict == LAM_CHECK_DIFFERS) {
+            check_print_no_finding(file, r);
+            putc('\n', file);
+        }
         return;
     }
     const char *these = r->finding_count > 1 ? " these together" : " this";
@@ -180,6 +196,8 @@ void check_report_json(FILE *file, const struct check_result *result, const char
         json_number(&json, "mean", r->mean);
         put_points(&json, r);
         put_scenes(&json, r);
+        json_count(&json, "tried", r->tried);
+        json_count(&json, "search_stopped", r->search_stopped);
         put_mistakes(&json, r);
         put_notes(&json, r);
         json_text(&json, "picture", result->sheet);

@@ -882,6 +882,10 @@ const struct option option_table[] = {
      "It is the time of all threads together, so other load on the machine does not count; elapsed time may be 20 "
      "times as long.",
      .store = store_number, FIELD(stop_after_s), .min = 0.1, .max = 1e6},
+    {"search-limit", 0, GROUP_CHECK, "PICTURES", "10000",
+     "The search for mistakes ends after so many pictures of them and of sets of them.",
+     "Where no set is found, the report says how many were tried, and whether the search ended at this limit.",
+     .store = store_integer, .others = "effort budget tries", FIELD(search_limit), .min = 1, .max = 1000000000},
     {"class", 0, GROUP_CHECK, "FOLDER", NULL, "Check every submission in a folder.",
      "A submission is a sub-folder with one fragment shader, at most one vertex shader, and whatever else; elsewhere a "
      "fragment shader and the vertex shader of the same name beside it. With `-o FOLDER/` there is a page for the "

@@ -18,7 +18,8 @@ struct options option_defaults(void)
                             .light_scale = 1,
                             .repeat = 1,
                             .gain = 16,
-                            .stop_after_s = 10};
+                            .stop_after_s = 10,
+                            .search_limit = 10000};
 }
 
 void options_free(struct options *options)

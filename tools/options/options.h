@@ -143,6 +143,7 @@ struct options {
     int highlight;        // lam_reflection; AUTO: the contract's
     int terms;            // bits of lam_check_term; 0: as the shaders declare
     double stop_after_s;
+    int search_limit;               // lam_check_params.max_pictures
     const char *class_folder, *csv; // NULL: none
     bool list;
 

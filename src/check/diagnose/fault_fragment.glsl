@@ -1,7 +1,5 @@
 // fault_fragment.glsl: lights the fragment, or passes the interpolated colour of the vertices.
 
-uniform bool flat_shading, two_sided;
-
 #ifdef IN_VERTEX
 in vec4 vertex_color, vertex_color_back;
 flat in vec4 flat_color;

@@ -1,9 +1,9 @@
 // fault_light.glsl: the lighting, correct where no fault is switched on. Both stages of the fault shader include it.
 //
 // is(NAME) returns whether a fault is switched on; fault.h lists the names. Vectors have four components, since some
-// faults involve the fourth; in the others w is 0.
-
-#define LAMPS 4
+// faults involve the fourth; in the others w is 0. The constants before this text (fault_shader.c): LAMPS, lamp_count,
+// physical, phong_lobe, products (the shader receives the colours multiplied by those of the light), ambient_by_light (it
+// adds the ambient term of each light with that light), and NAME of each fault, -1 where it cannot be on.
 
 struct Lamp {
     vec4 position; // in the space of the lighting, which is eye or world space; w 0: the direction to it
@@ -17,24 +17,20 @@ struct Lamp {
 
 uniform int fault_on[FAULT_BITS];
 uniform Lamp lamps[LAMPS];
-uniform int lamp_count;
 uniform vec3 ambient_light, ka, kd, ks;
 uniform vec3 bare_ka, bare_kd, bare_ks; // the colours without their strengths
-uniform bool products; // the shader receives the colours multiplied by those of the light
 uniform vec3 kd_with_ks, ks_with_kd; // the colours with each other's strength
 uniform vec3 specular_as_diffuse;
 uniform vec3 tint;                   // multiplies a tinted highlight
 uniform float light_capacity;        // of the shader under test
 uniform float opacity, shininess;
 uniform float exponent_factor, exponent_constant; // of a wrong exponent; 0: none
-uniform bool ambient_by_light; // the shader under test adds the ambient term of each light with that light
-uniform bool phong_lobe;
 uniform mat4 to_lighting, to_clip; // from the model's space to that of the lighting, and from there to clip space
 uniform mat4 to_eye_space;         // from the space of the lighting
 uniform vec4 eye_position;         // in the space of the lighting, w 1
 uniform vec4 eye_axis;             // from the scene to the eye, if that were infinitely far away; w 0
 
-bool is(int bit) { return fault_on[bit] != 0; }
+bool is(int bit) { return bit >= 0 && fault_on[max(bit, 0)] != 0; }
 
 vec4 unit4(vec4 a)
 {

@@ -51,8 +51,8 @@ static void order_scenes(struct fault_measure *t)
 
 bool fault_measure_open(struct fault_measure *t, struct fault_search *s, lam_error *error)
 {
-    // In large pictures, every third pixel of every third row tells as much.
-    *t = (struct fault_measure){.s = s, .stride = s->size >= 120 ? 3 : s->size >= 96 ? 2 : 1};
+    // Every second or third pixel of every second or third row tells as much: some 32² to 48² of them.
+    *t = (struct fault_measure){.s = s, .stride = s->size >= 96 ? (s->size + 20) / 43 : s->size >= 60 ? 2 : 1};
     t->size = fault_shader_size(s->size, t->stride);
     size_t pixels = (size_t)t->size * (size_t)t->size, count = (size_t)s->scene_count;
     t->pixels = malloc(4 * pixels * sizeof *t->pixels);
@@ -119,6 +119,7 @@ bool fault_measure_scene(struct fault_measure *t, int index, const fault_set *se
                          lam_error *error)
 {
     const float *samples = render_faults(t, index, set, error);
+    t->pictures++;
     if (samples)
         *d = scene_comparison_difference(&t->scenes[index], samples, t->s->tolerance);
     return samples != NULL;

@@ -12,6 +12,7 @@ struct fault_measure {
     float *pixels, *samples, *memory;
     int order[MAX_SCENES]; // the scenes to use: those that differ first, by descending difference
     int scene_count, differ_count;
+    uint64_t pictures; // measured so far
 };
 
 bool fault_measure_open(struct fault_measure *measure, struct fault_search *search, lam_error *error);

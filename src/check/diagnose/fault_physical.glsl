@@ -10,10 +10,8 @@
 #define TONE_REINHARD 1
 #define ENCODING_GAMMA 1
 
-uniform bool physical;
 uniform vec3 base_color;
 uniform float metallic, roughness;
-uniform int masking, diffuse_share, tone, encoding;
 
 bool is(int bit); // fault_light.glsl
 

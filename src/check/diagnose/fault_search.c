@@ -2,6 +2,10 @@
 //
 // 1. Each fault alone. 2. Together, those that explain scenes of their own. 3. A beam search: each of the best few with
 // one more fault, and so on. 4. If no set explains every picture: the faults that explain some, and spoil none.
+//
+// Nearly all of the time goes into drawing, so few pictures are drawn of a set that leads nowhere: the added fault must
+// gain in the first of the scenes that it changes (is_idle). The search ends at its limit of pictures; they are counted
+// whether they come from the cache or not, so that the result does not depend on it.
 #include "fault_measure.h"
 
 #include <stdlib.h>
@@ -9,7 +13,7 @@
 
 #include "fail.h"
 
-enum { BEAM = 6 };
+enum { BEAM = 6, IDLE_SCENES = 3 };
 
 // As fractions of the difference without faults:
 static const double max_ratio_explained = 0.125;  // may remain of a scene, or of all, that is explained
@@ -20,6 +24,8 @@ static const double max_rival = 1.25;             // times as much a rival may l
 // between the same pictures.
 static const double max_exact = 2e-4, max_exact_scene = 1e-4, same_mean = 1e-5;
 static const double no_limit = 1e9;
+// The least change of a scene's mean difference, by one fault alone, that counts as a change of the scene.
+static const double min_change = 1e-6;
 
 // A set of faults, and the difference that it leaves.
 struct candidate {
@@ -29,14 +35,18 @@ struct candidate {
     double mean;  // over all scenes
     double score; // what it leaves of the difference of each scene, on average: 1 is all, so small highlights count too
     bool fits;
+    double parts[MAX_SCENES]; // of the score: what each scene adds to it
 };
 
 // What a fault does alone.
 struct outcome {
     struct found_fault fault;
-    double mean, score; // as of a candidate
-    uint32_t explained; // the scenes that differ and that it explains
-    uint32_t exactly;   // those of them that it explains but for rounding
+    double mean, score;       // as of a candidate
+    double parts[MAX_SCENES]; // likewise, of the scenes that differ
+    int order[MAX_SCENES];    // the scenes: those that differ first, and of these the ones that it changes most
+    int changed_count;        // how many of those that differ it changes
+    uint32_t explained;       // the scenes that differ and that it explains
+    uint32_t exactly;         // those of them that it explains but for rounding
     bool applies, spoils_known, spoils;
 };
 
@@ -44,33 +54,92 @@ struct state {
     struct fault_search *s;
     struct fault_measure m;
     struct outcome *outcomes; // of each row of the table
+    // Each scene without faults, in the measured pixels. Of so few, more than the tolerated ones of a scene that passes may
+    // differ.
+    struct difference without[MAX_SCENES];
 };
+
+// Whether a difference in a scene that passes without faults is one that the faults make.
+static bool is_spoilt(const struct state *t, int index, const struct difference *d)
+{
+    const struct difference *without = &t->without[index];
+    return !d->fits && (without->fits || d->mean > 1.5 * without->mean);
+}
+
+// Whether the search has drawn as many pictures as it may.
+static bool is_spent(struct state *t)
+{
+    t->s->stopped = t->s->stopped || t->m.pictures >= t->s->max_pictures;
+    return t->s->stopped;
+}
 
 // The part of a candidate's score that comes from one scene. A scene that gets worse counts as one without faults: where
 // several faults act, one of them alone may well spoil it.
 static double score_of(const struct state *t, int index, const struct difference *d)
 {
     const struct scene_comparison *scene = &t->m.scenes[index];
-    double left = scene->passes ? !d->fits : d->mean / scene->mean_difference;
+    double left = scene->passes ? is_spoilt(t, index, d) : d->mean / scene->mean_difference;
     return (left < 1 ? left : 1) / t->m.differ_count;
 }
 
-// Measures a candidate in all scenes. Stops as soon as its mean or score exceeds its limit.
-static bool try_candidate(struct state *t, struct candidate *c, double max_mean, double max_score, lam_error *error)
+// Measures a candidate in scene `index`, and adds the result.
+static bool add_scene(struct state *t, struct candidate *c, int index, lam_error *error)
+{
+    struct difference d;
+    if (!fault_measure_scene(&t->m, index, &c->set, &d, error))
+        return false;
+    c->parts[index] = score_of(t, index, &d);
+    c->mean += d.mean / t->m.scene_count;
+    c->score += c->parts[index];
+    c->fits = c->fits && d.fits;
+    return true;
+}
+
+static void start(struct candidate *c)
 {
     c->mean = c->score = 0;
     c->fits = true;
+}
+
+// Measures a candidate in all scenes. Stops as soon as its mean exceeds its limit.
+static bool try_candidate(struct state *t, struct candidate *c, double max_mean, lam_error *error)
+{
+    start(c);
     for (int k = 0; k < t->m.scene_count; k++) {
-        struct difference d;
-        if (!fault_measure_scene(&t->m, t->m.order[k], &c->set, &d, error))
+        if (!add_scene(t, c, t->m.order[k], error))
             return false;
-        c->mean += d.mean / t->m.scene_count;
-        c->score += score_of(t, t->m.order[k], &d);
-        c->fits = c->fits && d.fits;
-        if (c->mean > max_mean || c->score > max_score) {
+        if (c->mean > max_mean) {
             c->fits = false;
             break;
         }
+    }
+    return true;
+}
+
+// Whether a candidate leaves as much as its parent, which lacks the last fault, of the first `count` scenes that this fault
+// changes: it leads nowhere.
+static bool is_idle(const struct state *t, const struct candidate *c, const struct candidate *parent, const int *order,
+                    int count)
+{
+    double gained = 0;
+    for (int k = 0; k < count; k++)
+        gained += parent->parts[order[k]] - c->parts[order[k]];
+    return gained < min_gain * count / t->m.differ_count;
+}
+
+// Measures a parent with one more fault, alone known as `o`. `useful`: its score is within the limit, and less than its
+// parent's.
+static bool try_child(struct state *t, const struct candidate *parent, const struct outcome *o, struct candidate *c,
+                      double max_score, bool *useful, lam_error *error)
+{
+    int first = o->changed_count < IDLE_SCENES ? o->changed_count : IDLE_SCENES;
+    start(c);
+    t->s->tried++;
+    *useful = first > 0;
+    for (int k = 0; k < t->m.scene_count && *useful; k++) {
+        if (!add_scene(t, c, o->order[k], error))
+            return false;
+        *useful = c->score <= max_score && !(k + 1 == first && is_idle(t, c, parent, o->order, first));
     }
     return true;
 }
@@ -105,12 +174,38 @@ static bool explains(const struct scene_comparison *scene, const struct differen
     return d->fits && d->mean <= max_ratio_explained * scene->mean_difference;
 }
 
+// The scenes without faults.
+static bool measure_without(struct state *t, lam_error *error)
+{
+    const fault_set none = {0};
+    bool ok = true;
+    for (int k = 0; ok && k < t->m.scene_count; k++)
+        ok = fault_measure_scene(&t->m, t->m.order[k], &none, &t->without[t->m.order[k]], error);
+    return ok;
+}
+
+// Orders the scenes for sets with a fault: `changes` of each scene that differs.
+static void order_by_change(const struct state *t, struct outcome *o, const double *changes)
+{
+    memcpy(o->order, t->m.order, sizeof o->order);
+    o->changed_count = 0;
+    for (int k = 0; k < t->m.differ_count; k++) {
+        int scene = t->m.order[k], at = k;
+        o->changed_count += changes[scene] > min_change;
+        for (; at > 0 && changes[o->order[at - 1]] < changes[scene]; at--)
+            o->order[at] = o->order[at - 1];
+        o->order[at] = scene;
+    }
+}
+
 // Tries each fault of the table alone in the scenes that differ. `best` is the best that explains everything.
 static bool try_each(struct state *t, struct candidate *best, lam_error *error)
 {
     struct fault_search *s = t->s;
     const fault_set none = {0};
-    for (int m = 0; m < fault_count; m++) {
+    if (!measure_without(t, error))
+        return false;
+    for (int m = 0; m < fault_count && !is_spent(t); m++) {
         struct outcome *o = &t->outcomes[m];
         // An input without a value takes a term away just as well, and is reported already.
         o->applies = fault_applies(&faults[m], s->interface, s->frame, s->reflection, s->needs) &&
@@ -121,22 +216,28 @@ static bool try_each(struct state *t, struct candidate *best, lam_error *error)
             continue;
         struct candidate c = {.members = {o->fault}, .count = 1, .set = fault_measure_with(&none, &o->fault)};
         bool fits = true;
+        double changes[MAX_SCENES] = {0};
+        t->s->tried++;
         for (int k = 0; k < t->m.differ_count; k++) {
             struct difference d;
             int i = t->m.order[k];
             if (!fault_measure_scene(&t->m, i, &c.set, &d, error))
                 return false;
+            double change = d.mean - t->without[i].mean;
+            changes[i] = (change < 0 ? -change : change) / t->m.scenes[i].mean_difference;
             o->mean += d.mean / t->m.scene_count;
-            o->score += score_of(t, i, &d);
+            o->parts[i] = score_of(t, i, &d);
+            o->score += o->parts[i];
             fits = fits && d.fits;
             if (explains(&t->m.scenes[i], &d))
                 o->explained |= (uint32_t)1 << i;
             if (explains(&t->m.scenes[i], &d) && d.mean <= max_exact_scene)
                 o->exactly |= (uint32_t)1 << i;
         }
+        order_by_change(t, o, changes);
         if (!fits)
             continue;
-        if (!try_candidate(t, &c, no_limit, no_limit, error))
+        if (!try_candidate(t, &c, no_limit, error))
             return false;
         // Of faults that draw the same pictures the first in the table is found.
         if (c.fits && c.mean <= max_ratio_explained * s->before &&
@@ -160,7 +261,7 @@ static bool find_spoils(struct state *t, struct outcome *o, lam_error *error)
         struct difference d;
         if (!fault_measure_scene(&t->m, t->m.order[k], &set, &d, error))
             return false;
-        o->spoils = !d.fits;
+        o->spoils = is_spoilt(t, t->m.order[k], &d);
     }
     o->spoils_known = true;
     return true;
@@ -187,7 +288,7 @@ static bool reduce(struct state *t, struct candidate *c, lam_error *error)
         memmove(&less.members[i], &less.members[i + 1], (size_t)(c->count - i - 1) * sizeof *less.members);
         less.count--;
         rebuild(&less);
-        if (!try_candidate(t, &less, no_limit, no_limit, error))
+        if (!try_candidate(t, &less, no_limit, error))
             return false;
         if (less.fits) {
             *c = less;
@@ -249,7 +350,8 @@ static bool try_supported(struct state *t, bool all, struct candidate *c, lam_er
         struct candidate more = *c;
         more.members[more.count++] = next->fault;
         rebuild(&more);
-        ok = try_candidate(t, &more, no_limit, no_limit, error);
+        s->tried++;
+        ok = try_candidate(t, &more, no_limit, error);
         if (all || (ok && more.score < c->score && more.mean < c->mean)) {
             *c = more;
             covered |= next->explained;
@@ -286,11 +388,11 @@ static bool extend(struct state *t, const struct candidate *beam, int beam_count
                    int *count, lam_error *error)
 {
     for (int b = 0; b < beam_count; b++)
-        for (int m = 0; m < fault_count; m++) {
+        for (int m = 0; m < fault_count && !is_spent(t); m++) {
             struct outcome *o = &t->outcomes[m];
             struct candidate c = beam[b];
             fault_set same = fault_set_add(&c.set, &faults[m]);
-            if (!o->applies || (!faults[m].fit && fault_set_equal(&same, &c.set)))
+            if (!o->applies || !o->changed_count || (!faults[m].fit && fault_set_equal(&same, &c.set)))
                 continue;
             if (!find_spoils(t, o, error))
                 return false;
@@ -302,9 +404,10 @@ static bool extend(struct state *t, const struct candidate *beam, int beam_count
             c.count++;
             rebuild(&c);
             double max_score = *count == BEAM ? next[BEAM - 1].score : no_limit;
-            if (!try_candidate(t, &c, no_limit, max_score, error))
+            bool useful;
+            if (!try_child(t, &beam[b], o, &c, max_score, &useful, error))
                 return false;
-            if (c.score <= max_score)
+            if (useful)
                 beam_insert(next, count, &c);
         }
     return true;
@@ -320,6 +423,7 @@ static bool try_sets(struct state *t, struct candidate *best, lam_error *error)
         if (!o->applies || (o->spoils_known && o->spoils))
             continue;
         struct candidate c = {.members = {o->fault}, .count = 1, .mean = o->mean, .score = o->score};
+        memcpy(c.parts, o->parts, sizeof c.parts);
         rebuild(&c);
         beam_insert(beam, &beam_count, &c);
     }
@@ -362,7 +466,7 @@ static bool find_also(struct state *t, const struct candidate *best, int i, stru
         rebuild(&c);
         if (fault_set_equal(&c.set, &best->set))
             continue;
-        if (!try_candidate(t, &c, most, no_limit, error))
+        if (!try_candidate(t, &c, most, error))
             return false;
         if (c.fits)
             found->also[found->also_count++] = &faults[m];
@@ -386,7 +490,7 @@ static bool store(struct state *t, struct candidate *c, lam_error *error)
     for (int i = 0; i < c->count; i++) {
         part.members[part.count++] = c->members[i];
         rebuild(&part);
-        if (!try_candidate(t, &part, no_limit, no_limit, error))
+        if (!try_candidate(t, &part, no_limit, error))
             return false;
         if (c->members[i].row->style) {
             s->styles[s->style_count++] = c->members[i].row;

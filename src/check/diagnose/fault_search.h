@@ -31,11 +31,14 @@ struct fault_search {
     unsigned needs; // of all scenes together
     // Some names have no value: only a single fault that explains everything counts.
     bool has_unset_names;
-    double before; // mean difference without faults, over the scenes that are not spoilt
+    uint64_t max_pictures; // that it may draw, until it looks for no further sets
+    double before;         // mean difference without faults, over the scenes that are not spoilt
     // Results: the faults, that which explains most first, and whether they explain everything.
     struct found_fault found[MAX_FOUND_FAULTS];
     int count;
     bool certain;
+    uint64_t tried; // faults and sets of them
+    bool stopped;   // at max_pictures
     // Styles of the table that the shader has, which are no mistakes.
     const struct fault *styles[MAX_FOUND_FAULTS];
     int style_count;

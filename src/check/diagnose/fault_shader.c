@@ -10,10 +10,26 @@
 #include "linear.h"
 #include "fault_texts.inc"
 
+// What a program is compiled for: constants of its text, so that it computes nothing that a picture does not need. A
+// software driver computes both sides of every branch.
+struct specialization {
+    bool in_vertex, physical, phong, products, ambient_by_light, flat, two_sided;
+    int masking, diffuse_share, tone, encoding;
+    int lamps;
+    bool vectors, terms; // switches of these groups may be on
+};
+
+struct program {
+    struct specialization made_for;
+    GLuint name;
+};
+enum { MAX_PROGRAMS = 32 };
+
 struct fault_shader {
     struct offscreen offscreen;
-    GLuint programs[2]; // lighting in the fragment shader, in the vertex shader; 0: not built yet
-    GLuint program;     // the one in use
+    struct program programs[MAX_PROGRAMS]; // the last used first
+    int program_count;
+    GLuint program; // the one in use
     int size, stride;
     bool rests; // its context is not current
 };
@@ -24,19 +40,61 @@ static const char *const bit_names[FAULT_BIT_COUNT] = {"NONE",
 #undef BIT_NAME
 };
 
-static GLuint compile(struct fault_shader *m, GLenum kind, bool in_vertex, const char *body, lam_error *error)
+// The switches up to MEAN_DISTANCE concern normals, spaces and lengths; the others concern attenuation, terms, output.
+static bool is_of_vectors(int bit) { return bit <= BIT_MEAN_DISTANCE; }
+
+// Whether a switch can be on in a program: that of a shader with an exponent, or with metalness and roughness.
+static bool is_possible(const struct specialization *made_for, int bit)
+{
+    if (is_of_vectors(bit) ? !made_for->vectors : !made_for->terms)
+        return false;
+    for (int m = 0; m < fault_count; m++)
+        for (int k = 0; k < MAX_FAULT_BITS && faults[m].bits[k] != BIT_NONE; k++)
+            if (faults[m].bits[k] == bit && !(faults[m].where & (made_for->physical ? WHERE_CLASSIC : WHERE_PHYSICAL)))
+                return true;
+    return false;
+}
+
+static size_t write_constants(const struct specialization *s, char *out, size_t capacity)
+{
+    const struct {
+        const char *name;
+        bool value;
+    } flags[] = {{"physical", s->physical}, {"phong_lobe", s->phong},
+                 {"products", s->products}, {"ambient_by_light", s->ambient_by_light},
+                 {"flat_shading", s->flat}, {"two_sided", s->two_sided}};
+    const struct {
+        const char *name;
+        int value;
+    } numbers[] = {{"masking", s->masking},
+                   {"diffuse_share", s->diffuse_share},
+                   {"tone", s->tone},
+                   {"encoding", s->encoding},
+                   {"lamp_count", s->lamps}};
+    size_t at =
+        (size_t)snprintf(out, capacity, "#version 330 core\n%s#define FAULT_BITS %d\n#define LAMPS %d\n",
+                         s->in_vertex ? "#define IN_VERTEX\n" : "", FAULT_BIT_COUNT, s->lamps > 0 ? s->lamps : 1);
+    for (int i = 0; i < FAULT_BIT_COUNT; i++)
+        at += (size_t)snprintf(out + at, capacity - at, "#define %s %d\n", bit_names[i], is_possible(s, i) ? i : -1);
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
+        at += (size_t)snprintf(out + at, capacity - at, "const bool %s = %s;\n", flags[i].name,
+                               flags[i].value ? "true" : "false");
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        at += (size_t)snprintf(out + at, capacity - at, "const int %s = %d;\n", numbers[i].name, numbers[i].value);
+    return at;
+}
+
+static GLuint compile(struct fault_shader *m, GLenum kind, const struct specialization *made_for, const char *body,
+                      lam_error *error)
 {
     size_t capacity =
-        strlen(text_fault_physical_glsl) + strlen(text_fault_light_glsl) + strlen(body) + 40 * FAULT_BIT_COUNT + 100;
+        strlen(text_fault_physical_glsl) + strlen(text_fault_light_glsl) + strlen(body) + 40 * FAULT_BIT_COUNT + 600;
     char *text = malloc(capacity), log[1024] = "";
     if (!text) {
         fail_memory(error, capacity);
         return 0;
     }
-    size_t at = (size_t)snprintf(text, capacity, "#version 330 core\n%s#define FAULT_BITS %d\n",
-                                 in_vertex ? "#define IN_VERTEX\n" : "", FAULT_BIT_COUNT);
-    for (int i = 0; i < FAULT_BIT_COUNT; i++)
-        at += (size_t)snprintf(text + at, capacity - at, "#define %s %d\n", bit_names[i], i);
+    size_t at = write_constants(made_for, text, capacity);
     snprintf(text + at, capacity - at, "%s%s%s", text_fault_physical_glsl, text_fault_light_glsl, body);
     GLuint shader = offscreen_compile(&m->offscreen, kind, text, log, sizeof log);
     free(text);
@@ -62,24 +120,52 @@ struct fault_shader *fault_shader_open(const char *gl_device, int size, int stri
     return m;
 }
 
-static bool build(struct fault_shader *m, bool in_vertex, lam_error *error)
+static bool is_same(const struct specialization *a, const struct specialization *b)
 {
-    m->program = m->programs[in_vertex];
-    if (m->program)
-        return true;
-    GLuint vertex = compile(m, GL_VERTEX_SHADER, in_vertex, text_fault_vertex_glsl, error),
-           fragment = vertex ? compile(m, GL_FRAGMENT_SHADER, in_vertex, text_fault_fragment_glsl, error) : 0;
+    return a->in_vertex == b->in_vertex && a->physical == b->physical && a->phong == b->phong &&
+           a->products == b->products && a->ambient_by_light == b->ambient_by_light && a->flat == b->flat &&
+           a->two_sided == b->two_sided && a->masking == b->masking && a->diffuse_share == b->diffuse_share &&
+           a->tone == b->tone && a->encoding == b->encoding && a->lamps == b->lamps && a->vectors == b->vectors &&
+           a->terms == b->terms;
+}
+
+static GLuint link_program(struct fault_shader *m, const struct specialization *made_for, lam_error *error)
+{
+    GLuint vertex = compile(m, GL_VERTEX_SHADER, made_for, text_fault_vertex_glsl, error),
+           fragment = vertex ? compile(m, GL_FRAGMENT_SHADER, made_for, text_fault_fragment_glsl, error) : 0;
     char log[1024] = "";
-    if (fragment) {
-        m->program = m->programs[in_vertex] = offscreen_link(&m->offscreen, vertex, fragment, log, sizeof log);
-        if (!m->program)
-            fail(error, LAM_UNSUPPORTED, "%s does not link the check's own shaders: %.300s",
-                 m->offscreen.context.renderer, log);
-    }
+    GLuint program = fragment ? offscreen_link(&m->offscreen, vertex, fragment, log, sizeof log) : 0;
+    if (fragment && !program)
+        fail(error, LAM_UNSUPPORTED, "%s does not link the check's own shaders: %.300s", m->offscreen.context.renderer,
+             log);
     const struct gl *gl = &m->offscreen.context.gl;
     gl->DeleteShader(vertex);
     gl->DeleteShader(fragment);
-    return m->program != 0;
+    return program;
+}
+
+// Makes the program for these constants the one in use; of more than MAX_PROGRAMS the one that was not used longest goes.
+static bool build(struct fault_shader *m, const struct specialization *made_for, lam_error *error)
+{
+    int at = 0;
+    while (at < m->program_count && !is_same(&m->programs[at].made_for, made_for))
+        at++;
+    struct program found = {.made_for = *made_for};
+    if (at < m->program_count) {
+        found = m->programs[at];
+    } else {
+        found.name = link_program(m, made_for, error);
+        if (!found.name)
+            return false;
+        if (m->program_count < MAX_PROGRAMS)
+            m->program_count++;
+        else
+            m->offscreen.context.gl.DeleteProgram(m->programs[--at].name);
+    }
+    memmove(&m->programs[1], &m->programs[0], (size_t)at * sizeof found);
+    m->programs[0] = found;
+    m->program = found.name;
+    return true;
 }
 
 bool fault_shader_draws(const struct fault_shader *m, int size, int stride)
@@ -105,9 +191,8 @@ void fault_shader_close(struct fault_shader *m)
     if (!m)
         return;
     if (!m->rests || fault_shader_wake(m, NULL)) {
-        for (int i = 0; i < 2; i++)
-            if (m->programs[i])
-                m->offscreen.context.gl.DeleteProgram(m->programs[i]);
+        for (int i = 0; i < m->program_count; i++)
+            m->offscreen.context.gl.DeleteProgram(m->programs[i].name);
         offscreen_close(&m->offscreen);
     }
     free(m);
@@ -169,12 +254,27 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     struct reference_matrices matrices;
     reference_matrices(reference_scene, &matrices);
     bool smooth = fault_set_has(set, BIT_SMOOTH_FOR_FLAT);
-    if (!build(m, interface->vertex_lit || (reference_scene->flat && !smooth), error))
+    const struct physical_convention *physical = &interface->contract->physical;
+    struct specialization made_for = {.in_vertex = interface->vertex_lit || (reference_scene->flat && !smooth),
+                                      .physical = interface->physical,
+                                      .phong = reflection == LAM_REFLECTION_PHONG,
+                                      .products = shader_interface_declares(interface, SEMANTIC_DIFFUSE_PRODUCT),
+                                      .ambient_by_light = shader_interface_declares(interface, SEMANTIC_LIGHT_AMBIENT),
+                                      .flat = reference_scene->flat,
+                                      .two_sided = (interface->supports & NEED_TWO_SIDES) != 0,
+                                      .masking = (int)physical->masking,
+                                      .diffuse_share = (int)physical->diffuse,
+                                      .tone = (int)physical->tone,
+                                      .encoding = (int)physical->encoding,
+                                      .lamps = reference_scene->light_count};
+    GLint bits[FAULT_BIT_COUNT];
+    for (int i = 0; i < FAULT_BIT_COUNT; i++) {
+        bits[i] = fault_set_has(set, (enum fault_bit)i);
+        *(is_of_vectors(i) ? &made_for.vectors : &made_for.terms) |= bits[i];
+    }
+    if (!build(m, &made_for, error))
         return false;
     gl->UseProgram(m->program);
-    GLint bits[FAULT_BIT_COUNT];
-    for (int i = 0; i < FAULT_BIT_COUNT; i++)
-        bits[i] = fault_set_has(set, (enum fault_bit)i);
     gl->Uniform1iv(place(m, "fault_on"), FAULT_BIT_COUNT, bits);
     lam_light_frame space = interface->space;
     const struct {
@@ -203,10 +303,8 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     gl->Uniform4f(place(m, "window"), scale, scale, offset, offset);
     for (int i = 0; i < reference_scene->light_count; i++)
         set_lamp(m, i, interface, frame, reference_scene, &matrices);
-    gl->Uniform1i(place(m, "lamp_count"), reference_scene->light_count);
     gl->Uniform3fv(place(m, "ambient_light"), 1,
                    uniform_semantic_value(SEMANTIC_AMBIENT_LIGHT, 0, frame, reference_scene, &matrices).v);
-    gl->Uniform1i(place(m, "products"), shader_interface_declares(interface, SEMANTIC_DIFFUSE_PRODUCT));
     set_color(m, "ka", reference_scene->ambient, reference_scene->ka);
     set_color(m, "kd", reference_scene->diffuse, reference_scene->kd);
     set_color(m, "ks", reference_scene->specular, reference_scene->ks);
@@ -224,18 +322,12 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     gl->Uniform1f(place(m, "shininess"), reference_scene->shininess);
     gl->Uniform1f(place(m, "exponent_factor"), set->factor);
     gl->Uniform1f(place(m, "exponent_constant"), set->constant);
-    gl->Uniform1i(place(m, "ambient_by_light"), shader_interface_declares(interface, SEMANTIC_LIGHT_AMBIENT));
-    gl->Uniform1i(place(m, "phong_lobe"), reflection == LAM_REFLECTION_PHONG);
-    const struct physical_convention *physical = &interface->contract->physical;
-    gl->Uniform1i(place(m, "physical"), interface->physical);
     set_color(m, "base_color", reference_scene->diffuse, 1);
     gl->Uniform1f(place(m, "metallic"), reference_scene->metallic);
     gl->Uniform1f(place(m, "roughness"), reference_scene->roughness);
-    gl->Uniform1i(place(m, "masking"), (GLint)physical->masking);
-    gl->Uniform1i(place(m, "diffuse_share"), (GLint)physical->diffuse);
-    gl->Uniform1i(place(m, "tone"), (GLint)physical->tone);
-    gl->Uniform1i(place(m, "encoding"), (GLint)physical->encoding);
-    gl->Uniform1i(place(m, "flat_shading"), reference_scene->flat);
-    gl->Uniform1i(place(m, "two_sided"), (interface->supports & NEED_TWO_SIDES) != 0);
+    // Nothing of a closed mesh's inside is seen; upside down, its front faces turn the other way.
+    bool closed = reference_scene->mesh == MESH_SPHERE || reference_scene->mesh == MESH_COARSE;
+    (closed ? gl->Enable : gl->Disable)(GL_CULL_FACE);
+    gl->CullFace(fault_set_has(set, BIT_UPSIDE_DOWN) ? GL_FRONT : GL_BACK);
     return offscreen_draw(&m->offscreen, reference_scene->mesh, 0, 1, pixels, error);
 }

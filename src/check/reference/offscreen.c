@@ -53,6 +53,7 @@ void offscreen_close(struct offscreen *t)
     const struct gl *gl = &t->context.gl;
     gl->DeleteBuffers(MESH_COUNT, t->positions);
     gl->DeleteBuffers(MESH_COUNT, t->normals);
+    gl->DeleteBuffers(MESH_COUNT, t->indices);
     gl->DeleteVertexArrays(1, &t->array);
     gl->DeleteFramebuffers(1, &t->framebuffer);
     gl->DeleteRenderbuffers(1, &t->color);
@@ -76,7 +77,7 @@ static bool upload_mesh(struct offscreen *t, enum reference_mesh mesh, lam_error
     struct reference_points points;
     if (!reference_points(mesh, &points, error))
         return false;
-    size_t count = (size_t)points.count;
+    size_t count = (size_t)points.vertex_count;
     float *four = malloc(count * 4 * sizeof *four);
     if (!four) {
         reference_points_free(&points);
@@ -93,6 +94,10 @@ static bool upload_mesh(struct offscreen *t, enum reference_mesh mesh, lam_error
     gl->GenBuffers(1, &t->normals[mesh]);
     gl->BindBuffer(GL_ARRAY_BUFFER, t->normals[mesh]);
     gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * 4 * sizeof(float)), four, GL_STATIC_DRAW);
+    gl->GenBuffers(1, &t->indices[mesh]);
+    gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, t->indices[mesh]);
+    gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)((size_t)points.count * sizeof *points.indices), points.indices,
+                   GL_STATIC_DRAW);
     t->counts[mesh] = points.count;
     free(four);
     reference_points_free(&points);
@@ -127,7 +132,8 @@ bool offscreen_draw(struct offscreen *t, enum reference_mesh mesh, int position,
     if (normal >= 0 || built_in)
         point_at(gl, t->normals[mesh], normal, 4, true);
     gl->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    gl->DrawArrays(GL_TRIANGLES, 0, t->counts[mesh]);
+    gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, t->indices[mesh]);
+    gl->DrawElements(GL_TRIANGLES, t->counts[mesh], GL_UNSIGNED_SHORT, NULL);
     gl->ReadPixels(0, 0, t->size, t->size, GL_RGBA, GL_FLOAT, pixels);
     GLenum wrong = gl->GetError();
     if (wrong)

@@ -14,7 +14,8 @@ struct offscreen {
     GLuint framebuffer, color, depth, array;
     GLuint positions[MESH_COUNT]; // buffers of 3 floats a vertex
     GLuint normals[MESH_COUNT];   // of 4 floats, w 0
-    int counts[MESH_COUNT];
+    GLuint indices[MESH_COUNT];   // three of a triangle
+    int counts[MESH_COUNT];       // of indices
 };
 
 bool offscreen_open(struct offscreen *t, enum gl_profile profile, const char *gl_device, int size, lam_error *error);

@@ -165,6 +165,31 @@ static int add_mesh(lam_scene *scene, enum reference_mesh mesh, lam_error *error
     return -1;
 }
 
+// Fills `points`, whose arrays have a place for every corner. `heads`: of each position, its first vertex and −1; `next`: of
+// each vertex, the next one of its position.
+static void share_vertices(const lam_mesh *m, struct reference_points *points, int32_t *heads, int32_t *next)
+{
+    for (uint32_t p = 0; p < m->vertex_count; p++)
+        heads[p] = -1;
+    for (size_t i = 0; i < (size_t)points->count; i++) {
+        size_t p = m->indices ? m->indices[i] : i;
+        size_t n = m->normal_indices ? m->normal_indices[i] : p;
+        int32_t v = heads[p];
+        while (v >= 0 && memcmp(points->normals + 3 * (size_t)v, m->normals + 3 * n, 3 * sizeof(float)) != 0)
+            v = next[v];
+        if (v < 0) {
+            v = points->vertex_count++;
+            next[v] = heads[p];
+            heads[p] = v;
+            for (size_t k = 0; k < 3; k++) {
+                points->positions[3 * (size_t)v + k] = m->positions[3 * p + k] + (float)m->origin[k];
+                points->normals[3 * (size_t)v + k] = m->normals[3 * n + k];
+            }
+        }
+        points->indices[i] = (uint16_t)v;
+    }
+}
+
 bool reference_points(enum reference_mesh mesh, struct reference_points *points, lam_error *error)
 {
     *points = (struct reference_points){0};
@@ -175,31 +200,27 @@ bool reference_points(enum reference_mesh mesh, struct reference_points *points,
         return false;
     }
     const lam_mesh *m = lam_scene_mesh(scene, index);
-    size_t count = 3 * (size_t)m->triangle_count;
+    size_t count = 3 * (size_t)m->triangle_count, positions = (size_t)m->vertex_count;
+    points->count = (int)count;
     points->positions = malloc(count * 3 * sizeof(float));
     points->normals = malloc(count * 3 * sizeof(float));
-    if (!points->positions || !points->normals) {
+    points->indices = malloc(count * sizeof *points->indices);
+    int32_t *heads = malloc((positions + count) * sizeof *heads);
+    bool ok = points->positions && points->normals && points->indices && heads;
+    if (ok)
+        share_vertices(m, points, heads, heads + positions);
+    else
         reference_points_free(points);
-        lam_scene_free(scene);
-        return fail_memory(error, count * 6 * sizeof(float));
-    }
-    for (size_t i = 0; i < count; i++) {
-        size_t p = m->indices ? m->indices[i] : i;
-        size_t n = m->normal_indices ? m->normal_indices[i] : p;
-        for (size_t k = 0; k < 3; k++) {
-            points->positions[3 * i + k] = m->positions[3 * p + k] + (float)m->origin[k];
-            points->normals[3 * i + k] = m->normals[3 * n + k];
-        }
-    }
-    points->count = (int)count;
+    free(heads);
     lam_scene_free(scene);
-    return true;
+    return ok || fail_memory(error, count * 8 * sizeof(float));
 }
 
 void reference_points_free(struct reference_points *points)
 {
     free(points->positions);
     free(points->normals);
+    free(points->indices);
     *points = (struct reference_points){0};
 }
 

@@ -77,10 +77,12 @@ extern const int reference_scene_count;
 
 int reference_scene_find(const char *name); // −1: none
 
-// Positions and normals of three vertices for each triangle, three floats each. From malloc.
+// Positions and normals of vertices, three floats each, no two with both the same, and three indices of them for each
+// triangle: few enough for OpenGL ES 2, whose indices have 16 bits. From malloc.
 struct reference_points {
     float *positions, *normals;
-    int count;
+    uint16_t *indices;
+    int vertex_count, count; // `count`: of indices
 };
 bool reference_points(enum reference_mesh mesh, struct reference_points *points, lam_error *error);
 void reference_points_free(struct reference_points *points);

@@ -9,9 +9,9 @@
 #include "animate_frame.h"
 #include "base64.h"
 #include "batch_key.h"
-#include "command.h"
 #include "console.h"
 #include "environment_option.h"
+#include "job_check.h"
 #include "job_words.h"
 #include "limit_options.h"
 #include "look_option.h"
@@ -222,7 +222,7 @@ static bool read_options(struct batch_job *job, const json_t *root, const struct
     o->files_inside = true;
     return job_words_make(json_object_get(root, "options"), &job->words, &job->word_count, error) &&
            check_looks(job, rules, error) && job_words_apply(job->words, job->word_count, o, error) &&
-           check_environment(job, rules, error) && render_check_options(o, error);
+           check_environment(job, rules, error) && job_check_options(o, error);
 }
 
 static bool fill(struct batch_job *job, json_t *root, const struct batch_job_rules *rules, lam_error *error)

@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include "batch_job.h"
-#include "batch_pass.h"
 #include "console.h"
 #include "exit_codes.h"
 #include "interrupt.h"

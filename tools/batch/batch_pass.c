@@ -136,19 +136,6 @@ void batch_end_suspects(struct batch *b)
 
 // --- what comes of a model
 
-void batch_stop(struct batch *b, const lam_error *error)
-{
-    pthread_mutex_lock(&b->lock);
-    int code = exit_code_of(error->code)->code;
-    if (!b->failed) {
-        batch_hide_progress(&b->tally);
-        say_error(error->text);
-    }
-    b->failed = true;
-    b->code = code > b->code ? code : b->code;
-    pthread_mutex_unlock(&b->lock);
-}
-
 static void count(struct batch *b, const struct batch_unit *u, int view)
 {
     struct batch_tally *t = &b->tally;

@@ -19,9 +19,6 @@ bool batch_take(struct batch *batch, struct batch_task *task, bool waits);
 // Takes what a unit brings: counts, lines of the journal, messages, the answer to a job. Any thread.
 void batch_deliver(struct batch *batch, struct batch_unit *unit);
 
-// Reports an error after which nothing more is begun. Any thread.
-void batch_stop(struct batch *batch, const lam_error *error);
-
 // Removes the temporary files that a process left beside a model's pictures when it was killed. `host`: where it ran; NULL:
 // here.
 void batch_remove_parts(const struct batch_plan *plan, size_t model, int process, const char *host);

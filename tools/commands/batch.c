@@ -8,6 +8,7 @@
 #include "batch_run.h"
 #include "batch_sources.h"
 #include "console.h"
+#include "job_check.h"
 #include "json.h"
 #include "output.h"
 #include "report.h"
@@ -26,7 +27,7 @@ static bool check_jobs(int operands, const struct options *o, lam_error *error)
     if (o->skip_same && !o->journal)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--skip-same' goes by a journal, with --jobs expected --journal FILE");
-    return render_check_options(o, error);
+    return job_check_options(o, error);
 }
 
 static bool check(int operands, const struct options *o, lam_error *error)
@@ -45,7 +46,7 @@ static bool check(int operands, const struct options *o, lam_error *error)
                         "batch: pictures are files; name a folder, -o pictures/, or a pattern");
     if (o->save_scene)
         return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' goes only with a single model");
-    return render_check_options(o, error);
+    return job_check_options(o, error);
 }
 
 // --dry-run: which picture each model becomes.

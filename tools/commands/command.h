@@ -18,9 +18,6 @@ typedef int command_fn(int operand_count, char **operands, const struct options 
 #define COMMAND_FUNCTION(name) command_fn run_##name;
 COMMANDS(COMMAND_FUNCTION)
 
-// Checks the options of a picture that exclude one another (render.c). Error: LAM_BAD_ARGUMENT.
-bool render_check_options(const struct options *options, lam_error *error);
-
 // A command's own default of an option that others take too. Ends with a NULL option.
 struct own_default {
     const char *option, *standard;

@@ -4,54 +4,16 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "animate.h"
 #include "batch_run.h"
 #include "batch_sources.h"
 #include "console.h"
+#include "job_check.h"
 #include "output.h"
 #include "report.h"
 
-// --- checks of the options together
-
-// Phong shading runs in the fragment stage, Gouraud shading in the vertex stage or the application, flat in any.
-static bool check_stage(const struct options *o, lam_error *error)
-{
-    if (!o->has_shading || !o->draw.stage)
-        return true;
-    if (o->draw.shading == LAM_SHADING_PHONG && o->draw.stage != LAM_STAGE_FRAGMENT)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "phong shading cannot be evaluated in stage %s; phong works with fragment, gouraud with "
-                        "application or vertex, flat with all three",
-                        o->draw.stage == LAM_STAGE_VERTEX ? "vertex" : "application");
-    if (o->draw.shading == LAM_SHADING_GOURAUD && o->draw.stage == LAM_STAGE_FRAGMENT)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "gouraud shading cannot be evaluated in stage fragment; gouraud works with application or "
-                        "vertex, phong with fragment, flat with all three");
-    return true;
-}
-
-bool render_check_options(const struct options *o, lam_error *error)
-{
-    const char *view = o->view            ? "view"
-                       : o->has_azimuth   ? "azimuth"
-                       : o->has_elevation ? "elevation"
-                       : o->zoom > 0      ? "zoom"
-                       : o->projection    ? "projection"
-                                          : NULL;
-    if (o->camera && view)
-        return complain(error, LAM_BAD_ARGUMENT, "options '--camera' and '--%s' cannot be used together", view);
-    if (o->two_sided && o->one_sided)
-        return complain(error, LAM_BAD_ARGUMENT, "options '--two-sided' and '--one-sided' cannot be used together");
-    if (!check_stage(o, error) || !animation_check(o, error))
-        return false;
-    if (o->quiet && o->verbose)
-        return complain(error, LAM_BAD_ARGUMENT, "options '--quiet' and '--verbose' cannot be used together");
-    return true;
-}
-
 static bool check_together(int count, char **models, const struct options *o, lam_error *error)
 {
-    if (!render_check_options(o, error))
+    if (!job_check_options(o, error))
         return false;
     if (!output_name_is_pattern(o->output) && output_is_named(o->output) && count > 1)
         return complain(error, LAM_BAD_ARGUMENT,

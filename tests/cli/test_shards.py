@@ -1,7 +1,10 @@
 # test_shards.py: --shard: many machines draw parts of one batch; each model is drawn by one of them, whatever the environment says.
 import json
 import os
+import re
+import shutil
 import subprocess
+import urllib.parse
 
 from harness import PROGRAM
 from test_batch import Batch, xxh64
@@ -187,3 +190,119 @@ class Shards(Batch):
             self.run_program(*names, "-s", 24, "-o", "out/", "--shard", f"{k}/2", "--journal", "log.jsonl")
         self.assertEqual(len(self.pictures()), 6)
         self.assertEqual(len(self.journal("log-1-of-2.jsonl") + self.journal("log-2-of-2.jsonl")), 6)
+
+
+class Merge(Batch):
+    """`lambent journal`: the journals of a batch taken together."""
+
+    def sum(self, *words, code=0):
+        done = self.run_program("journal", *words)
+        self.assertEqual(done.returncode, code, done.stdout.decode() + done.stderr.decode())
+        return done.stdout.decode() if code in (0, 7) else done.stderr.decode()
+
+    def shards(self, count=3, numbers=None, models=9, broken=(4,), *more):
+        names = self.tree(models)
+        for i in broken:
+            (self.folder / names[i]).write_bytes(b"")
+        for k in numbers or range(1, count + 1):
+            self.run_program("batch", "in", "-s", 24, "-o", "out/{dir}/{stem}.png", "--shard", f"{k}/{count}", *more)
+        return names
+
+    def test_sum(self):
+        names = self.shards()
+        text = self.sum("out", code=7)
+        self.assertIn("8 of 9 pictures written, 1 failed (cannot-read 1); 3 journals; ", text)
+        self.assertIn(names[4] + ": ", text)
+        report = json.loads(self.sum("--json", *sorted((self.folder / "out").glob("*.jsonl")), code=7))
+        self.assertEqual([report[key] for key in ("whole", "pictures", "written", "failed", "classes", "shards", "missing_shards", "in_two_journals")],
+                         [True, 9, 8, 1, {"cannot-read": 1}, 3, [], 0])
+        self.assertEqual([(part["shard"], part["ended"]) for part in report["journals"]], [(1, True), (2, True), (3, True)])
+        self.assertEqual(sum(part["written"] for part in report["journals"]), 8)
+        times = sorted(r["times_ms"]["total"] for k in (1, 2, 3) for r in self.journal(f"out/lambent-{k}-of-3.jsonl") if r["class"] == "ok")
+        self.assertAlmostEqual(report["times_ms"]["total"], sum(times), places=1)
+        for key, at in (("median", 4), ("percent_90", 7), ("longest", 7)):
+            self.assertAlmostEqual(report["times_ms"][key], times[at], places=2)
+        self.assertEqual(self.sum("out", "-q", code=7), "")
+        self.cube(names[4])
+        for k in (1, 2, 3):
+            self.batch("in", "-o", "out/{dir}/{stem}.png", "--shard", f"{k}/3", "--resume", "--retry-failed", 1)
+        self.assertTrue(self.sum("out/").startswith("9 of 9 pictures written; 3 journals"))
+
+    def test_what_is_missing(self):
+        self.shards(4, (1, 3), broken=())
+        text = self.sum("out", code=7)
+        self.assertIn("shard 2/4 has no journal\nshard 4/4 has no journal\n", text)
+        self.assertEqual(json.loads(self.sum("out", "--json", code=7))["missing_shards"], [2, 4])
+        # A run that was killed has a journal without the line at its end; another line may be torn.
+        for k in (2, 4):
+            self.batch("in", "-o", "out/{dir}/{stem}.png", "--shard", f"{k}/4")
+        self.sum("out")
+        path = self.folder / "out/lambent-3-of-4.jsonl"
+        lines = path.read_text().splitlines(True)
+        self.assertEqual(json.loads(lines[-1]), {"ended": True})
+        path.write_text("".join(lines[:-2]) + lines[-2][:40])
+        text = self.sum("out", code=7)
+        self.assertIn(f"out/lambent-3-of-4.jsonl: the run has not ended: {len(lines) - 3} of {len(lines) - 2} pictures\n8 of 9 pictures", text)
+        self.batch("in", "-o", "out/{dir}/{stem}.png", "--shard", "3/4", "--resume")
+        self.sum("out")
+
+    def test_a_picture_in_two_journals(self):
+        self.shards(2, broken=())
+        one, two = self.folder / "out/lambent-1-of-2.jsonl", self.folder / "out/lambent-2-of-2.jsonl"
+        line = next(line for line in two.read_text().splitlines(True) if '"output"' in line)
+        one.write_text(one.read_text() + line)
+        output = json.loads(line)["output"]
+        self.assertIn(f"1 picture is in two journals: {output} is in out/lambent-1-of-2.jsonl and in out/lambent-2-of-2.jsonl", self.sum("out", code=7))
+        self.assertEqual(json.loads(self.sum("out", "--json", code=7))["written"], 9)  # it counts once
+
+    def test_merged(self):
+        """The merged journal is one that a run without shards goes on with."""
+        names = self.shards(broken=())
+        self.sum("out", "-o", "out/lambent.jsonl")
+        self.assertEqual(sorted(r["model"] for r in self.journal()), sorted(names))
+        self.assertIn("0 of 9 pictures written, 9 done before", self.batch("in", "-o", "out/{dir}/{stem}.png", "--resume").stderr.decode())
+        self.assertIn("9 unchanged", self.batch("in", "-o", "out/{dir}/{stem}.png", "--skip-same").stderr.decode())
+        self.assertEqual(len(self.sum("out", "-o", "-").splitlines()), 11)  # of the shards, not of what they were merged into
+        self.assertIn("9 of 9", self.sum("out/lambent.jsonl"))
+
+    def test_latest_line_counts(self):
+        names = self.shards(2)
+        shutil.copy(self.folder / names[0], self.folder / names[4])
+        for k in (1, 2):
+            self.batch("in", "-o", "out/{dir}/{stem}.png", "--shard", f"{k}/2", "--resume", "--retry-failed", 1)
+        report = json.loads(self.sum("out", "--json"))
+        self.assertEqual((report["written"], report["failed"], report["classes"]), (9, 0, {}))
+
+    def test_page(self):
+        names = self.shards()
+        self.sum("out", "--report", "all.html", code=7)
+        page = (self.folder / "all.html").read_text()
+        self.assertIn("<h1>8 of 9 pictures</h1>", page)
+        self.assertEqual(page.count("<figure>"), 8)
+        self.assertEqual(page.count('<li><b class="bad">'), 1)
+        for address in re.findall(r'(?:href|src)="([^"]*)"', page):
+            self.assertTrue((self.folder / urllib.parse.unquote(address)).is_file(), address)
+        self.assertLess(page.index(names[4]), page.index(names[0]))
+        self.assertEqual(len(self.files("all-files")), 8)
+
+    def test_names_that_are_not_utf8(self):
+        self.cube("in/m.stl")
+        os.rename(self.folder / "in/m.stl", os.fsencode(self.folder) + b"/in/\xe9\xff.stl")
+        self.batch("in", "-o", "out/")
+        self.sum("out", "--report", "all.html")
+        address = re.search(r'href="([^"]*)"', (self.folder / "all.html").read_text()).group(1)
+        self.assertTrue(os.path.isfile(os.fsencode(self.folder) + b"/" + urllib.parse.unquote_to_bytes(address)), address)
+        self.assertEqual(len(self.files("all-files")), 1)
+
+    def test_what_it_refuses(self):
+        self.shards(2, broken=())
+        (self.folder / "notes").write_text("hello\n")
+        (self.folder / "empty").mkdir()
+        for words, says, code in ((["out", "notes"], "expected a journal of lambent", 1), (["empty"], "found no journal", 2),
+                                  (["none.jsonl"], "cannot read the journal", 2), (["out", "out"], "the same shard", 1), ([], "", 1),
+                                  (["out", "-o", "-", "--json"], "both write", 1), (["out", "-o", "/proc/none.jsonl"], "/proc/none", 5)):
+            self.assertIn(says, self.sum(*words, code=code))
+        self.batch("in", "-o", "other/{stem}.png", "--shard", "1/3")
+        self.assertIn("2 shards, and 3", self.sum("out", "other", code=1))
+        self.batch("in", "-o", "third/{dir}/{stem}.png", "--shard", "2/2", "--journal", "third/x.jsonl", "--tone", "aces")
+        self.assertIn("--tone", self.sum("out/lambent-1-of-2.jsonl", "third/x-2-of-2.jsonl", code=1))

@@ -9,6 +9,7 @@
 
 #include "console.h"
 #include "html.h"
+#include "journal.h"
 #include "output.h"
 #include "xxh64.h"
 
@@ -78,6 +79,17 @@ static bool make_thumbnail(const char *output, const char *thumbnail)
     return ok;
 }
 
+void batch_page_thumbnail(const char *page, const char *output, bool is_new)
+{
+    struct stat picture, found;
+    char *thumbnail = thumbnail_path(page, output);
+    bool there = thumbnail && !is_new && stat(thumbnail, &found) == 0 &&
+                 (stat(output, &picture) != 0 || picture.st_mtime <= found.st_mtime);
+    if (thumbnail && !there)
+        make_thumbnail(output, thumbnail);
+    free(thumbnail);
+}
+
 static bool has_picture(const struct batch_picture *picture)
 {
     return picture->outcome == PICTURE_WRITTEN || picture->outcome == PICTURE_SAME ||
@@ -86,13 +98,9 @@ static bool has_picture(const struct batch_picture *picture)
 
 void batch_page_thumbnails(const struct batch *b, const struct batch_unit *u)
 {
-    struct stat found;
-    for (int i = 0; b->options->report_page && i < u->task.plan->view_count; i++) {
-        char *thumbnail = has_picture(&u->pictures[i]) ? thumbnail_path(b->options->report_page, u->outputs[i]) : NULL;
-        if (thumbnail && (u->pictures[i].outcome == PICTURE_WRITTEN || stat(thumbnail, &found) != 0))
-            make_thumbnail(u->outputs[i], thumbnail);
-        free(thumbnail);
-    }
+    for (int i = 0; b->options->report_page && i < u->task.plan->view_count; i++)
+        if (has_picture(&u->pictures[i]))
+            batch_page_thumbnail(b->options->report_page, u->outputs[i], u->pictures[i].outcome == PICTURE_WRITTEN);
 }
 
 // --- the page
@@ -145,12 +153,9 @@ static void put_failure(FILE *out, const json_t *record)
     fputs("</li>\n", out);
 }
 
-static void put_picture(FILE *out, const struct batch *b, size_t index, const json_t *record)
+static void put_picture(FILE *out, const char *page, const json_t *record)
 {
-    const char *page = b->options->report_page;
-    size_t views = (size_t)b->plan->view_count;
-    char *output = batch_plan_output(b->plan, index / views, (int)(index % views));
-    char *thumbnail = output ? thumbnail_path(page, output) : NULL;
+    char *output = journal_path(text_of(record, "output")), *thumbnail = output ? thumbnail_path(page, output) : NULL;
     if (thumbnail) {
         fputs("<figure><a class=\"thumb\" href=\"", out);
         put_address(out, page, output);
@@ -175,10 +180,24 @@ static void put_picture(FILE *out, const struct batch *b, size_t index, const js
     free(thumbnail);
 }
 
-static void put_page(FILE *out, const struct batch *b)
+// Puts the failures, or the pictures.
+static void put_records(FILE *out, const struct batch_page *page, bool failures)
 {
-    size_t pictures = b->plan->count * (size_t)b->plan->view_count, failed = b->tally.failed + b->tally.failed_before;
-    const struct batch_tally *t = &b->tally;
+    for (size_t i = 0; i < page->record_count; i++) {
+        json_t *record = page->record(page->user, i);
+        bool failed = record && strcmp(text_of(record, "class"), "ok") != 0;
+        if (record && failed && failures)
+            put_failure(out, record);
+        else if (record && !failed && !failures)
+            put_picture(out, page->path, record);
+        json_decref(record);
+    }
+}
+
+static void put_page(FILE *out, const struct batch_page *page)
+{
+    const struct batch_tally *t = page->tally;
+    size_t failed = t->failed + t->failed_before;
     fprintf(out, head, "lambent");
     fprintf(out,
             "<h1>%zu of %zu pictures</h1>\n<p class=\"about\">lambent %s: %zu written, %zu unchanged, %zu done before, "
@@ -186,25 +205,21 @@ static void put_page(FILE *out, const struct batch *b)
             t->written + t->same + t->before, t->total, lam_version(), t->written, t->same, t->before, failed);
     if (failed)
         fputs("<h2>Failed</h2>\n<ul>\n", out);
-    for (size_t i = 0; i < pictures; i++)
-        if (b->records[i] && !has_picture(&b->pictures[i]))
-            put_failure(out, b->records[i]);
+    put_records(out, page, true);
     fputs(failed ? "</ul>\n<h2>Pictures</h2>\n<div class=\"sheet\">\n" : "<div class=\"sheet\">\n", out);
-    for (size_t i = 0; i < pictures; i++)
-        if (b->records[i] && has_picture(&b->pictures[i]))
-            put_picture(out, b, i, b->records[i]);
+    put_records(out, page, false);
     fputs("</div>\n</html>\n", out);
 }
 
-bool batch_page_write(const struct batch *b, lam_error *error)
+bool batch_page_write(const struct batch_page *page, lam_error *error)
 {
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     if (out)
-        put_page(out, b);
+        put_page(out, page);
     bool ok = (out && fclose(out) == 0) || complain(error, LAM_LIMIT, "out of memory");
-    ok = ok && output_replace(b->options->report_page, &(lam_bytes){text, size}, error);
+    ok = ok && output_replace(page->path, &(lam_bytes){text, size}, error);
     free(text);
     return ok;
 }

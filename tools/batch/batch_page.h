@@ -7,7 +7,18 @@
 // Makes the thumbnails of a unit's pictures, in the folder beside the page. Any thread. What cannot be made is not there.
 void batch_page_thumbnails(const struct batch *batch, const struct batch_unit *unit);
 
-// Writes the page from the batch's records. Error: LAM_CANNOT_WRITE, LAM_LIMIT.
-bool batch_page_write(const struct batch *batch, lam_error *error);
+// Makes the thumbnail of one picture, unless there is one that is not older. `is_new`: make it anyway.
+void batch_page_thumbnail(const char *page, const char *output, bool is_new);
+
+struct batch_page {
+    const char *path;
+    const struct batch_tally *tally;
+    json_t *(*record)(void *user, size_t index); // a picture's line of the journal, which is released; NULL: none
+    void *user;
+    size_t record_count;
+};
+
+// Writes the page. Error: LAM_CANNOT_WRITE, LAM_LIMIT.
+bool batch_page_write(const struct batch_page *page, lam_error *error);
 
 #endif

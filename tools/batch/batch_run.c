@@ -322,11 +322,18 @@ static void name_poison(const struct batch *b)
         say_plain("lambent: and %zu more\n", count - NAMES);
 }
 
+static json_t *record_of(void *user, size_t picture) { return json_incref(((struct batch *)user)->records[picture]); }
+
 static void finish(struct batch *b)
 {
     batch_print_rest(&b->texts, &b->tally);
     lam_error error;
-    if (b->options->report_page && !batch_page_write(b, &error))
+    struct batch_page page = {.path = b->options->report_page,
+                              .tally = &b->tally,
+                              .record = record_of,
+                              .user = b,
+                              .record_count = b->plan->count * (size_t)b->plan->view_count};
+    if (page.path && !batch_page_write(&page, &error))
         batch_stop(b, &error);
     if (!interrupted())
         name_poison(b);

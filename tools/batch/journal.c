@@ -56,6 +56,21 @@ char *journal_text(const char *text)
     return out;
 }
 
+char *journal_path(const char *text)
+{
+    static const char digits[] = "0123456789ABCDEF";
+    char *out = malloc(strlen(text) + 1), *to = out;
+    while (out && *text) {
+        const char *high = strncmp(text, "\xEF\xBF\xBD", 3) == 0 && text[3] ? strchr(digits, text[3]) : NULL;
+        const char *low = high && text[4] ? strchr(digits, text[4]) : NULL;
+        *to++ = low ? (char)(16 * (high - digits) + (low - digits)) : *text;
+        text += low ? 5 : 1;
+    }
+    if (out)
+        *to = 0;
+    return out;
+}
+
 static uint64_t hash_of(const char *output)
 {
     struct xxh64 hash;
@@ -95,8 +110,7 @@ static bool keep_line(struct journal *j, const char *output, const char *line)
     return true;
 }
 
-// Reads a whole file, with a zero after it. NULL: `errno`; 0: there is none.
-static char *read_text(const char *path, size_t *size)
+char *journal_read(const char *path, size_t *size)
 {
     struct stat about;
     int file = open(path, O_RDONLY | O_CLOEXEC);
@@ -192,7 +206,7 @@ static bool read_journal(struct journal *j, enum journal_way way, const char *op
     size_t size;
     const char *then;
     json_t *run = NULL;
-    j->text = read_text(j->path, &size);
+    j->text = journal_read(j->path, &size);
     if (!j->text)
         return errno == 0 ||
                complain(error, LAM_CANNOT_READ, "%s: cannot read the journal: %s", j->path, strerror(errno));
@@ -235,7 +249,7 @@ static bool open_running(struct journal *j, int slots, lam_error *error)
     if (flock(j->running, LOCK_EX | LOCK_NB) != 0)
         return complain(error, LAM_BAD_ARGUMENT, "%s: the journal is in use by another run", j->path);
     size_t size;
-    j->was_running = read_text(j->running_path, &size);
+    j->was_running = journal_read(j->running_path, &size);
     j->was_slots = j->was_running ? size / SLOT : 0;
     if (ftruncate(j->running, 0) != 0 || ftruncate(j->running, (off_t)slots * SLOT) != 0)
         return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", j->running_path, strerror(errno));
@@ -332,10 +346,22 @@ void journal_each_running(const struct journal *j,
     }
 }
 
+// The line that ends a run. Where it cannot be written, the run counts for one that was killed at its very end.
+static void end_run(struct journal *j)
+{
+    lam_error error;
+    json_t *ended = json_pack("{s:b}", "ended", 1);
+    if (ended)
+        journal_add(j, ended, &error);
+    json_decref(ended);
+}
+
 void journal_close(struct journal *j, bool done)
 {
     if (!j)
         return;
+    if (done && j->file >= 0)
+        end_run(j);
     if (j->file >= 0)
         close(j->file);
     if (done && j->running >= 0)

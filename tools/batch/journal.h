@@ -44,11 +44,17 @@ void journal_begin(struct journal *journal, int slot, int process, const char *m
 void journal_each_running(const struct journal *journal,
                           void (*visit)(void *user, const char *model, int process, const char *host), void *user);
 
+// Reads a whole file, with a zero after it; from malloc. NULL: `errno`; 0: there is none.
+char *journal_read(const char *path, size_t *size);
+
 // Closes it. `done`: the run came to its end, and nothing is being drawn. NULL is fine.
 void journal_close(struct journal *journal, bool done);
 
 // Text as JSON can hold it, from malloc: bytes that are not UTF-8 become U+FFFD and two hexadecimal digits. NULL: out of
 // memory.
 char *journal_text(const char *text);
+
+// The path that journal_text has made such a text of, from malloc. NULL: out of memory.
+char *journal_path(const char *text);
 
 #endif

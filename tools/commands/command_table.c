@@ -13,6 +13,7 @@
 static const struct own_default compare_defaults[] = {
     {"output", "MODEL-SHEET.png"}, {"size", "480x400 each"}, {"background", SHEET_BACKGROUND}, {NULL, NULL}};
 static const struct own_default batch_defaults[] = {{"output", "{stem}.png"}, {NULL, NULL}};
+static const struct own_default journal_defaults[] = {{"output", "no merged journal"}, {NULL, NULL}};
 static const struct own_default explain_defaults[] = {{"output", NULL}, {NULL, NULL}};
 static const struct own_default check_defaults[] = {
     {"output", "no sheet"}, {"size", "128"}, {"tolerance", "2"}, {"memory-limit", "1Gi"}, {NULL, NULL}};
@@ -30,6 +31,11 @@ const struct command command_table[] = {
                        "Draw many models: of folders and all below them, of lists, of standard input; with a journal.",
                        ALL | 1u << GROUP_BATCH | 1u << GROUP_ANIMATION, .min_operands = 0, .max_operands = -1,
                        .defaults = batch_defaults},
+    [COMMAND_journal] =
+        {"journal", "JOURNAL|FOLDER...",
+         "Sum up the journals of a batch: what is written, failed or missing; -o FILE merges those of its shards.",
+         ABOUT | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET | TAKES_REPORT, .min_operands = 1, .max_operands = -1,
+         .defaults = journal_defaults},
     [COMMAND_compare] = {"compare", "MODEL",
                          "Draw one labelled sheet of pictures: methods, lights or terms side by side.",
                          (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET,

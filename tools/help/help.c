@@ -96,13 +96,13 @@ void print_brief_help(const struct command *command)
         printf("\n");
     bool options_shown = brief_options(command);
     if (whole) {
-        char names[400] = "";
+        char names[400] = "Commands:";
         for (const struct command *c = command_table + 1; c->name; c++) {
             size_t used = strlen(names);
-            snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", c->name);
+            snprintf(names + used, sizeof names - used, "%s %s", c == command_table + 1 ? "" : ",", c->name);
         }
         printf("\n");
-        help_row("Commands:", (int)strlen("Commands: "), BRIEF_WIDTH, names);
+        help_text(names, 0, BRIEF_WIDTH);
         printf("Everything: lambent --help. A subject, a command or an option: lambent help NAME\n");
     } else if (options_shown) {
         printf("\nEverything: lambent %s --help\n", command->name);

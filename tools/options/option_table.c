@@ -797,7 +797,7 @@ const struct option option_table[] = {
      "JOB_COMPLETION_INDEX (Kubernetes). Where they leave a doubt, nothing is drawn; without this option they count "
      "for "
      "nothing. The journal and the page of each part have names of their own: `lambent-2-of-4.jsonl` "
-     "(`docs/batch.md`).",
+     "(`docs/batch.md`), and `lambent journal` sums them up.",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(shard)},
     {"jobs", 0, GROUP_BATCH, "-", NULL, "`batch`: Take jobs, a line of JSON each, and answer each with a line of JSON.",
      "For servers: one process draws whatever comes until its standard input ends (`docs/worker.md`). A job has an "
@@ -819,7 +819,7 @@ const struct option option_table[] = {
      .store = store_bytes, .others = "line-length job-limit", FIELD(line_limit_bytes)},
     {"report", 0, GROUP_BATCH, "FILE.html", NULL, "Also write a page of all pictures, failures first.",
      "Thumbnails go to the folder FILE-files beside it. It needs no other file and no network.", .kind = VALUE_FILE,
-     .store = store_text, .others = "contact-sheet html gallery page", FIELD(report_page)},
+     .store = store_text, .others = "contact-sheet html gallery page", FIELD(report_page), .single = TAKES_REPORT},
 
     {"json", 0, GROUP_REPORT, NULL, NULL, "Print a report in JSON, one line for each model.",
      "The report goes to standard output, or to standard error when the picture goes to standard output (then "

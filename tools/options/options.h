@@ -174,6 +174,7 @@ enum {
     TAKES_THREADS = 1u << 29,
     TAKES_MEMORY = 1u << 30,
     TAKES_PICTURE_LIMITS = 1u << 23,
+    TAKES_REPORT = 1u << 22,
 };
 
 // The background of the sheets of `compare` and `materials`, unless the command line names another.

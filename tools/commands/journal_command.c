@@ -1,0 +1,276 @@
+// journal_command.c: the command `journal`: sums up the journals of a batch, and merges those of its shards.
+#include "command.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "batch_page.h"
+#include "console.h"
+#include "exit_codes.h"
+#include "journal.h"
+#include "journal_sum.h"
+#include "json.h"
+#include "output.h"
+#include "report.h"
+
+enum { LINES = 20 }; // of failures and of shards, at most
+
+// --- the sum
+
+struct times {
+    double total_ms, median_ms, percent_90_ms, percent_99_ms, longest_ms;
+    const struct journal_entry *longest; // NULL: no picture is written
+};
+
+static int by_ms(const void *a, const void *b)
+{
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+static bool sum_times(const struct journal_sum *sum, struct times *times, lam_error *error)
+{
+    float *list = calloc(sum->written + 1, sizeof *list);
+    size_t count = 0;
+    if (!list)
+        return complain(error, LAM_LIMIT, "out of memory");
+    for (size_t i = 0; i < sum->count; i++) {
+        const struct journal_entry *entry = &sum->entries[i];
+        if (entry->ms <= 0)
+            continue;
+        list[count++] = entry->ms;
+        times->total_ms += (double)entry->ms;
+        if (!times->longest || entry->ms > times->longest->ms)
+            times->longest = entry;
+    }
+    qsort(list, count, sizeof *list, by_ms);
+    if (count) {
+        times->median_ms = (double)list[count / 2];
+        times->percent_90_ms = (double)list[count * 9 / 10];
+        times->percent_99_ms = (double)list[count * 99 / 100];
+        times->longest_ms = (double)list[count - 1];
+    }
+    free(list);
+    return true;
+}
+
+static const char *text_of(const json_t *record, const char *key)
+{
+    const char *text = json_string_value(json_object_get(record, key));
+    return text ? text : "";
+}
+
+// Counts the failures by their class, as a batch does.
+static bool sum_classes(const struct journal_sum *sum, struct batch_tally *tally, lam_error *error)
+{
+    tally->written = sum->written;
+    tally->failed = sum->failed;
+    for (int i = 0; i < sum->part_count; i++)
+        tally->total += sum->parts[i].pictures;
+    for (size_t i = 0; i < sum->count; i++) {
+        if (sum->entries[i].ms > 0)
+            continue;
+        json_t *record = journal_sum_record(sum, i);
+        const struct exit_code *code = exit_codes;
+        while (code->meaning && !(code->name && strcmp(code->name, text_of(record, "class")) == 0))
+            code++;
+        batch_count_class(tally, code->meaning ? code->name : "failed");
+        json_decref(record);
+        if (!record)
+            return complain(error, LAM_LIMIT, "out of memory");
+    }
+    return true;
+}
+
+// --- what it prints
+
+static void print_parts(const struct journal_sum *sum)
+{
+    int count = 0, missing = 0;
+    for (int i = 0; i < sum->part_count; i++) {
+        const struct journal_part *part = &sum->parts[i];
+        if (!part->ended && count++ < LINES)
+            printf("%s: the run has not ended: %zu of %zu pictures\n", part->path, part->written + part->failed,
+                   part->pictures);
+        if (part->build && sum->parts[0].build && strcmp(part->build, sum->parts[0].build) != 0 && !missing++)
+            printf("%s and %s are of different builds of lambent\n", sum->parts[0].path, part->path);
+    }
+    if (count > LINES)
+        printf("and %d more runs have not ended\n", count - LINES);
+    missing = 0;
+    for (int k = 1; k <= sum->parts[0].shard.count; k++)
+        if (!journal_sum_has_shard(sum, k) && missing++ < LINES)
+            printf("shard %d/%d has no journal\n", k, sum->parts[0].shard.count);
+    if (missing > LINES)
+        printf("and %d more shards have none\n", missing - LINES);
+    if (sum->first_double)
+        printf("%zu picture%s in two journals: %s\n", sum->doubles, sum->doubles == 1 ? " is" : "s are",
+               sum->first_double);
+}
+
+static void print_failures(const struct journal_sum *sum)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < sum->count && count < LINES; i++) {
+        json_t *record = sum->entries[i].ms > 0 ? NULL : journal_sum_record(sum, i);
+        if (record) {
+            printf("%s\n", text_of(record, "error"));
+            count++;
+        }
+        json_decref(record);
+    }
+    if (sum->failed > count)
+        printf("and %zu more have failed\n", sum->failed - count);
+}
+
+static void print_sum(const struct journal_sum *sum, const struct batch_tally *tally, const struct times *times)
+{
+    printf("%zu of %zu pictures written", tally->written, tally->total);
+    if (tally->failed)
+        printf(", %zu failed", tally->failed);
+    const char *between = " (";
+    for (int i = 0; i < TALLY_CLASSES && tally->classes[i].name; i++, between = ", ")
+        printf("%s%s %zu", between, tally->classes[i].name, tally->classes[i].count);
+    printf("%s; %d journal%s", tally->failed ? ")" : "", sum->part_count, sum->part_count == 1 ? "" : "s");
+    if (times->longest) {
+        json_t *record = journal_sum_record(sum, (size_t)(times->longest - sum->entries));
+        printf("; %.4g s of work; a picture: median %.4g ms, 90 %% below %.4g, 99 %% below %.4g, longest %.4g (%s)",
+               times->total_ms / 1e3, times->median_ms, times->percent_90_ms, times->percent_99_ms, times->longest_ms,
+               text_of(record, "model"));
+        json_decref(record);
+    }
+    printf("\n");
+}
+
+static void print_json(const struct journal_sum *sum, const struct batch_tally *tally, const struct times *times)
+{
+    struct json json = {.file = stdout};
+    json_open(&json, NULL, '{');
+    json_flag(&json, "whole", journal_sum_is_whole(sum));
+    json_count(&json, "pictures", tally->total);
+    json_count(&json, "written", tally->written);
+    json_count(&json, "failed", tally->failed);
+    json_open(&json, "classes", '{');
+    for (int i = 0; i < TALLY_CLASSES && tally->classes[i].name; i++)
+        json_count(&json, tally->classes[i].name, tally->classes[i].count);
+    json_close(&json, '}');
+    json_count(&json, "in_two_journals", sum->doubles);
+    json_open(&json, "times_ms", '{');
+    json_number(&json, "total", times->total_ms);
+    json_number(&json, "median", times->median_ms);
+    json_number(&json, "percent_90", times->percent_90_ms);
+    json_number(&json, "percent_99", times->percent_99_ms);
+    json_number(&json, "longest", times->longest_ms);
+    json_close(&json, '}');
+    json_count(&json, "shards", (uint64_t)sum->parts[0].shard.count);
+    json_open(&json, "missing_shards", '[');
+    for (int k = 1; k <= sum->parts[0].shard.count; k++)
+        if (!journal_sum_has_shard(sum, k))
+            json_count(&json, NULL, (uint64_t)k);
+    json_close(&json, ']');
+    json_open(&json, "journals", '[');
+    for (int i = 0; i < sum->part_count; i++) {
+        const struct journal_part *part = &sum->parts[i];
+        json_open(&json, NULL, '{');
+        json_text(&json, "path", part->path);
+        if (part->shard.count)
+            json_count(&json, "shard", (uint64_t)part->shard.number);
+        json_count(&json, "pictures", part->pictures);
+        json_count(&json, "written", part->written);
+        json_count(&json, "failed", part->failed);
+        json_flag(&json, "ended", part->ended);
+        json_text(&json, "build", part->build);
+        json_close(&json, '}');
+    }
+    json_close(&json, ']');
+    json_close(&json, '}');
+    putc('\n', stdout);
+}
+
+// --- what it writes
+
+// One journal of all pictures, as a run without shards would have written it: the latest line of each.
+static bool write_merged(const struct journal_sum *sum, size_t pictures, const char *path, lam_error *error)
+{
+    char *text = NULL;
+    size_t size = 0;
+    bool standard = strcmp(path, "-") == 0;
+    FILE *out = standard ? stdout : open_memstream(&text, &size);
+    json_t *run = json_pack("{s:s, s:s*, s:s, s:I}", "lambent", lam_version(), "build", sum->parts[0].build, "options",
+                            sum->parts[0].options, "pictures", (json_int_t)pictures);
+    char *line = run ? journal_line(run) : NULL;
+    bool ok = out && line;
+    if (ok)
+        fputs(line, out);
+    for (size_t i = 0; ok && i < sum->count; i++) {
+        fwrite(sum->entries[i].line, 1, sum->entries[i].length, out);
+        putc('\n', out);
+    }
+    if (ok && journal_sum_is_whole(sum))
+        fputs("{\"ended\":true}\n", out);
+    if (out && !standard)
+        ok = fclose(out) == 0 && ok;
+    ok = ok || complain(error, LAM_LIMIT, "out of memory");
+    ok = ok && (standard || output_replace(path, &(lam_bytes){text, size}, error));
+    json_decref(run);
+    free(line);
+    free(text);
+    return ok;
+}
+
+static json_t *record_of(void *user, size_t picture) { return journal_sum_record(user, picture); }
+
+static bool write_page(struct journal_sum *sum, const struct batch_tally *tally, const char *path, lam_error *error)
+{
+    for (size_t i = 0; i < sum->count; i++) {
+        json_t *record = sum->entries[i].ms > 0 ? journal_sum_record(sum, i) : NULL;
+        char *output = record ? journal_path(text_of(record, "output")) : NULL;
+        if (output)
+            batch_page_thumbnail(path, output, false);
+        free(output);
+        json_decref(record);
+    }
+    struct batch_page page = {
+        .path = path, .tally = tally, .record = record_of, .user = sum, .record_count = sum->count};
+    return batch_page_write(&page, error);
+}
+
+// --- the command
+
+static bool add_all(struct journal_sum *sum, int count, char **operands, lam_error *error)
+{
+    struct stat found;
+    for (int i = 0; i < count; i++) {
+        bool folder = stat(operands[i], &found) == 0 && S_ISDIR(found.st_mode);
+        if (!(folder ? journal_sum_add_folder(sum, operands[i], error) : journal_sum_add(sum, operands[i], error)))
+            return false;
+    }
+    return true;
+}
+
+int run_journal(int operand_count, char **operands, const struct options *o)
+{
+    lam_error error = {0};
+    struct journal_sum sum = {0};
+    struct batch_tally tally = {0};
+    struct times times = {0};
+    bool merges = o->output, to_standard = merges && strcmp(o->output, "-") == 0;
+    bool ok = !(to_standard && o->json) ||
+              complain(&error, LAM_BAD_ARGUMENT, "options '--json' and '-o -' both write to standard output");
+    ok = ok && add_all(&sum, operand_count, operands, &error) && sum_classes(&sum, &tally, &error) &&
+         sum_times(&sum, &times, &error);
+    ok = ok && (!merges || write_merged(&sum, tally.total, o->output, &error));
+    ok = ok && (!o->report_page || write_page(&sum, &tally, o->report_page, &error));
+    if (ok && o->json) {
+        print_json(&sum, &tally, &times);
+    } else if (ok && !o->quiet && !to_standard) {
+        print_parts(&sum);
+        print_failures(&sum);
+        print_sum(&sum, &tally, &times);
+    }
+    int code = !ok ? report_failure(&error, o) : sum.failed || !journal_sum_is_whole(&sum) ? EXIT_SOME_FAILED : 0;
+    journal_sum_free(&sum);
+    return code;
+}

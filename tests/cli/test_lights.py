@@ -1,5 +1,6 @@
 # test_lights.py: lights, materials and methods from the command line.
 import json
+import os
 import math
 import unittest
 
@@ -53,6 +54,10 @@ class Looks(Case):
         self.bad(1, "teapot", "--look", look("--shadows yes\n"), says="takes no value")
         self.bad(1, "teapot", "--look", look("--ao off\0\n"), says="not a look")
         self.bad(1, "teapot", "--look", look("#" * 70000), says="64 KiB")
+        os.mkfifo(self.folder / "pipe.look")  # whose opening would wait for a writer
+        self.given.add("pipe.look")
+        for path in ("pipe.look", "/dev/zero", "."):
+            self.bad(1, "teapot", "--look", path, says="not a regular file")
         self.bad(1, "teapot", "--look", "clasic", says="did you mean 'classic'?")
         self.bad(1, "teapot", "--look", "classic", "--look", "studio", says="given twice")
         self.bad(1, "looks", "new", says="expected studio")

@@ -2,9 +2,12 @@
 #include "look_option.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "console.h"
 #include "looks.inc"
@@ -36,35 +39,60 @@ void look_summary(const char *text, char *out, size_t size)
     snprintf(out, size, "%.*s", *text == '#' ? (int)strcspn(from, "\n") : 0, from);
 }
 
+// Opens a regular file. Folders, pipes and devices are not opened: opening one can wait for ever, or do something. −1: errno.
+static int open_file(const char *path)
+{
+    struct stat about;
+    if (stat(path, &about) != 0)
+        return -1;
+    int file = S_ISREG(about.st_mode) ? open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY) : -1;
+    if (file >= 0 && fstat(file, &about) == 0 && !S_ISREG(about.st_mode)) {
+        close(file);
+        file = -1;
+    }
+    errno = S_ISREG(about.st_mode) ? errno : 0;
+    return file;
+}
+
+// Reads up to `size` bytes. False: the file cannot be read.
+static bool read_bytes(int file, char *to, size_t size, size_t *length)
+{
+    ssize_t got = 1;
+    for (*length = 0; *length < size && got != 0; *length += got > 0 ? (size_t)got : 0) {
+        got = read(file, to + *length, size - *length);
+        if (got < 0 && errno != EINTR)
+            return false;
+    }
+    return true;
+}
+
 // The text of a look, to be changed; from malloc.
 static char *copy_of_look(const char *name, lam_error *error)
 {
     const char *built_in = look_find(name);
-    size_t room = built_in ? strlen(built_in) : FILE_MAX;
+    size_t room = built_in ? strlen(built_in) : FILE_MAX + 1; // one byte more than a file may have
     char *text = malloc(room + 1);
-    FILE *file = built_in ? NULL : fopen(name, "rb");
-    if (!text || (!built_in && !file)) {
-        int reason = errno;
+    int file = built_in ? -1 : open_file(name);
+    if (!text || (!built_in && file < 0)) {
+        int reason = text ? errno : ENOMEM;
         struct suggestion nearest = suggest_start(name);
         for (int i = 0; i < LOOKS; i++)
             suggest_try(&nearest, looks[i].name);
         complain(error, LAM_BAD_ARGUMENT,
                  "found '%.100s', expected studio, classic, catalog, technical or a file (%s)%s%s%s", name,
-                 strerror(reason), nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
-                 nearest.best ? "'?" : "");
-        if (file)
-            fclose(file);
+                 reason ? strerror(reason) : "not a regular file", nearest.best ? "; did you mean '" : "",
+                 nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
+        if (file >= 0)
+            close(file);
         free(text);
         return NULL;
     }
     size_t length = room;
     if (built_in)
         memcpy(text, built_in, room);
-    else
-        length = fread(text, 1, FILE_MAX, file);
-    bool whole = built_in || (!ferror(file) && fgetc(file) == EOF);
-    if (file)
-        fclose(file);
+    bool whole = built_in || (read_bytes(file, text, room, &length) && length <= FILE_MAX);
+    if (file >= 0)
+        close(file);
     text[length] = 0;
     if (whole && strlen(text) == length)
         return text;

@@ -1,4 +1,5 @@
 # test_batch.py: many models: where they come from, their names, the journal, going on after a failure, a kill, a change.
+import ctypes
 import json
 import os
 import pathlib
@@ -13,7 +14,7 @@ import time
 import unittest
 import urllib.parse
 
-from harness import PROGRAM, Case, read_png
+from harness import PROGRAM, Case, read_png, write_png
 
 KILLS = int(os.environ.get("LAMBENT_KILLS", "5"))  # of test_kill; `make test-long` has 50
 
@@ -208,6 +209,23 @@ class Pictures(Batch):
                     self.assertEqual((self.folder / "alone.png").read_bytes(), (self.folder / f"out/cube-{view}-{size}.png").read_bytes(),
                                      (look, view, size))
             shutil.rmtree(self.folder / "out")
+
+    def test_an_environment_is_read_once(self):
+        """Workers share it; each picture has the bytes that it has alone."""
+        names = self.tree(12)
+        sky = self.folder / "sky.png"
+        sky.write_bytes(write_png(32, 16, bytes((i * 7 + i // 64) % 256 if i % 4 < 3 else 255 for i in range(2048))))
+        words = ["--environment", "sky.png", "--reflectivity", "0.8"]
+        libc = ctypes.CDLL(None, use_errno=True)
+        watch = libc.inotify_init1(os.O_NONBLOCK)
+        self.assertGreaterEqual(libc.inotify_add_watch(watch, os.fsencode(sky), 0x20), 0)  # IN_OPEN
+        self.batch(*names, "-o", "out/", "-j", "4", "--journal", "none", *words)
+        self.assertEqual(len(os.read(watch, 65536)), 16)  # one event
+        os.close(watch)
+        self.good(names[0], "-s", 24, "-o", "alone.png", *words)
+        self.assertEqual({data for data in self.pictures().values()}, {(self.folder / "alone.png").read_bytes()})
+        self.good(names[0], "-s", 24, "-o", "without.png")
+        self.assertNotEqual((self.folder / "without.png").read_bytes(), (self.folder / "alone.png").read_bytes())
 
     def test_order_of_messages(self):
         names = self.tree(8)

@@ -328,7 +328,8 @@ static void draw(struct reading *r)
                       .picture_bytes = item->contents,
                       .makes_folder = item->makes_folders,
                       .cancel = item->cancel,
-                      .device = r->artist->device};
+                      .device = r->artist->device,
+                      .environments = r->artist->environments};
     job.times.start = clock_ms();
     clock_gettime(CLOCK_REALTIME_COARSE, &r->start);
     struct progress progress;

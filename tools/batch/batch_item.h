@@ -27,9 +27,10 @@ struct batch_item {
 // Who draws it.
 struct batch_artist {
     lam_device *device;
-    FILE *out;         // for reports
-    bool has_bar;      // a progress bar on the terminal
-    bool is_talkative; // lines for each picture and warnings; errors are always told
+    struct environment_cache *environments; // NULL: each model reads its own
+    FILE *out;                              // for reports
+    bool has_bar;                           // a progress bar on the terminal
+    bool is_talkative;                      // lines for each picture and warnings; errors are always told
 };
 
 struct batch_outcome {

@@ -277,6 +277,7 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     const struct options *o = b->options;
     size_t models = b->plan->count, pictures = models * (size_t)b->plan->view_count;
     share_threads(b);
+    b->environments = o->isolate ? NULL : environment_cache_make();
     b->pictures = calloc(pictures + 1, sizeof *b->pictures);
     b->taken = calloc(models + 1, sizeof *b->taken);
     b->texts = (struct batch_texts){.list = calloc(models + 1, sizeof *b->texts.list), .count = models};
@@ -351,6 +352,7 @@ static void free_batch(struct batch *b)
     free(b->pictures);
     free(b->taken);
     free(b->texts.list);
+    environment_cache_free(b->environments);
     free(b->options_text);
     pthread_cond_destroy(&b->changed);
     pthread_mutex_destroy(&b->lock);

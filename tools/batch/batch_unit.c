@@ -191,8 +191,11 @@ void batch_unit_draw(struct batch_unit *u, const struct batch *b, const struct o
     int attempts[VIEWS], which[VIEWS];
     struct batch_item item = item_of(u, b, o, views, outputs, attempts, which);
     item.cancel = cancel;
-    struct batch_artist artist = {
-        .device = device, .out = stdout, .has_bar = !capture, .is_talkative = !b->is_batch || o->verbose};
+    struct batch_artist artist = {.device = device,
+                                  .environments = b->environments,
+                                  .out = stdout,
+                                  .has_bar = !capture,
+                                  .is_talkative = !b->is_batch || o->verbose};
     size_t out_size, err_size;
     FILE *out = capture ? open_memstream(&u->out, &out_size) : NULL,
          *err = capture ? open_memstream(&u->err, &err_size) : NULL;

@@ -10,7 +10,7 @@
 #include "animate_frame.h"
 #include "command.h"
 #include "console.h"
-#include "environment_option.h"
+#include "environment_apply.h"
 #include "interrupt.h"
 #include "job_scene.h"
 #include "light_markers.h"
@@ -439,7 +439,7 @@ bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
 {
     lam_control control;
     if (!job_control(job, progress, &control, error) || !job_apply_options(job, &control, &job->sphere, error) ||
-        !environment_option_apply(job->options, job->scene, &control, error))
+        !environment_apply(job->options, job->environments, job->scene, &control, error))
         return false;
     if (job->options->save_scene && option_given(job->options, "show"))
         lam_scene_add_warning(job->scene, "the saved scene file describes the picture without --show");

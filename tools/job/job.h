@@ -2,6 +2,7 @@
 #ifndef JOB_H
 #define JOB_H
 
+#include "environment_cache.h"
 #include "options.h"
 #include "progress.h"
 
@@ -67,7 +68,8 @@ struct job {
     lam_image image;
     lam_rgba background; // behind the model
     lam_device *device;
-    struct job_view *views; // the pictures to draw; NULL: one, as the options have it
+    struct environment_cache *environments; // that other jobs share; NULL: none are
+    struct job_view *views;                 // the pictures to draw; NULL: one, as the options have it
     int view_count;
     lam_light *lights; // those before the options' lights, which may depend on the camera; from malloc
     int light_count;

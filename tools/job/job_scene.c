@@ -107,14 +107,10 @@ static bool lit_by_environment(const struct job *job)
 }
 
 // The environment that drawing would take for a scene without lights: options are about to add some.
-static bool set_studio(lam_scene *scene, lam_error *error)
+static bool set_studio(const struct job *job, lam_error *error)
 {
-    if (lam_scene_environment(scene))
-        return true;
-    lam_environment *studio = lam_environment_built_in("studio", error);
-    bool ok = studio && lam_scene_set_environment(scene, studio, 0, error);
-    lam_environment_free(studio);
-    return ok;
+    return lam_scene_environment(job->scene) ||
+           environment_cache_set(job->environments, "studio", LAM_COLOR_SRGB, job->scene, 0, NULL, error);
 }
 
 // Chooses between the model's lights and the rig's. Drawing adds the rig if no option changes it; otherwise its lights
@@ -146,7 +142,7 @@ static bool apply_rig(struct job *job, lam_error *error)
     bool as_it_is = !o->lights.count && !o->has_light_scale && !o->rotations.count && !o->place_lights;
     if (job->rig == LAM_RIG_NONE || as_it_is)
         return true;
-    bool ok = (!job->studio || set_studio(job->scene, error)) && add_rig(job->scene, job->rig, error);
+    bool ok = (!job->studio || set_studio(job, error)) && add_rig(job->scene, job->rig, error);
     job->rig = LAM_RIG_NONE;
     return ok;
 }

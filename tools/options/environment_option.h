@@ -1,4 +1,4 @@
-// environment_option.h: the values of --environment, --environment-rotation and --reflectivity.
+// environment_option.h: the values of --environment.
 #ifndef ENVIRONMENT_OPTION_H
 #define ENVIRONMENT_OPTION_H
 
@@ -11,10 +11,8 @@ char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUN
 // The built-in environment of that name; NULL: there is none.
 const char *environment_option_built_in(const char *name);
 
-// Loads or makes the environment of --environment and adds it to the scene, turned by --environment-rotation (which
-// also turns a scene file's environment); sets the reflectivity of the materials by --reflectivity. Adds a warning to
-// a scene whose environment no surface reflects.
-bool environment_option_apply(const struct options *options, lam_scene *scene, const lam_control *control,
-                              lam_error *error);
+// Loads or makes one, as `--environment` has it. The caller frees it; NULL: see lam_environment_load.
+lam_environment *environment_option_load(const char *text, lam_color_mode color, const lam_control *control,
+                                         lam_error *error);
 
 #endif

@@ -1,0 +1,176 @@
+#!/usr/bin/env python3
+"""stragglers.py [--check]: how many shards a batch should have (docs/scale.md). Simulates 100 machines of 4 cores that take shards one after the
+other, as a job array does, and writes docs/pictures/scale-shards.svg and the tables of docs/scale.md; --check compares instead.
+
+The time of each model is drawn from those measured over 437 models (times-256.txt and times-1024.txt beside this file: milliseconds on one
+core, the journals of `lambent batch -j 1`). Models belong to shards at random, as a hash deals them. Every shard costs a start; five machines in a
+hundred have half the speed. Nothing depends on the machine that runs this: the same numbers, and the same picture, everywhere."""
+import heapq
+import pathlib
+import random
+import re
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+DOCS = HERE.parents[1] / "docs"
+MACHINES, CORES, SLOW, START_S = 100, 4, 5, 5.0
+SHARDS = (1, 2, 4, 8, 16, 32, 64)  # for each machine
+COUNTS = {10 ** 4: 20, 10 ** 5: 5, 10 ** 6: 1, 10 ** 7: 20}  # models: simulations whose mean is taken
+MANY = 10 ** 7  # from here on the work of a shard is drawn from the normal distribution that it is near to
+CORE_HOUR, GIB = 0.05, 2.0 ** 30  # dollars: about a virtual core of a large cloud, 2026
+PICTURE_BYTES, LINE_BYTES = {256: 27300, 1024: 262000}, 885  # means of the same runs
+
+
+def times_s(size):
+    return [float(line) / 1e3 for line in open(HERE / ("times-%d.txt" % size))]
+
+
+def shard_seconds(works):
+    """The time of a shard on a machine of speed 1: each core takes the next model."""
+    free = [0.0] * min(CORES, max(1, len(works)))
+    for work in works:
+        heapq.heapreplace(free, free[0] + work)
+    return max(free)
+
+
+def deal(count, shard_count, measured, rng):
+    """The time of each shard on a machine of speed 1, and the work of all."""
+    if count >= MANY:  # a sum of a Poisson number of times
+        each = count / shard_count
+        mean, square = sum(measured) / len(measured), sum(work * work for work in measured) / len(measured)
+        works = [rng.gauss(each * mean, (each * square) ** 0.5) for _ in range(shard_count)]
+        return [work / CORES for work in works], sum(works)
+    shards, total = [[] for _ in range(shard_count)], 0.0
+    for _ in range(count):
+        work = measured[int(rng.random() * len(measured))]
+        shards[int(rng.random() * shard_count)].append(work)
+        total += work
+    return [shard_seconds(works) for works in shards], total
+
+
+def simulate(count, per_machine, seed, measured):
+    """The time until the last shard is done, by the time of all work evenly shared."""
+    shards, total = deal(count, MACHINES * per_machine, measured, random.Random(seed))
+    machines = [(0.0, i) for i in range(MACHINES)]  # slow ones: the first, which is as good as any
+    heapq.heapify(machines)
+    last = 0.0
+    for seconds in shards:
+        start, machine = heapq.heappop(machines)
+        end = start + START_S + seconds * (2 if machine < SLOW else 1)
+        last = max(last, end)
+        heapq.heappush(machines, (end, machine))
+    return last / (total / CORES / (MACHINES - SLOW / 2))
+
+
+def results():
+    measured = times_s(256)
+    return {count: [sum(simulate(count, k, seed, measured) for seed in range(tries)) / tries for k in SHARDS] for count, tries in COUNTS.items()}
+
+
+# --- the picture
+
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 640, 420, 70, 130, 24, 56
+COLORS = {10 ** 4: "#c05020", 10 ** 5: "#2a8040", 10 ** 6: "#1a56a0", 10 ** 7: "#7030a0"}
+LOW, HIGH = 1.0, 16.0
+
+
+def power(number):
+    return "10" + "".join("⁰¹²³⁴⁵⁶⁷⁸⁹"[int(digit)] for digit in str(len(str(number)) - 1))
+
+
+def svg(found):
+    from math import log
+    across = lambda k: LEFT + (WIDTH - LEFT - RIGHT) * log(k) / log(SHARDS[-1])
+    up = lambda y: HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * log(y / LOW) / log(HIGH / LOW)
+    text = lambda x, y, words, anchor="middle", color="#222222", more="": '<text x="%.1f" y="%.1f" text-anchor="%s" fill="%s"%s>%s</text>' % (
+        x, y, anchor, color, more, words)
+    parts = ['<svg xmlns="http://www.w3.org/2000/svg" width="%d" height="%d" viewBox="0 0 %d %d" font-family="DejaVu Sans, sans-serif" '
+             'font-size="13">' % (WIDTH, HEIGHT, WIDTH, HEIGHT), '<rect width="100%" height="100%" fill="white"/>']
+    for y in (1, 1.2, 1.5, 2, 3, 5, 10):
+        parts.append('<line x1="%d" x2="%d" y1="%.1f" y2="%.1f" stroke="#dddddd"/>' % (LEFT, WIDTH - RIGHT, up(y), up(y)))
+        parts.append(text(LEFT - 8, up(y) + 4, "%g" % y, "end"))
+    for k in SHARDS:
+        parts.append('<line x1="%.1f" x2="%.1f" y1="%d" y2="%d" stroke="#eeeeee"/>' % (across(k), across(k), TOP, HEIGHT - BOTTOM))
+        parts.append(text(across(k), HEIGHT - BOTTOM + 18, str(k)))
+    parts.append('<rect x="%d" y="%d" width="%d" height="%d" fill="none" stroke="#aaaaaa"/>' % (LEFT, TOP, WIDTH - LEFT - RIGHT,
+                                                                                              HEIGHT - TOP - BOTTOM))
+    for count, values in found.items():
+        points = [(across(k), up(value)) for k, value in zip(SHARDS, values) if value <= HIGH]
+        parts.append('<polyline points="%s" fill="none" stroke="%s" stroke-width="2"/>' % (
+            " ".join("%.1f,%.1f" % point for point in points), COLORS[count]))
+        parts += ['<circle cx="%.1f" cy="%.1f" r="3.5" fill="%s"/>' % (*point, COLORS[count]) for point in points]
+        parts.append(text(points[-1][0] + 10, points[-1][1] + 4, power(count) + " models", "start", COLORS[count]))
+    parts.append(text((LEFT + WIDTH - RIGHT) / 2, HEIGHT - 14, "shards for each of 100 machines"))
+    middle = (TOP + HEIGHT - BOTTOM) / 2
+    parts.append(text(18, middle, "time, 1: all work evenly shared", more=' transform="rotate(-90 18 %.0f)"' % middle))
+    return "\n".join(parts) + "\n</svg>\n"
+
+
+# --- the tables
+
+def duration(seconds):
+    for size, unit in ((86400, "days"), (3600, "hours"), (60, "minutes")):
+        if seconds >= 2 * size:
+            return "%.3g %s" % (seconds / size, unit)
+    return "%.3g s" % seconds
+
+
+def volume(count):
+    for size, unit in ((2.0 ** 40, "TiB"), (GIB, "GiB"), (2.0 ** 20, "MiB"), (2.0 ** 10, "KiB")):
+        if count >= size:
+            return "%.3g %s" % (count / size, unit)
+    return "%d bytes" % count
+
+
+def hours(value):
+    return "%.3g" % value if value < 1000 else format(round(value), ",")
+
+
+def dollars(value):
+    return "under $0.01" if value < 0.01 else "$%.2f" % value if value < 10 else "$%s" % format(round(value), ",")
+
+
+def quantile_table():
+    lines = ["| size | mean | half below | 90 % below | 99 % below | longest |", "|---|---|---|---|---|---|"]
+    for size in (256, 1024):
+        t = times_s(size)
+        lines.append("| %d² | %s ms |" % (size, " ms | ".join("%.0f" % (1e3 * v) for v in (
+            sum(t) / len(t), t[len(t) // 2], t[len(t) * 9 // 10], t[len(t) * 99 // 100], t[-1]))))
+    return lines
+
+
+def cost_table():
+    lines = ["| models | size | core hours | cost | on 4 cores | on 100 machines of 4 | pictures | journals |", "|---|---|---|---|---|---|---|---|"]
+    for power_of in range(3, 9):
+        for size in (256, 1024):
+            t, count = times_s(size), 10 ** power_of
+            work = count * sum(t) / len(t)
+            lines.append("| %s | %d² | %s | %s | %s | %s | %s | %s |" % (
+                power(count), size, hours(work / 3600), dollars(work / 3600 * CORE_HOUR), duration(work / CORES),
+                duration(work / CORES / MACHINES) if work / CORES / MACHINES > 60 else "–",
+                volume(count * PICTURE_BYTES[size]), volume(count * LINE_BYTES)))
+    return lines
+
+
+def shard_table(found):
+    lines = ["| models | " + " | ".join(str(k) for k in SHARDS) + " |", "|---|" + "---|" * len(SHARDS)]
+    return lines + ["| %s | %s |" % (power(count), " | ".join("%.2f" % value for value in values)) for count, values in found.items()]
+
+
+def main():
+    found = results()
+    page = (DOCS / "scale.md").read_text()
+    for name, lines in (("times", quantile_table()), ("cost", cost_table()), ("shards", shard_table(found))):
+        page = re.sub(r"(<!-- %s -->\n)(?:\|.*\n)*" % name, lambda mark: mark.group(1) + "\n".join(lines) + "\n", page)
+    made = {DOCS / "pictures" / "scale-shards.svg": svg(found), DOCS / "scale.md": page}
+    other = [path for path, text in made.items() if not path.exists() or path.read_text() != text]
+    if "--check" in sys.argv[1:]:
+        print("1..1\n%sok 1 - docs/scale.md has the numbers of its simulation" % ("not " if other else ""))
+        return 1 if other else 0
+    for path in other:
+        path.write_text(made[path])
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -92,7 +92,7 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
                   "does not make; "
                   "lam_scene_make_normals does");
     const struct frame_ground *ground = &device->frame.ground;
-    if (ok && ground->kind) {
+    if (ok && ground->kind && !params->no_surfaces) {
         device->report.ground = true;
         device->report.ground_height = v3_dot(ground->middle, ground->up);
         device->report.ground_square = ground->kind == LAM_GROUND_CHECKER ? ground->square : 0;

@@ -178,6 +178,7 @@ static bool set_line(const struct edge_piece *piece, const struct mesh_edge *edg
     line->style = style;
     line->half = half_width(piece, edge, line);
     line->start = 0;
+    line->reversed = false;
     return true;
 }
 
@@ -195,9 +196,14 @@ static bool add_part(struct edge_piece *piece, const struct edge_line *line, dou
     return edge_stroke_add(piece->strokes, stroke, piece->view->loop->call);
 }
 
-// Dashes of 5 widths and gaps of 3, widths below a pixel taken as one.
+// Dashes of 5 widths and gaps of 3, widths below a pixel taken as one, counted along the chain of the line.
 static bool add_dashes(struct edge_piece *piece, const struct edge_line *line, double from, double to)
 {
+    if (line->reversed) {
+        double end = 1 - from;
+        from = 1 - to;
+        to = end;
+    }
     double width = piece->view->frame->edges.width[line->style], unit = width > 1 ? width : 1, period = 8 * unit;
     double first = line->start + from * line->length, last = line->start + to * line->length;
     for (int64_t n = (int64_t)(first / period); (double)n * period < last; n++) {
@@ -206,7 +212,7 @@ static bool add_dashes(struct edge_piece *piece, const struct edge_line *line, d
         b = b < last ? b : last;
         double x = a == first ? from : (a - line->start) / line->length,
                y = b == last ? to : (b - line->start) / line->length;
-        if (a < b && !add_part(piece, line, x, y))
+        if (a < b && !(line->reversed ? add_part(piece, line, 1 - y, 1 - x) : add_part(piece, line, x, y)))
             return false;
     }
     return true;
@@ -280,6 +286,10 @@ bool edge_piece_draw(struct edge_piece *piece, void *memory)
         if (style < 0 || !set_line(piece, &piece->edges[e], style, line))
             continue;
         piece->drawn++;
+        if (piece->measures) {
+            line->start = piece->measures[e].start;
+            line->reversed = piece->measures[e].reversed;
+        }
         line->first = s->point_count;
         line->count = 0;
         if (!shows_all) {
@@ -295,6 +305,25 @@ bool edge_piece_draw(struct edge_piece *piece, void *memory)
             return false;
     }
     return flush(piece, s);
+}
+
+void edge_piece_measure(struct edge_piece *piece)
+{
+    for (uint32_t e = 0; e < piece->count; e++) {
+        struct edge_measure *m = &piece->measures[e];
+        struct edge_line line;
+        *m = (struct edge_measure){.style = style_of(piece, &piece->edges[e]), .link = {NO_LINK, NO_LINK}};
+        if (m->style >= 0 && !set_line(piece, &piece->edges[e], m->style, &line))
+            m->style = -1;
+        if (m->style < 0)
+            continue;
+        m->length = line.length;
+        for (int k = 0; k < 2; k++) {
+            m->x[k] = line.x[k];
+            m->y[k] = line.y[k];
+            m->whole[k] = line.whole[k];
+        }
+    }
 }
 
 bool edge_stroke_add(struct edge_strokes *strokes, struct edge_stroke stroke, struct call_control *call)

@@ -22,7 +22,8 @@ struct edge_line {
     double over_w[2][3], inverse_w[2]; // its ends p: p/w and 1/w, p in the hierarchy's space, w the clip coordinate
     double x[2], y[2], length;         // in the window, pixels
     double half;                       // of its width, pixels
-    double start;                      // pixels of dashes before its first end
+    double start;                      // pixels of its chain before it
+    bool reversed;                     // the chain runs from its second end to its first
     int style;
     bool whole[2];         // the end is the edge's own
     uint32_t first, count; // its points

@@ -112,6 +112,7 @@ struct search {
     struct edge_view view;
     edge_rays *rays_of;
     size_t *first_pieces; // of each draw, and one more
+    bool measures;        // the pieces are measured, not drawn
     uint64_t drawn, rays; // atomic
 };
 
@@ -131,12 +132,18 @@ static void piece_task(void *user, size_t index, int thread)
     }
     const struct source *source = (const struct source *)search->memory->sources.data + low;
     uint32_t first = (uint32_t)(index - search->first_pieces[low]) * EDGE_PIECE, left = source->count - first;
+    struct edge_measure *measures = frame->edges.hidden == LAM_HIDDEN_LINES_DASH ? search->memory->measures.data : NULL;
     struct edge_piece piece = {.view = &search->view,
                                .draw = &frame->draws[low],
                                .edges = (const struct mesh_edge *)search->memory->edges.data + source->first + first,
                                .count = left < EDGE_PIECE ? left : EDGE_PIECE,
+                               .measures = measures ? measures + source->first + first : NULL,
                                .rays_of = search->rays_of,
                                .strokes = &search->memory->strokes[thread]};
+    if (search->measures) {
+        edge_piece_measure(&piece);
+        return;
+    }
     if (!edge_piece_draw(&piece, (char *)search->memory->scratch.data + (size_t)thread * edge_scratch_bytes()) &&
         should_continue(search->view.loop))
         no_memory(search->view.loop);
@@ -155,6 +162,31 @@ static bool reserve_threads(struct edge_memory *memory, int threads, struct call
     for (int i = 0; i < memory->thread_count; i++)
         memory->strokes[i].count = 0;
     return buffer_reserve(&memory->scratch, (size_t)threads * edge_scratch_bytes(), call, error);
+}
+
+// Measures all edges, and links them to chains along which dashes run.
+static bool find_chains(struct search *search, size_t pieces, struct pool *pool, struct call_control *call,
+                        lam_error *error)
+{
+    const struct frame *frame = search->view.frame;
+    struct edge_memory *memory = search->memory;
+    const struct source *sources = memory->sources.data;
+    size_t count = 0;
+    for (int i = 0; i < frame->draw_count; i++)
+        count += sources[i].count;
+    if (!buffer_reserve(&memory->measures, (count + 1) * sizeof(struct edge_measure), call, error))
+        return false;
+    search->measures = true;
+    pool_run(pool, pieces, piece_task, search);
+    search->measures = false;
+    bool ok = should_continue(search->view.loop);
+    for (int i = 0; i < frame->draw_count && ok; i++)
+        ok = edge_chains_link(&frame->draws[i], (const struct mesh_edge *)memory->edges.data + sources[i].first,
+                              (struct edge_measure *)memory->measures.data + sources[i].first, sources[i].count,
+                              search->view.loop);
+    if (!ok && should_continue(search->view.loop))
+        no_memory(search->view.loop);
+    return ok || loop_error(search->view.loop, 2 * count * sizeof(struct edge_measure), error);
 }
 
 bool edges_find(struct edge_memory *memory, const struct frame *frame, const struct hierarchy *hierarchy, int lanes,
@@ -176,8 +208,12 @@ bool edges_find(struct edge_memory *memory, const struct frame *frame, const str
         search.first_pieces[i] = pieces;
         pieces += ((size_t)sources[i].count + EDGE_PIECE - 1) / EDGE_PIECE;
     }
-    pool_run(pool, pieces, piece_task, &search);
+    bool chained = frame->edges.hidden != LAM_HIDDEN_LINES_DASH || find_chains(&search, pieces, pool, call, error);
+    if (chained)
+        pool_run(pool, pieces, piece_task, &search);
     free(search.first_pieces);
+    if (!chained)
+        return false;
     *counts = (struct edge_counts){search.drawn, search.rays};
     if (!should_continue(&loop))
         return loop_error(&loop, sizeof(struct edge_stroke) * EDGE_PIECE, error);
@@ -190,6 +226,7 @@ void edges_free(struct edge_memory *memory)
     buffer_free(&memory->edges);
     buffer_free(&memory->sources);
     buffer_free(&memory->scratch);
+    buffer_free(&memory->measures);
     for (int i = 0; i < EDGE_STYLES; i++)
         buffer_free(&memory->coverage[i]);
     for (int i = 0; i < memory->thread_count; i++)
@@ -199,7 +236,8 @@ void edges_free(struct edge_memory *memory)
 
 uint64_t edges_bytes(const struct edge_memory *memory)
 {
-    uint64_t bytes = memory->edges.capacity + memory->sources.capacity + memory->scratch.capacity;
+    uint64_t bytes =
+        memory->edges.capacity + memory->sources.capacity + memory->scratch.capacity + memory->measures.capacity;
     for (int i = 0; i < EDGE_STYLES; i++)
         bytes += memory->coverage[i].capacity;
     for (int i = 0; i < memory->thread_count; i++)

@@ -23,7 +23,8 @@ struct edge_memory {
     int source_count;
     struct scene_token *token; // held; NULL: none are listed
     struct edge_strokes *strokes;
-    struct buffer scratch; // of the threads
+    struct buffer scratch;  // of the threads
+    struct buffer measures; // of the edges, where hidden lines are dashed
     int thread_count;
     struct buffer coverage[EDGE_STYLES]; // one float for each pixel
     bool styles[EDGE_STYLES];            // that the last frame has

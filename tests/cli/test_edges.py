@@ -1,5 +1,6 @@
 # test_edges.py: --wireframe, --edges and what belongs to them.
 import json
+import math
 import unittest
 
 from harness import Case, pixel
@@ -51,6 +52,35 @@ class Edges(Case):
         told = json.loads(self.good("cube", "-s", "64", "--edges", "all", "--json", "-o", "c.png").stdout)
         self.assertGreater(told["times_ms"]["steps"]["edges"], 0)
         self.assertEqual(self.good("cube", "-s", "64", "--edges", "all", "--surfaces", "off", "-o", "d.png").stderr.count(b"\n"), 1)  # no warning
+
+    def test_dashes_run_along_curves(self):
+        """A hidden circle of 360 edges, each shorter than a dash, has the dashes of its whole length."""
+        ring = [(math.cos(math.radians(a)), math.sin(math.radians(a))) for a in range(360)]
+        text = "v 0 0 0\n" + "".join("v %.9f %.9f 0\n" % p for p in ring) + "".join("f 1 %d %d\n" % (i + 2, (i + 1) % 360 + 2) for i in range(360))
+        text += "v -2 -2 1\nv 2 -2 1\nv 2 2 1\nv -2 2 1\nf 362 363 364 365\n"
+        model, words = self.model("ring.obj", text), ("-s", "400", "-b", "white", "--azimuth", "0", "--elevation", "0", "--projection", "orthographic", "--edges", "boundary",
+                                                      "--surfaces", "off", "--edge-width", "2")
+        camera = self.report(model, *words, "-o", "r.png")["camera"]
+        radius = 200 / camera["ortho_half_height"]
+
+        def dark(*more):
+            picture = self.png(model, *words, *more)
+            around = [math.radians(a / 4) for a in range(1440)]
+            return [pixel(picture, int(200 + radius * math.cos(a)), int(200 + radius * math.sin(a)))[0] < 128 for a in around]
+        self.assertFalse(any(dark()))
+        self.assertTrue(all(dark("--hidden-lines", "show")))
+        dashes = dark("--hidden-lines", "dash")
+        wanted = 2 * math.pi * radius / (8 * 2)
+        starts = sum(now and not before for before, now in zip([dashes[-1]] + dashes, dashes))
+        self.assertAlmostEqual(starts, wanted, delta=3)
+        self.assertAlmostEqual(sum(dashes) / len(dashes), 5 / 8, delta=0.1)
+
+    def test_lines_alone_have_no_ground(self):
+        alone = ("teapot", "-s", "64", "--edges", "all", "--surfaces", "off")
+        for ground in ("shadow", "checker", "red"):
+            self.assertEqual(self.png(*alone, "--ground=" + ground), self.png(*alone), ground)
+        told = json.loads(self.good(*alone, "--ground", "--json", "-o", "g.png").stdout)
+        self.assertEqual(told["image"].get("ground_height"), None)
 
     def test_mistakes(self):
         self.bad(1, "cube", "--edges", "corners", says="crease")

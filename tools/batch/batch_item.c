@@ -371,7 +371,7 @@ void batch_draw(const struct batch_item *item, const struct batch_artist *artist
         struct batch_result own = *result;
         part.views += i;
         part.outputs += i;
-        part.contents += part.contents ? i : 0;
+        part.contents = part.contents ? part.contents + i : NULL;
         part.attempts += i;
         part.view_count = together;
         own.records += i;

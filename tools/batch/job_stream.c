@@ -57,7 +57,7 @@ static void take(struct job_stream *s, size_t size, size_t after)
 enum job_line job_stream_next(struct job_stream *s, const char **text, size_t *size)
 {
     size_t there = s->end - s->start;
-    const char *from = s->data + s->start,
+    const char *from = s->data ? s->data + s->start : "",
                *end = there > s->searched ? memchr(from + s->searched, '\n', there - s->searched) : NULL;
     size_t length = end ? (size_t)(end - from) : there;
     *text = from;

@@ -1,12 +1,19 @@
 #!/usr/bin/env python3
-"""web.py [PART]: the library as WebAssembly, run by node: the image table has the recorded hashes, with and without SIMD.
+"""web.py PROGRAM: Lambent as WebAssembly, run by node. The image table has the recorded hashes, with and without SIMD; the module of the
+page writes the same files as PROGRAM for the same words, says the same sentences, and explains the same numbers; it is as small as promised.
 
 Builds build-web/ as `make web` does, the first time in a minute or two; then what has changed. Skipped where a package of the group
 `web` (packages.txt) is missing, or Debian's sources of the libraries cannot be fetched."""
 import concurrent.futures
+import gzip
+import hashlib
+import json
 import os
+import re
+import shutil
 import subprocess
 import sys
+import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 OUT = os.path.join(ROOT, "build-web")
@@ -14,6 +21,33 @@ sys.path.insert(0, os.path.join(ROOT, "web"))
 import build  # noqa: E402
 
 PARTS = 2 # node's, at once
+
+# What a page loads first, in bytes after gzip -9 (docs/web.md has the table).
+FIRST_LOAD_MAX = 720000
+
+# Pictures: words, and the ending of the file. The folder of the models is made by make_models.
+PICTURES = [
+    (["teapot", "--size", "128"], "png"),
+    (["teapot", "--size", "128x96"], "jpg"),
+    (["cube.obj", "--size", "96", "--samples", "1"], "png"),
+    (["cube.obj", "--size", "96", "--camera", "eye=3/2.5/4.25,target=0/0/0"], "png"),
+    (["cube.obj", "--size", "96", "--rotate", "y:30", "--light", "position=1/2/3"], "png"),
+    (["cube.obj", "--size", "96"], "png"),  # after lights and turns: the scene is what it was
+    (["cube.obj", "--size", "96", "--wireframe", "--edges", "all"], "png"),
+    (["cube.ply", "--size", "96", "--shading", "flat"], "ppm"),
+    (["cube.stl", "--size", "96", "--shadows"], "pfm"),
+    (["scene.json"], "png"),
+    (["textured/quad.obj", "--size", "96"], "png"),
+    (["textured/damaged.obj", "--size", "96"], "png"),  # its JPEG ends early: the setjmp of libjpeg's errors
+    (["torus-knot", "--size", "96", "--material", "brass", "--ao", "screen"], "png"),
+    (["sphere", "--size", "96", "--environment", "studio", "--material", "metallic=1,roughness=0.3,color=white"], "png"),
+    (["sphere", "--size", "96"], "png"),  # after an environment
+    (["sphere", "--size", "96", "--look", "technical"], "png"),
+]
+# Sentences: those of the program, but for its name before them.
+REFUSED = [["missing.obj"], ["teapot", "--sice", "4"], ["teapot", "--view", "frint"], ["broken.obj"], ["teapot", "--size", "0"],
+           ["teapot", "--camera", "eye=1/2/3", "--view", "top"]]
+EXPLAINED = [["cube.obj", "--size", "96"], ["torus-knot", "--size", "96", "--reflection", "phong"]]
 
 
 class Results:
@@ -50,8 +84,77 @@ def check_hashes(results):
                        "drew %s, recorded is %s" % (drawn.get((isa, name)), hashes))
 
 
+def make_models(folder):
+    """Models whose files name others, as a page gets them: of the tests, one with pictures, one whose picture is damaged."""
+    for name in os.listdir(os.path.join(ROOT, "tests", "models")):
+        shutil.copy(os.path.join(ROOT, "tests", "models", name), folder)
+    textured = os.path.join(folder, "textured")
+    os.makedirs(textured)
+    photo = open(os.path.join(ROOT, "tests/pictures/jpeg/color420-progressive.jpg"), "rb").read()
+    shutil.copy(os.path.join(ROOT, "tests/pictures/png/palette8-interlaced.png"), os.path.join(textured, "side.png"))
+    for name, picture in (("quad", photo), ("damaged", photo[:len(photo) // 2])):
+        open(os.path.join(textured, name + ".jpg"), "wb").write(picture)
+        open(os.path.join(textured, name + ".mtl"), "w").write(
+            "newmtl photo\nKd 1 1 1\nmap_Kd %s.jpg\nnewmtl side\nKd 1 1 1\nmap_Kd side.png\n" % name)
+        open(os.path.join(textured, name + ".obj"), "w").write(
+            "mtllib %s.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+            "usemtl photo\nf 1/1 2/2 3/3 4/4\nusemtl side\nf 2/1 5/2 6/3 3/4\n" % name)
+    open(os.path.join(folder, "broken.obj"), "w").write("v 0 0 0\nf 1 2 x\n")
+
+
+def shown(sentence):
+    """An error's sentence without what stands before it, and without the folder of the module's files."""
+    return re.sub(r"^lambent: ", "", sentence.strip().splitlines()[0] if sentence.strip() else "")
+
+
+def native(program, folder, words):
+    return subprocess.run([program, *words], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def check_module(results, program):
+    module = os.path.join(OUT, "wasm", "web", "lambent.wasm")
+    with tempfile.TemporaryDirectory() as folder:
+        make_models(folder)
+        tasks = [{"words": words, "ending": ending} for words, ending in PICTURES] + [{"words": words, "ending": "png"} for words in REFUSED]
+        tasks += [{"explain": words, "at": [48, 48]} for words in EXPLAINED] + [{"options": True}]
+        done = subprocess.run(["node", os.path.join(ROOT, "tests/web/pictures.mjs"), module, folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True, input="".join(json.dumps(task) + "\n" for task in tasks))
+        lines = done.stdout.splitlines()
+        results.ok(len(lines) == len(tasks), "the module answers each line", done.stderr)
+        lines += [""] * (len(tasks) - len(lines))
+        for words, ending in PICTURES:
+            path = os.path.join(folder, "out." + ending)
+            run = native(program, folder, ["-q", *words, "-o", path])
+            wanted = hashlib.sha256(open(path, "rb").read()).hexdigest() if run.returncode == 0 else shown(run.stderr)
+            got = lines.pop(0)
+            results.ok(got == wanted, "module: %s (%s)" % (" ".join(words), ending), "found %s, the program gives %s" % (got, wanted))
+        for words in REFUSED:
+            run = native(program, folder, words + ["-o", "out.png"])
+            got = lines.pop(0)
+            results.ok(run.returncode and got == shown(run.stderr), "module: refuses " + " ".join(words),
+                       "found '%s', the program says '%s'" % (got, shown(run.stderr)))
+        for words in EXPLAINED:
+            run = native(program, folder, ["explain", words[0], "48,48", *words[1:], "--json"])
+            got = json.loads(lines.pop(0))
+            results.ok(got == json.loads(run.stdout), "module: explains " + " ".join(words), "found %s" % str(got)[:300])
+        options = {o["name"]: o for o in json.loads(lines.pop(0))["options"]}
+        help_text = native(program, folder, ["--help"]).stdout
+        listed = set(re.findall(r"^ +(?:-\w, )?--([\w-]+)", help_text, re.M))
+        results.ok(len(options) > 60 and set(options) <= listed, "module: its options are those of the help",
+                   str(sorted(set(options) - listed)))
+    size = len(gzip.compress(open(module, "rb").read(), 9))
+    scripts = sum(len(gzip.compress(open(os.path.join(ROOT, "web", name), "rb").read(), 9)) for name in ("lambent.js", "wasi.js"))
+    page = open(os.path.join(ROOT, "docs", "web.md")).read()
+    said = [int(n) for n in re.findall(r"^\| (?:the module|its scripts)[^|]*\| (\d+) kB \|", page, re.M)]
+    results.ok(len(said) == 2 and abs(said[0] * 1000 - size) < 20000 and abs(said[1] * 1000 - scripts) < 1500,
+               "docs/web.md has the sizes", "the module has %d bytes after gzip, its scripts %d; the page says %s kB" % (size, scripts, said))
+    results.ok(size + scripts <= FIRST_LOAD_MAX, "a page loads %d bytes first, of %d" % (size + scripts, FIRST_LOAD_MAX),
+               "the module has %d bytes after gzip, its scripts %d" % (size, scripts))
+
+
 def main():
     results = Results()
+    program = os.path.abspath(sys.argv[1])
     if build.missing():
         print("ok 1 - web # SKIP not installed: %s\n1..1" % " ".join(build.missing()))
         return 0
@@ -63,6 +166,7 @@ def main():
     results.ok(done.returncode == 0, "build-web is built", done.stdout)
     if done.returncode == 0:
         check_hashes(results)
+        check_module(results, program)
     print("1..%d" % results.count)
     return 1 if results.failed else 0
 

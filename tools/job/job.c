@@ -140,7 +140,8 @@ static bool draws_once(const struct job *job)
     if (job->device && lam_device_isa(job->device) == LAM_ISA_AUTO) // an OpenGL device
         return false;
     bool tangents = lam_reflection_describe(o->draw.reflection)->tangents;
-    return o->repeat == 1 && !show_is_all(o) && !tangents && job->view_count <= 1 && !job->animation;
+    return o->repeat == 1 && !job->keeps_scene && !show_is_all(o) && !tangents && job->view_count <= 1 &&
+           !job->animation;
 }
 
 // Under flat and Gouraud shading most maps are left out.
@@ -174,7 +175,8 @@ static bool find_background(struct job *job, lam_error *error)
     return true;
 }
 
-bool job_load(struct job *job, struct progress *progress, lam_error *error)
+// Reads the model, or makes the shape.
+static bool make_scene(struct job *job, struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
     lam_control control;
@@ -209,7 +211,13 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
         else if (!bytes)
             add_guess(job, error);
     }
-    if (!job->scene)
+    return job->scene != NULL;
+}
+
+bool job_load(struct job *job, struct progress *progress, lam_error *error)
+{
+    const struct options *o = job->options;
+    if (!job->scene && !make_scene(job, progress, error))
         return false;
     materials_warn(job->scene);
     job->model_counts = (struct model_counts){lam_scene_triangle_count(job->scene), lam_scene_line_count(job->scene),

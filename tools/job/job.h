@@ -57,7 +57,8 @@ struct job {
     lam_pixel_format pixels;      // that it is drawn with
     struct job_frames frames;
     struct animation *animation; // while one is made (animate.h); NULL: none is
-    lam_scene *scene;            // NULL until the model is loaded
+    lam_scene *scene;            // NULL until the model is loaded; one that is there stands for it
+    bool keeps_scene;            // it is drawn again, by another job
     struct model_counts model_counts;
     lam_rig rig;                // the rig that drawing adds to the scene's own lights
     bool file_lights;           // the lights of a glTF file, in candela and lux, light it
@@ -100,8 +101,8 @@ void job_free(struct job *job);
 // Loads and draws; the picture stays in `image`. Ignores output and format.
 bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error);
 
-// The first step of job_run, for commands that draw nothing: loads the model or makes the shape, and applies the
-// settings of a scene file.
+// The first step of job_run, for commands that draw nothing: loads the model or makes the shape, where the job has no scene,
+// and applies the settings of a scene file.
 bool job_load(struct job *job, struct progress *progress, lam_error *error);
 
 // The second step: applies the options for materials, turns, camera and lights.

@@ -1,0 +1,88 @@
+// lambent.js: Lambent as a module: pictures of models by the words of a command line, from files in memory. No file of the
+// machine is read, nothing is sent anywhere. For node and for browsers; one thread, so that a page calls it in a worker.
+//
+//   const lambent = await open(bytesOfLambentWasm);
+//   lambent.files.set('/bunny.obj', bytes);
+//   const picture = lambent.draw(['/bunny.obj', '--size', '512']);    // RGBA, as `lambent /bunny.obj --size 512` draws it
+//   const png = lambent.save(['/bunny.obj', '--size', '512'], 'png'); // the bytes that the command writes
+import { Files, system } from './wasi.js';
+
+// A command line that cannot be drawn: the program's own sentence.
+export class LambentError extends Error {}
+
+export class Lambent {
+  #instance;
+  #printed = '';
+
+  constructor(module, files = new Files()) {
+    this.files = files;
+    const host = system(files, [], (stream, text) => (this.#printed += text));
+    this.#instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1 });
+    host.attach(this.#instance);
+    this.#instance.exports._initialize();
+  }
+
+  #words(words) {
+    const bytes = new TextEncoder().encode(words.map((word) => word + '\0').join(''));
+    const at = this.#instance.exports.web_words(bytes.length);
+    if (!at) throw new LambentError('out of memory');
+    new Uint8Array(this.#instance.exports.memory.buffer, at, bytes.length).set(bytes);
+    return words.length;
+  }
+
+  #call(name, ...numbers) {
+    this.#printed = '';
+    this.#instance.exports[name](...numbers);
+    const answer = JSON.parse(this.#printed);
+    if (answer.ok === false) throw new LambentError(answer.error);
+    return answer;
+  }
+
+  // The picture: width, height, `pixels` (RGBA), the camera in use, times, warnings.
+  draw(words) {
+    const picture = this.#call('web_draw', this.#words(words));
+    const { memory, web_pixels } = this.#instance.exports;
+    picture.pixels = new Uint8ClampedArray(memory.buffer, web_pixels(), picture.width * picture.height * 4).slice();
+    return picture;
+  }
+
+  // The bytes of the picture's file, in the format of an ending: png, jpg, ppm, pfm.
+  save(words, ending) {
+    const path = `/picture-to-save.${ending}`;
+    this.#call('web_save', this.#words([...words, '-o', path]));
+    const bytes = this.files.get(path).slice();
+    this.files.delete(path);
+    return bytes;
+  }
+
+  // The scene file that --save-scene writes, as bytes.
+  scene(words) {
+    const path = '/scene-to-save.json';
+    this.save([...words, '--save-scene', path], 'png');
+    const bytes = this.files.get(path).slice();
+    this.files.delete(path);
+    return bytes;
+  }
+
+  // One pixel, as `lambent explain --json` prints it.
+  explain(words, x, y) {
+    return this.#call('web_explain', this.#words(words), x, y);
+  }
+
+  // The options of a picture, in the groups of the help; the names of shapes; the version.
+  options() {
+    return this.#call('web_options');
+  }
+
+  // The files have changed: the model is read anew.
+  forget() {
+    this.#instance.exports.web_forget();
+  }
+}
+
+// Opens the module from its bytes, or from a compiled WebAssembly.Module.
+export async function open(source) {
+  return new Lambent(source instanceof WebAssembly.Module ? source : await WebAssembly.compile(source));
+}
+
+export { Files };

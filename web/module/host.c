@@ -1,0 +1,25 @@
+// host.c: what the program's parts ask their system for, where they run within a page: nothing interrupts them but the page,
+// which ends the worker, and the browser is the sandbox.
+#include "interrupt.h"
+#include "sandbox_start.h"
+
+#include <lambent/check.h>
+
+static lam_cancel never;
+
+void interrupt_start(void) {}
+const lam_cancel *interrupt_flag(void) { return &never; }
+bool interrupted(void) { return false; }
+
+const char *sandbox_advice(const lam_error *error)
+{
+    (void)error;
+    return "";
+}
+
+// The checker of shaders is no part of the module: it has no contracts.
+const char *lam_check_contract_shipped(int index)
+{
+    (void)index;
+    return NULL;
+}

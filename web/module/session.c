@@ -1,0 +1,322 @@
+// session.c: draws pictures of command lines, one after the other, for a page that changes them. A model is loaded once.
+#include "session.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "console.h"
+#include "device_option.h"
+#include "exit_codes.h"
+#include "explain.h"
+#include "job.h"
+#include "job_check.h"
+#include "json.h"
+#include "light_place.h"
+
+// The loaded model, as it was before any option changed it.
+static struct {
+    char *key; // the words that it was loaded by; NULL: none is loaded
+    lam_scene *scene;
+    bool environment; // it has one of its own
+    double read_ms;
+} model;
+
+static struct {
+    char *text;
+    uint32_t bytes;
+    lam_device *device;
+    int isa;
+    lam_image image; // of the last picture
+} session;
+
+char *web_words(uint32_t bytes)
+{
+    free(session.text);
+    session.text = calloc(1, (size_t)bytes + 1);
+    session.bytes = session.text ? bytes : 0;
+    return session.text;
+}
+
+void web_forget(void)
+{
+    free(model.key);
+    lam_scene_free(model.scene);
+    memset(&model, 0, sizeof model);
+}
+
+// Whether a scene that is loaded serves other values of the option: those of the picture, the view, lights and materials.
+// What is not known to be such an option counts as one that does not.
+static bool changes_drawing_only(const struct option *option)
+{
+    static const char *const shading[] = {"shading", "stage",  "viewer",           "single-scattering", "reflectivity",
+                                          "shadows", "ground", "shadow-samples",   "shadow-terminator", "cull",
+                                          "tone",    "gl1",    "match-highlights", "flat-normal",       "reflection"};
+    static const char *const except[] = {"up", "color-mode", "look"};
+    for (size_t i = 0; i < sizeof except / sizeof *except; i++)
+        if (strcmp(option->name, except[i]) == 0)
+            return false;
+    for (size_t i = 0; i < sizeof shading / sizeof *shading; i++)
+        if (strcmp(option->name, shading[i]) == 0)
+            return true;
+    return option->group == GROUP_PICTURE || option->group == GROUP_VIEW || option->group == GROUP_LIGHTS ||
+           option->group == GROUP_MATERIALS;
+}
+
+// The model and the options that it is loaded by, from malloc.
+static char *key_of(const char *name, const struct options *options)
+{
+    size_t size = 0;
+    char *key = NULL;
+    FILE *text = open_memstream(&key, &size);
+    if (!text)
+        return NULL;
+    fputs(name, text);
+    for (const struct option *o = option_table; o->name; o++)
+        if (options->given[o - option_table] && !changes_drawing_only(o))
+            fprintf(text, "\n%s=%s", o->name,
+                    options->values[o - option_table] ? options->values[o - option_table] : "");
+    fclose(text);
+    return key;
+}
+
+// Loads the model, if another one is loaded or it was loaded otherwise; brings it back to what it was.
+static bool take_model(struct job *job, lam_error *error)
+{
+    char *key = key_of(job->model, job->options);
+    if (!key)
+        return complain(error, LAM_LIMIT, "out of memory");
+    bool same = model.key && strcmp(model.key, key) == 0;
+    if (!same) {
+        web_forget();
+        struct job first = {.options = job->options, .model = job->model, .device = job->device, .keeps_scene = true};
+        first.times.start = clock_ms();
+        bool ok = job_load(&first, NULL, error) && lam_scene_mark(first.scene, error);
+        if (!ok) {
+            lam_scene_free(first.scene);
+            free(key);
+            return false;
+        }
+        model.key = key;
+        model.scene = first.scene;
+        model.environment = lam_scene_environment(model.scene) != NULL;
+        model.read_ms = clock_ms() - first.times.start;
+        key = NULL;
+    }
+    free(key);
+    job->scene = model.scene;
+    return lam_scene_reset(model.scene, error) &&
+           (model.environment || lam_scene_set_environment(model.scene, NULL, 0, error));
+}
+
+// Parses the words. `options` and `job` are complete then; the caller frees the options in any case.
+static bool start(int count, struct options *options, struct job *job, lam_error *error)
+{
+    static bool filled;
+    if (!filled)
+        option_table_fill();
+    filled = true;
+    char **words = calloc((size_t)count + 1, sizeof *words), *at = session.text;
+    *options = option_defaults();
+    for (int i = 0; words && i < count && at < session.text + session.bytes; i++) {
+        words[i] = at;
+        at += strlen(at) + 1;
+    }
+    const struct command *render = &command_table[COMMAND_render];
+    int operands = words ? options_parse(count, words, render->groups, options, error) : -1;
+    if (!words)
+        complain(error, LAM_LIMIT, "out of memory");
+    else if (operands >= 0 && operands != 1)
+        complain(error, LAM_BAD_ARGUMENT, operands ? "unexpected argument '%s', expected one model" : "no model given",
+                 operands ? words[1] : "");
+    const char *name = operands == 1 ? words[0] : NULL;
+    free(words);
+    if (!name || !job_check_options(options, error))
+        return false;
+    if (options->turntable || options->sweeps.count)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "options '--turntable' and '--sweep' make files, expected one picture");
+    if (session.device && session.isa != options->isa) {
+        lam_device_free(session.device);
+        session.device = NULL;
+    }
+    if (!session.device)
+        session.device = device_option_make(options, error);
+    session.isa = options->isa;
+    *job = (struct job){.options = options, .model = name, .device = session.device, .keeps_scene = true};
+    job->times.start = clock_ms();
+    return session.device && take_model(job, error);
+}
+
+static void vector(struct json *json, const char *key, lam_vec3 v)
+{
+    json_open(json, key, '[');
+    json_number(json, NULL, v.x);
+    json_number(json, NULL, v.y);
+    json_number(json, NULL, v.z);
+    json_close(json, ']');
+}
+
+static void answer_camera(struct json *json, const struct job *job)
+{
+    const lam_camera *c = &job->camera;
+    lam_vec3 centre, pole, front;
+    double radius = 1;
+    scene_axes(job->scene, &pole, &front);
+    lam_scene_sphere(job->scene, -1, &centre, &radius);
+    json_open(json, "camera", '{');
+    vector(json, "eye", c->eye);
+    vector(json, "target", c->target);
+    vector(json, "up", c->up);
+    json_number(json, "fovy_deg", c->fovy_rad * (180 / 3.14159265358979323846));
+    json_number(json, "ortho", c->ortho_half_height);
+    vector(json, "pole", pole);
+    json_close(json, '}');
+    json_open(json, "sphere", '{');
+    vector(json, "centre", centre);
+    json_number(json, "radius", radius);
+    json_close(json, '}');
+}
+
+// Prints what has become of a command line, and ends the job. Returns the exit code.
+static int answer(struct job *job, bool ok, const lam_error *error)
+{
+    struct json json = {.file = stdout};
+    json_open(&json, NULL, '{');
+    json_flag(&json, "ok", ok);
+    if (!ok)
+        json_text(&json, "error", error->text);
+    if (ok) {
+        json_count(&json, "width", (uint64_t)job->image.width);
+        json_count(&json, "height", (uint64_t)job->image.height);
+        json_count(&json, "triangles", job->model_counts.triangles);
+        json_number(&json, "read_ms", model.read_ms);
+        json_number(&json, "frame_ms", job->times.frame.total_ms);
+        answer_camera(&json, job);
+        json_open(&json, "warnings", '[');
+        for (int i = 0; lam_scene_warning(job->scene, i); i++)
+            json_text(&json, NULL, lam_scene_warning(job->scene, i));
+        json_close(&json, ']');
+    }
+    json_close(&json, '}');
+    putc('\n', stdout);
+    fflush(stdout);
+    job->scene = NULL; // the session's
+    lam_image_free(&session.image);
+    session.image = job->image;
+    job->image = (lam_image){0};
+    job_free(job);
+    return ok ? 0 : exit_code_of(error->code)->code;
+}
+
+const void *web_pixels(void) { return session.image.pixels; }
+
+int web_draw(int count)
+{
+    struct options options;
+    struct job job = {0};
+    lam_error error = {0};
+    bool ok = start(count, &options, &job, &error) && job_draw(&job, LAM_RGBA8, NULL, &error);
+    int code = answer(&job, ok, &error);
+    options_free(&options);
+    return code;
+}
+
+int web_save(int count)
+{
+    struct options options;
+    struct job job = {0};
+    lam_error error = {0};
+    bool ok = start(count, &options, &job, &error);
+    job.output = options.output;
+    if (ok && (!job.output || strcmp(job.output, "-") == 0))
+        ok = complain(&error, LAM_BAD_ARGUMENT, "expected the file to write after -o");
+    ok = ok && job_run(&job, NULL, &error);
+    int code = answer(&job, ok, &error);
+    options_free(&options);
+    return code;
+}
+
+int web_explain(int count, int x, int y)
+{
+    struct options options;
+    struct job job = {0};
+    lam_error error = {0};
+    lam_explanation *explanation = NULL;
+    bool ok = start(count, &options, &job, &error);
+    if (ok && (x < 0 || y < 0 || x >= options.width || y >= options.height))
+        ok = complain(&error, LAM_BAD_ARGUMENT, "pixel %d,%d lies outside of the picture", x, y);
+    if (ok)
+        explanation = job_explain(&job, x, y, NULL, &error);
+    int code = 0;
+    if (explanation) {
+        explain_json(explanation, job.model);
+        fflush(stdout);
+        lam_explanation_free(explanation);
+        job.scene = NULL;
+        job_free(&job);
+    } else {
+        code = answer(&job, false, &error);
+    }
+    options_free(&options);
+    return code;
+}
+
+static void option_json(struct json *json, const struct option *o)
+{
+    json_open(json, NULL, '{');
+    json_text(json, "name", o->name);
+    json_text(json, "group", group_titles[o->group]);
+    json_text(json, "value", o->value);
+    json_text(json, "default", o->standard);
+    json_text(json, "summary", o->summary);
+    json_text(json, "details", o->details);
+    json_text(json, "others", o->others);
+    static const char *const kinds[] = {"any",    "file",        "color",  "material", "light",
+                                        "camera", "environment", "varied", "swept"};
+    json_text(json, "kind", kinds[o->kind]);
+    json_flag(json, "repeats",
+              o->store == store_light || o->store == store_material || o->store == store_rotation ||
+                  o->store == store_texts);
+    json_flag(json, "number",
+              o->store == store_number || o->store == store_float || o->store == store_integer ||
+                  o->store == store_angle);
+    json_flag(json, "whole", o->store == store_integer);
+    if (o->max > o->min) {
+        json_number(json, "min", o->min);
+        json_number(json, "max", o->max);
+    }
+    if (o->words) {
+        json_open(json, "words", '[');
+        for (const struct word *w = o->words; w->name; w++) {
+            json_open(json, NULL, '{');
+            json_text(json, "name", w->name);
+            json_text(json, "summary", w->summary);
+            json_close(json, '}');
+        }
+        json_close(json, ']');
+    }
+    json_close(json, '}');
+}
+
+void web_options(void)
+{
+    struct json json = {.file = stdout};
+    option_table_fill();
+    json_open(&json, NULL, '{');
+    json_text(&json, "version", lam_version());
+    json_open(&json, "shapes", '[');
+    for (int i = 0; i < lam_shape_count(); i++)
+        json_text(&json, NULL, lam_shape_name(i));
+    json_close(&json, ']');
+    json_open(&json, "options", '[');
+    for (const struct option *o = option_table; o->name; o++)
+        if (o->group == GROUP_PICTURE || o->group == GROUP_MODEL || o->group == GROUP_VIEW ||
+            o->group == GROUP_LIGHTS || o->group == GROUP_MATERIALS || o->group == GROUP_SHADING)
+            option_json(&json, o);
+    json_close(&json, ']');
+    json_close(&json, '}');
+    putc('\n', stdout);
+    fflush(stdout);
+}

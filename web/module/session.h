@@ -1,0 +1,31 @@
+// session.h: what the module of the page offers to it (web/lambent.js). Words are those of a command line, each with a 0 at its
+// end, in the memory of web_words. Answers are JSON on standard output, an error's sentence among them.
+#ifndef SESSION_H
+#define SESSION_H
+
+#include <stdint.h>
+
+#define WEB_EXPORT(name) __attribute__((export_name(#name)))
+
+// Memory for the words of the next call. NULL: there is none.
+char *web_words(uint32_t bytes) WEB_EXPORT(web_words);
+
+// Draws the picture of a command line, MODEL [OPTION...]. The model stays loaded until another one is named, or an option
+// changes how it is read. 0, or the program's exit code. web_pixels: RGBA, four bytes for each pixel, rows from the top,
+// valid until the next call.
+int web_draw(int count) WEB_EXPORT(web_draw);
+const void *web_pixels(void) WEB_EXPORT(web_pixels);
+
+// The same, and writes the file that -o names.
+int web_save(int count) WEB_EXPORT(web_save);
+
+// Explains a pixel of that picture, as `lambent explain --json` does.
+int web_explain(int count, int x, int y) WEB_EXPORT(web_explain);
+
+// Lists the options of a picture with all that the help says of them, in its groups, and the names of shapes.
+void web_options(void) WEB_EXPORT(web_options);
+
+// Forgets the model: its files may be others now.
+void web_forget(void) WEB_EXPORT(web_forget);
+
+#endif

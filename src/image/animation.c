@@ -105,12 +105,28 @@ static bool check_frame(const lam_animation *animation, const lam_image *frame, 
     return true;
 }
 
+// Whether the limit leaves room for the frames so far, and for the next one: the picture before, its changed part, and as much for
+// its encoding. Else the animation is of no more use.
+static bool check_memory(lam_animation *animation, const lam_control *control, lam_error *error)
+{
+    struct call_control call;
+    const struct animation_settings *s = &animation->settings;
+    const uint64_t held = animation->codec->held(animation->state);
+    const size_t next = (size_t)12 * (size_t)s->width * (size_t)s->height;
+    call_start(&call, control);
+    if (call_charge(&call, held) && call_charge(&call, next))
+        return true;
+    animation->finished = true;
+    return call_memory_error(&call, next, error);
+}
+
 bool lam_animation_add(lam_animation *animation, const lam_image *frame, const lam_control *control, lam_error *error)
 {
     lam_image working;
     if (!animation)
         return fail(error, LAM_BAD_ARGUMENT, "animation: it is NULL");
-    if (!check_frame(animation, frame, error) || !image_working(frame, &working, error))
+    if (!check_frame(animation, frame, error) || !check_memory(animation, control, error) ||
+        !image_working(frame, &working, error))
         return false;
     lam_save_params params = animation->settings.frames;
     params.control = control;

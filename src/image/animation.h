@@ -27,6 +27,9 @@ struct animation_codec {
     // Makes the file's bytes. Called once, after at least one frame.
     bool (*finish)(void *state, const lam_save_params *params, lam_bytes *out, lam_error *error);
 
+    // Bytes of the encoded frames that the writer holds, where it knows them: libwebpmux does not tell.
+    uint64_t (*held)(const void *state);
+
     void (*free)(void *state);
 };
 

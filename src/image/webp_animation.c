@@ -156,5 +156,14 @@ static void animation_free(void *state) { free(state); }
 
 #endif
 
-const struct animation_codec animation_webp = {
-    .start = animation_start, .add = animation_add, .finish = animation_finish, .free = animation_free};
+static uint64_t animation_held(const void *state)
+{
+    (void)state;
+    return 0;
+}
+
+const struct animation_codec animation_webp = {.start = animation_start,
+                                               .add = animation_add,
+                                               .finish = animation_finish,
+                                               .held = animation_held,
+                                               .free = animation_free};

@@ -156,6 +156,48 @@ static void test_cancelled(void **state)
     lam_image_free(&image);
 }
 
+// Pixels that no compression makes smaller.
+static void fill_noise(lam_image *image, uint32_t *seed)
+{
+    uint8_t *bytes = image->pixels;
+    for (int i = 0; i < 4 * image->width * image->height; i++)
+        bytes[i] = (uint8_t)((*seed = *seed * 1664525u + 1013904223u) >> 24);
+}
+
+// The encoded frames count: a PNG of n frames is refused once they, or they and the file, are over the limit.
+static void test_memory(void **state)
+{
+    (void)state;
+    enum { LIMIT = 50000, FRAME = 30 * 20 * 4 };
+    const lam_control control = {.memory_limit_bytes = LIMIT};
+    lam_error error;
+    lam_image image;
+    lam_bytes bytes;
+    uint32_t seed = 1;
+    assert_true(lam_image_make(&image, 30, 20, LAM_RGBA8, &error));
+    lam_animation *animation = make("png", NULL);
+    int frames = 0;
+    for (fill_noise(&image, &seed); lam_animation_add(animation, &image, &control, &error); fill_noise(&image, &seed))
+        assert_true(++frames < 100);
+    assert_int_equal(error.code, LAM_LIMIT);
+    assert_non_null(strstr(error.text, "memory limit"));
+    assert_in_range(frames, 10, LIMIT / FRAME);
+    assert_false(lam_animation_finish(animation, NULL, &bytes, &error)); // of no more use
+    lam_animation_free(animation);
+    for (int fits = 0; fits < 2; fits++) { // frames below the limit, whose file is above it beside them
+        animation = make("png", NULL);
+        for (int i = 0; i < (fits ? 7 : 12); i++, fill_noise(&image, &seed))
+            assert_true(lam_animation_add(animation, &image, &control, &error));
+        assert_int_equal(lam_animation_finish(animation, &control, &bytes, &error), fits);
+        if (fits)
+            lam_bytes_free(&bytes);
+        else
+            assert_int_equal(error.code, LAM_LIMIT);
+        lam_animation_free(animation);
+    }
+    lam_image_free(&image);
+}
+
 static void draw(const lam_scene *scene, lam_device *device, lam_image *image)
 {
     lam_error error;
@@ -248,9 +290,9 @@ static void test_rotation(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_formats),       cmocka_unit_test(test_arguments), cmocka_unit_test(test_frames),
-        cmocka_unit_test(test_first_frame),   cmocka_unit_test(test_cancelled), cmocka_unit_test(test_reset),
-        cmocka_unit_test(test_warnings_once), cmocka_unit_test(test_rotation),
+        cmocka_unit_test(test_formats),     cmocka_unit_test(test_arguments),     cmocka_unit_test(test_frames),
+        cmocka_unit_test(test_first_frame), cmocka_unit_test(test_cancelled),     cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_reset),       cmocka_unit_test(test_warnings_once), cmocka_unit_test(test_rotation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,6 +29,7 @@ struct apng {
     lam_image before; // the last frame; no pixels: none
     struct apng_frame *frames;
     int count, capacity;
+    uint64_t held; // bytes of the frames
 };
 
 static void apng_free(void *state)
@@ -116,12 +117,16 @@ static bool apng_add(void *state, const lam_image *frame, const lam_save_params 
               png_write_channels(&part, params, pool, &added->channels, &added->png, error) &&
               remember(apng, frame, error);
     lam_image_free(&part);
-    if (ok)
+    if (ok) {
         apng->count++;
-    else
+        apng->held += sizeof *added + added->png.size;
+    } else {
         lam_bytes_free(&added->png);
+    }
     return ok;
 }
+
+static uint64_t apng_held(const void *state) { return ((const struct apng *)state)->held; }
 
 // Encodes a frame again, with more channels.
 static bool widen(struct apng_frame *frame, int channels, const lam_save_params *params, lam_error *error)
@@ -144,23 +149,10 @@ static bool widen(struct apng_frame *frame, int channels, const lam_save_params 
 
 struct writer {
     uint8_t *bytes; // from malloc
-    size_t size, capacity;
+    size_t size;
     struct crc_tables crc;
     uint32_t sequence;
 };
-
-static bool reserve(struct writer *writer, size_t more, lam_error *error)
-{
-    if (more <= writer->capacity - writer->size)
-        return true;
-    const size_t wanted = writer->size + more, capacity = wanted + wanted / 2;
-    uint8_t *larger = realloc(writer->bytes, capacity);
-    if (!larger)
-        return fail_memory(error, capacity);
-    writer->bytes = larger;
-    writer->capacity = capacity;
-    return true;
-}
 
 static void append(struct writer *writer, const void *bytes, size_t size)
 {
@@ -217,13 +209,21 @@ static uint32_t u32_of(const uint8_t *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
+// The most bytes that put_frame appends for a frame: its chunks, each with a number, one that is open, and those of the animation.
+static size_t frame_bytes(const struct apng_frame *frame)
+{
+    const uint8_t *at = frame->png.data + SIGNATURE, *end = frame->png.data + frame->png.size;
+    size_t bytes = frame->png.size + (size_t)3 * CHUNK_BYTES + CONTROL_BYTES + 8;
+    for (; at < end; at += u32_of(at) + CHUNK_BYTES)
+        bytes += SEQUENCE_BYTES;
+    return bytes;
+}
+
 // Copies the chunks of a frame's PNG: of the first frame those before the picture too.
-static bool put_frame(struct writer *writer, const struct apng *apng, int index, lam_error *error)
+static void put_frame(struct writer *writer, const struct apng *apng, int index)
 {
     const struct apng_frame *frame = &apng->frames[index];
     const uint8_t *at = frame->png.data, *end = at + frame->png.size;
-    if (!reserve(writer, frame->png.size + (size_t)3 * CHUNK_BYTES + CONTROL_BYTES + 8, error))
-        return false;
     if (index == 0)
         append(writer, at, SIGNATURE);
     bool pictured = false;
@@ -236,8 +236,6 @@ static bool put_frame(struct writer *writer, const struct apng *apng, int index,
             put_frame_control(writer, apng, &frame->box);
             pictured = true;
         }
-        if (!reserve(writer, whole + SEQUENCE_BYTES + (size_t)2 * CHUNK_BYTES, error))
-            return false;
         if (is_data && index > 0) {
             png_put_u32(next_chunk_data(writer), writer->sequence++);
             memcpy(next_chunk_data(writer) + SEQUENCE_BYTES, at + 8, size);
@@ -247,6 +245,30 @@ static bool put_frame(struct writer *writer, const struct apng *apng, int index,
         }
         at += whole;
     }
+}
+
+// Gives all frames the same channels. Adds up the bytes of the file.
+static bool unify(struct apng *apng, const lam_save_params *params, struct call_control *call, size_t *bytes,
+                  lam_error *error)
+{
+    const size_t again = (size_t)8 * (size_t)apng->settings.width * (size_t)apng->settings.height;
+    int channels = 0;
+    if (!call_charge(call, apng->held) || !call_charge(call, again)) // of one frame, its pixels and its new encoding
+        return call_memory_error(call, again, error);
+    for (int i = 0; i < apng->count; i++)
+        channels |= apng->frames[i].channels;
+    *bytes = CHUNK_BYTES;
+    for (int i = 0; i < apng->count; i++) {
+        const size_t before = apng->frames[i].png.size;
+        if (!call_should_continue(call))
+            return call_error(call, error);
+        if (apng->frames[i].channels != channels && !widen(&apng->frames[i], channels, params, error))
+            return false;
+        const size_t after = apng->frames[i].png.size;
+        if (after > before && !call_charge(call, after - before))
+            return call_memory_error(call, after - before, error);
+        *bytes += frame_bytes(&apng->frames[i]);
+    }
     return true;
 }
 
@@ -255,22 +277,17 @@ static bool apng_finish(void *state, const lam_save_params *params, lam_bytes *o
     struct apng *apng = state;
     struct writer writer = {0};
     struct call_control call;
+    size_t bytes = 0;
     call_start(&call, params->control);
-    crc_tables_make(&writer.crc);
-    int channels = 0;
-    for (int i = 0; i < apng->count; i++)
-        channels |= apng->frames[i].channels;
-    bool ok = true;
-    for (int i = 0; ok && i < apng->count; i++) {
-        ok = (call_should_continue(&call) || call_error(&call, error)) &&
-             (apng->frames[i].channels == channels || widen(&apng->frames[i], channels, params, error)) &&
-             put_frame(&writer, apng, i, error);
-        lam_bytes_free(&apng->frames[i].png);
-    }
-    ok = ok && reserve(&writer, CHUNK_BYTES, error);
-    if (!ok) {
-        free(writer.bytes);
+    if (!unify(apng, params, &call, &bytes, error))
         return false;
+    writer.bytes = call_charge(&call, bytes) ? malloc(bytes) : NULL;
+    if (!writer.bytes)
+        return call_memory_error(&call, bytes, error);
+    crc_tables_make(&writer.crc);
+    for (int i = 0; i < apng->count; i++) {
+        put_frame(&writer, apng, i);
+        lam_bytes_free(&apng->frames[i].png);
     }
     close_chunk(&writer, "IEND", 0);
     uint8_t *fitted = realloc(writer.bytes, writer.size);
@@ -279,4 +296,4 @@ static bool apng_finish(void *state, const lam_save_params *params, lam_bytes *o
 }
 
 const struct animation_codec animation_png = {
-    .start = apng_start, .add = apng_add, .finish = apng_finish, .free = apng_free};
+    .start = apng_start, .add = apng_add, .finish = apng_finish, .held = apng_held, .free = apng_free};

@@ -8,6 +8,7 @@
 #include "command.h"
 #include "console.h"
 #include "device_option.h"
+#include "environment_cache.h"
 #include "exit_codes.h"
 #include "explain.h"
 #include "job.h"
@@ -28,7 +29,8 @@ static struct {
     uint32_t bytes;
     lam_device *device;
     int isa;
-    lam_image image; // of the last picture
+    struct environment_cache *environments; // of the files as they are
+    lam_image image;                        // of the last picture
 } session;
 
 char *web_words(uint32_t bytes)
@@ -39,11 +41,18 @@ char *web_words(uint32_t bytes)
     return session.text;
 }
 
-void web_forget(void)
+static void forget_model(void)
 {
     free(model.key);
     lam_scene_free(model.scene);
     memset(&model, 0, sizeof model);
+}
+
+void web_forget(void)
+{
+    forget_model();
+    environment_cache_free(session.environments);
+    session.environments = NULL;
 }
 
 // Whether a scene that is loaded serves other values of the option: those of the picture, the view, lights and materials.
@@ -89,8 +98,12 @@ static bool take_model(struct job *job, lam_error *error)
         return complain(error, LAM_LIMIT, "out of memory");
     bool same = model.key && strcmp(model.key, key) == 0;
     if (!same) {
-        web_forget();
-        struct job first = {.options = job->options, .model = job->model, .device = job->device, .keeps_scene = true};
+        forget_model();
+        struct job first = {.options = job->options,
+                            .model = job->model,
+                            .device = job->device,
+                            .environments = job->environments,
+                            .keeps_scene = true};
         first.times.start = clock_ms();
         bool ok = job_load(&first, NULL, error) && lam_scene_mark(first.scene, error);
         if (!ok) {
@@ -144,7 +157,13 @@ static bool start(int count, struct options *options, struct job *job, lam_error
     if (!session.device)
         session.device = device_option_make(options, error);
     session.isa = options->isa;
-    *job = (struct job){.options = options, .model = name, .device = session.device, .keeps_scene = true};
+    if (!session.environments)
+        session.environments = environment_cache_make();
+    *job = (struct job){.options = options,
+                        .model = name,
+                        .device = session.device,
+                        .keeps_scene = true,
+                        .environments = session.environments};
     job->times.start = clock_ms();
     return session.device && take_model(job, error);
 }

@@ -127,13 +127,15 @@ int run_diff(int operand_count, char **operands, const struct options *options)
         ok = complain(&error, LAM_LIMIT, "out of memory");
     else if (options->output && !to_stdout)
         ok = output_check(pair.output, pair.name[0], output_is_named(options->output), &error);
-    struct sandbox_paths paths = {0};
-    for (int i = 0; i < 2; i++)
-        sandbox_add_file(&paths, operands[i]);
-    if (pair.output)
-        sandbox_add_output(&paths, pair.output);
-    ok = ok && sandbox_start(options, &paths, &error) && load_pair(&pair, options, &error) &&
-         (!options->output || write_picture(&pair, options, &error));
+    if (ok) {
+        struct sandbox_paths paths = {0};
+        for (int i = 0; i < 2; i++)
+            sandbox_add_file(&paths, operands[i]);
+        if (pair.output)
+            sandbox_add_output(&paths, pair.output);
+        ok = sandbox_start(options, &paths, &error) && load_pair(&pair, options, &error) &&
+             (!options->output || write_picture(&pair, options, &error));
+    }
     bool differ = ok && pair.difference.maximum > options->tolerance / 255.0;
     if (ok) {
         FILE *file = to_stdout ? stderr : stdout;

@@ -47,6 +47,11 @@ def xxh64(data):
     return "xxh64:%016x" % total
 
 
+def default_interrupt():
+    """In the child: a shell that starts the tests in the background has Ctrl-C ignored, and lambent leaves an ignored signal so."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 class Batch(Case):
     def setUp(self):
         super().setUp()
@@ -481,7 +486,7 @@ class Kills(Batch):
         for number in (signal.SIGINT, signal.SIGTERM):
             for more in ([], ["--isolate"]):
                 process = subprocess.Popen([PROGRAM, "batch", "in", "-s", "3000", "--samples", "16", "-j", "2", "-o", "out/", *more],
-                                           cwd=self.folder, stderr=subprocess.PIPE)
+                                           cwd=self.folder, stderr=subprocess.PIPE, preexec_fn=default_interrupt)
                 time.sleep(0.5)
                 process.send_signal(number)
                 start = time.time()

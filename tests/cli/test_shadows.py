@@ -55,6 +55,19 @@ class Shadows(Case):
         self.assertIn("nothing is in the way", self.good("explain", self.scene(), "%d,%d" % LIT).stdout.decode())
         self.assertNotIn("in the way", self.good("explain", self.scene(shadows=False), "%d,%d" % LIT).stdout.decode())
 
+    def test_glass_elsewhere_leaves_a_ground_its_shadow(self):
+        """Where something transmits, light has a tint: a catcher is lit a second time, by lights without any."""
+        box = SCENE["objects"][1]
+        glass = {"name": "glass", "shape": "cube", "transform": [["translate", -2.5, 1, -2.5], ["scale", 0.3, 0.3, 0.3]], "material": "glass"}
+        materials = {"glass": {"physical": True, "metallic": 0, "roughness": 0.4, "transmission": 1}}
+        camera = {"eye": [0, 8, 0.01], "target": [0, 0, 0], "ortho_half_height": 4}
+        alphas = []
+        for objects in ([box], [box, glass]):
+            shown = self.png(self.scene("caught.json", ground="shadow", ao="off", camera=camera, objects=objects, materials=materials))
+            alphas.append(pixel(shown, 40, 32)[3])
+        self.assertGreater(alphas[0], 200)
+        self.assertEqual(*alphas)
+
     def test_glass_colours_its_shadow(self):
         """What transmits lets its base colour through: a pane once, two panes the product, a volume where light enters it."""
         def passed(material, shape="plane", floor=None, *words):

@@ -119,6 +119,8 @@ static bool read_shaders(struct run *r, lam_error *error)
            shader_interface_make(&r->interface, &r->texts, contract, error);
 }
 
+static bool is_printed(const struct run *r) { return r->interface.printed_model != LAM_REFLECTION_AUTO; }
+
 static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -133,13 +135,14 @@ static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
     r->frame = p->light_frame == LAM_FRAME_WORLD ? r->interface.light_frame : p->light_frame;
     r->reflection = p->reflection != LAM_REFLECTION_AUTO ? p->reflection
                     : r->interface.physical              ? LAM_REFLECTION_GGX
-                    : r->interface.phong                 ? LAM_REFLECTION_PHONG
+                    : is_printed(r)                      ? r->interface.printed_model
                                                          : r->interface.contract->reflection;
     if (r->interface.physical && p->reflection != LAM_REFLECTION_AUTO)
         return fail(error, LAM_BAD_ARGUMENT,
                     "check: the shader has metalness and roughness, whose highlight is not a matter of choice; leave "
                     "--highlight out");
-    if (!r->interface.physical && r->reflection != LAM_REFLECTION_PHONG && r->reflection != LAM_REFLECTION_BLINN_PHONG)
+    if (p->reflection != LAM_REFLECTION_AUTO && r->reflection != LAM_REFLECTION_PHONG &&
+        r->reflection != LAM_REFLECTION_BLINN_PHONG)
         return fail(error, LAM_BAD_ARGUMENT, "check: unknown highlight, expected phong or blinn-phong");
     if (!p->vertex) {
         char unknown[256];

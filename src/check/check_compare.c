@@ -152,6 +152,16 @@ static bool is_searchable(struct run *r, bool writes)
 {
     double clear = 0;
     int usable = 0;
+    lam_reflection model = r->interface.printed_model;
+    bool form = !r->interface.infinite_viewer && !r->interface.gl1;
+    bool known =
+        form && (model == LAM_REFLECTION_AUTO || model == LAM_REFLECTION_PHONG || model == LAM_REFLECTION_BLINN_PHONG ||
+                 (model == LAM_REFLECTION_GGX && !r->interface.multiple_scattering));
+    if (!known)
+        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
+                        "no mistakes are looked for in this shader of `lambent shader`: they are known for Lambert's, "
+                        "Phong's and Blinn-Phong's models, and for GGX with --single-scattering; not with --gl1 or "
+                        "--viewer infinite");
     for (int i = 0; i < r->scene_count; i++) {
         clear += missing_share(&r->scenes[i], false) / r->scene_count;
         r->scenes[i].spoilt = missing_share(&r->scenes[i], true) > 0.25;
@@ -161,7 +171,7 @@ static bool is_searchable(struct run *r, bool writes)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
                         "%.0f %% of the model is not drawn: the shader discards it, or gl_Position puts it elsewhere",
                         clear * 100);
-    return writes && clear < 0.9 && usable > 0;
+    return writes && known && clear < 0.9 && usable > 0;
 }
 
 // Reports styles of the shader that are as right as the reference, and compares with pictures that have them too.

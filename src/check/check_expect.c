@@ -70,7 +70,9 @@ static bool draw_reference(struct run *r, lam_device *device, struct scene_compa
                    : r->interface.vertex_lit   ? LAM_SHADING_GOURAUD
                                                : LAM_SHADING_PHONG,
         .flat_normal = LAM_FLAT_NORMAL_VERTEX,
-        .single_scattering = true,
+        .viewer = r->interface.infinite_viewer ? LAM_VIEWER_INFINITE : LAM_VIEWER_LOCAL,
+        .gl1 = r->interface.gl1,
+        .single_scattering = !r->interface.multiple_scattering,
     };
     if (world && !two_sides) {
         lam_object object = *lam_scene_object(world, 0);
@@ -83,6 +85,7 @@ static bool draw_reference(struct run *r, lam_device *device, struct scene_compa
         memcpy(scene->reference, image.pixels, 4 * (size_t)r->size * (size_t)r->size * sizeof(float));
         for (size_t i = 0; i < (size_t)r->size * (size_t)r->size; i++)
             scene->reference[4 * i + 3] *= scene->reference_scene.alpha;
+        scene_comparison_apply_tone(r->interface.printed_tone, scene->reference, (size_t)r->size * (size_t)r->size);
         if (r->interface.physical)
             display(&r->interface.contract->physical, scene->reference, (size_t)r->size * (size_t)r->size);
     }
@@ -240,7 +243,7 @@ bool check_draw_references(struct run *r, lam_error *error)
     r->shader = NULL;
     char text[400];
     expectation_describe(r->expectation, &r->interface, r->params->terms, text, sizeof text);
-    if (ok && text[0])
+    if (ok && text[0] && r->interface.printed_model != LAM_REFLECTION_NONE)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s", text);
     if (ok && numbers)
         diagnostics_add(

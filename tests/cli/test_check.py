@@ -122,13 +122,45 @@ class Right(CheckTest):
                 ("--reflection lambert --exposure 1", "sun"), ("--glsl 120", "point " * 90), ("--products", "sun " * 90), ("--show diffuse --reflection none", "")):
             with self.subTest(words + " " + lights):
                 self.good("shader", *words.split(), *[w for name in lights.split() for w in ("--light", light[name])], "-q", "-o", "p")
-                if "none" in words:  # without lighting it differs, but is drawn
-                    self.assertEqual(self.report_of("p.frag", "--vertex", "p.vert", code=6)["verdict"], "differs")
-                    continue
                 report = self.report_of("p.frag", "--vertex", "p.vert")
                 self.assertEqual((report["verdict"], report["contract"], report["notes"]), ("passes", "lambent", []))
                 self.assertIn("spot" if lights == "spot" else "directional" if lights in ("sun", "sun " * 90) else "near",
                               [scene["name"] for scene in report["scenes"]])
+
+    def test_printed_reflection_models(self):
+        """What `lambent shader` prints passes, with every reflection model: as it is, with products, and in two other forms."""
+        text = " ".join(self.good("shader", "--help").stdout.decode().split())
+        models = re.search(r"The reflection model: ([a-z, -]*) or auto\.", text)[1].split(", ")
+        self.assertGreaterEqual(len(models), 8)
+        forms = ("--glsl 120", "--glsl 300es --tone none", "--stage vertex", "--shading flat --color-mode raw", "--single-scattering --tone agx",
+                 "--viewer infinite --tone reinhard", "--gl1", "--gl1 --products", "--glsl 120 --products --tone aces", "--shading gouraud --one-sided")
+        files, printed = [], {}
+        for i, model in enumerate(models):
+            for words in ("", "--products", *(forms[(2 * i + k) % len(forms)] for k in range(2))):
+                name = f"p{len(printed):03}"
+                self.good("shader", "--reflection", model, *words.split(), "-q", "-o", name)
+                printed[name + ".frag"] = f"{model} {words}"
+                files += [name + ".frag", name + ".vert"]
+        done = self.run_program("check", *files, "-s", 48, "--json")
+        reports = {r["fragment"]: r for r in map(json.loads, done.stdout.splitlines())}
+        self.assertEqual(set(reports), set(printed), done.stderr)
+        for file, words in printed.items():
+            with self.subTest(words):
+                check_value(self, reports[file], SCHEMA, "check")
+                self.assertEqual((reports[file].get("verdict"), reports[file].get("contract"), reports[file].get("notes")), ("passes", "lambent", []), reports[file])
+                self.assertGreaterEqual(len(reports[file]["scenes"]), 2)
+
+    def test_printed_model_with_a_mistake(self):
+        """In a model of which no mistakes are known, the verdict is right and says so; in GGX they are found."""
+        for model, old, new, ids in (("oren-nayar", "b.diffuse * ", "0.5 * b.diffuse * ", None), ("ggx --single-scattering", "b.diffuse = b.diffuse * (1.0 - (", "b.diffuse = b.diffuse * (1.0 - 0.0 * (", ["diffuse-not-reduced"])):
+            with self.subTest(model):
+                self.good("shader", "--reflection", *model.split(), "-q", "-o", "p")
+                text = (self.folder / "p.frag").read_text()
+                self.assertEqual(text.count(old), 1, text)
+                (self.folder / "p.frag").write_text(text.replace(old, new))
+                report = self.report_of("p.frag", "--vertex", "p.vert", code=6)
+                self.assertEqual((report["verdict"], [m["id"] for m in report["mistakes"]]), ("differs", ids or []), report)
+                self.assertEqual("no mistakes are looked for" in " ".join(self.notes(report, "hint")), not ids)
 
     def test_printed_shaders_with_a_mistake(self):
         self.good("shader", "--light", "directional", "--light", "point:attenuation=1/0.1/0.02", "-q", "-o", "p")

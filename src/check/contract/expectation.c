@@ -87,7 +87,8 @@ static int specular_choices(const struct shader_interface *r, unsigned terms, un
     bool has_surface_color =
         names(r, SEMANTIC_SPECULAR) || names(r, SEMANTIC_SPECULAR_PRODUCT) || names(r, SEMANTIC_SPECULAR_COLOR);
     declared = declared || has_number(r, SEMANTIC_KS) || has_number(r, SEMANTIC_SHININESS) || r->physical;
-    unsigned white = surface || !has_surface_color || is_fixed(&d->specular_color) ? 0 : EXPECT_WHITE_SPECULAR;
+    unsigned white =
+        surface || !has_surface_color || is_fixed(&d->specular_color) || r->physical ? 0 : EXPECT_WHITE_SPECULAR;
     if (white && !declares(r, SEMANTIC_KS))
         white |= EXPECT_FULL_SPECULAR;
     int count = 0;

@@ -105,6 +105,7 @@ static void adapt_physical(const struct shader_interface *r, struct reference_sc
     const lam_rgb black = {0, 0, 0}, white = {1, 1, 1};
     bool own = declares(r, SEMANTIC_COLOR) || declares(r, SEMANTIC_DIFFUSE), dark = s->kd == 0 && s->ks == 0;
     s->physical = true;
+    s->is_radiance = !r->contract->printed;
     if (!own)
         s->diffuse = color_of(&d->diffuse_color, s->diffuse, s->diffuse, s->diffuse);
     if (!has_product(r, SEMANTIC_AMBIENT))
@@ -278,11 +279,13 @@ struct reference_scene shader_interface_scene(const struct shader_interface *r,
         adapt_physical(r, &s);
     } else {
         adapt_material(r, &s);
+        s.roughness_angle_rad = shader_interface_uses(r, SEMANTIC_ROUGHNESS_ANGLE) ? s.roughness : 0;
         s.metallic = s.roughness = 0;
     }
     s.ka = terms & TERM_AMBIENT ? s.ka : 0;
     s.kd = terms & TERM_DIFFUSE ? s.kd : 0;
     s.ks = terms & TERM_SPECULAR && !(r->supports & RULE_NO_SPECULAR) ? s.ks : 0;
+    s.dims_ambient = r->gl1;
     s.flat |= (r->supports & RULE_FLAT) != 0;
     if (!declares(r, SEMANTIC_SHININESS) && r->defaults.shininess.given)
         s.shininess = r->defaults.shininess.value;

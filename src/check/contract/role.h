@@ -11,6 +11,7 @@ enum uniform_semantic {
     SEMANTIC_POSITION,
     SEMANTIC_NORMAL,
     SEMANTIC_TEXCOORD,
+    SEMANTIC_TANGENT,
     // Uniforms.
     SEMANTIC_MODEL_VIEW,
     SEMANTIC_PROJECTION,
@@ -27,6 +28,7 @@ enum uniform_semantic {
     SEMANTIC_AMBIENT_PRODUCT,
     SEMANTIC_DIFFUSE_PRODUCT,
     SEMANTIC_SPECULAR_PRODUCT,
+    SEMANTIC_LIGHT_AMBIENT_PRODUCT, // of one light, which dims it
     // The strengths alone.
     SEMANTIC_KA,
     SEMANTIC_KD,
@@ -37,7 +39,8 @@ enum uniform_semantic {
     SEMANTIC_SHININESS,
     SEMANTIC_METALLIC,
     SEMANTIC_ROUGHNESS,
-    SEMANTIC_LIGHT_POSITION, // w 1; for a directional light the direction to it, w 0
+    SEMANTIC_ROUGHNESS_ANGLE, // Oren–Nayar's sigma
+    SEMANTIC_LIGHT_POSITION,  // w 1; for a directional light the direction to it, w 0
     SEMANTIC_LIGHT_X,
     SEMANTIC_LIGHT_Y,
     SEMANTIC_LIGHT_Z,

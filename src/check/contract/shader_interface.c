@@ -48,7 +48,7 @@ static bool is_light(enum uniform_semantic semantic) { return (role_of(semantic)
 
 static bool is_material(enum uniform_semantic semantic)
 {
-    return semantic >= SEMANTIC_AMBIENT && semantic <= SEMANTIC_ROUGHNESS;
+    return semantic >= SEMANTIC_AMBIENT && semantic <= SEMANTIC_ROUGHNESS_ANGLE;
 }
 
 // Whether a shader computes lighting: it declares a uniform of a material or light. The colour of the surface alone may
@@ -132,10 +132,53 @@ static bool is_flat(const struct declarations *fragment)
     return false;
 }
 
+// What a shader printed by `lambent shader` computes, by the functions in it. Lambert's lobe alone has no row: the others
+// stand on it, and it is the contract's own model without a highlight.
+static void find_printed(struct shader_interface *r)
+{
+    static const struct {
+        const char *function;
+        lam_reflection model;
+    } lobes[] = {{"ggx_lobe", LAM_REFLECTION_GGX},
+                 {"kajiya_kay_lecture_lobe", LAM_REFLECTION_KAJIYA_KAY_LECTURE},
+                 {"kajiya_kay_lobe", LAM_REFLECTION_KAJIYA_KAY},
+                 {"oren_nayar_lobe", LAM_REFLECTION_OREN_NAYAR},
+                 {"blinn_phong_lobe", LAM_REFLECTION_BLINN_PHONG},
+                 {"phong_lobe", LAM_REFLECTION_PHONG},
+                 {"unlit_terms", LAM_REFLECTION_NONE}};
+    static const struct {
+        const char *function;
+        lam_tone tone;
+    } curves[] = {{"reinhard_tone", LAM_TONE_REINHARD},
+                  {"aces_tone", LAM_TONE_ACES},
+                  {"agx_tone", LAM_TONE_AGX},
+                  {"khronos_neutral_tone", LAM_TONE_KHRONOS_NEUTRAL}};
+    const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
+    for (size_t i = 0; r->printed_model == LAM_REFLECTION_AUTO && i < sizeof lobes / sizeof *lobes; i++)
+        if (declarations_uses(lit, lobes[i].function))
+            r->printed_model = lobes[i].model;
+    for (size_t i = 0; i < sizeof curves / sizeof *curves; i++)
+        if (declarations_uses(&r->fragment, curves[i].function))
+            r->printed_tone = curves[i].tone;
+    r->multiple_scattering = declarations_uses(lit, "scattering_gain");
+    r->gl1 = declarations_uses(lit, "add_arriving_ambient");
+    for (int i = 0; i < lit->word_count; i++)
+        r->infinite_viewer = r->infinite_viewer || words_match(lit, i, "to_eye ( p , VIEWER_INFINITE )");
+}
+
+static bool has_highlight(lam_reflection model)
+{
+    return model != LAM_REFLECTION_AUTO && model != LAM_REFLECTION_NONE && model != LAM_REFLECTION_OREN_NAYAR;
+}
+
 static void apply_lambent_rules(struct shader_interface *r)
 {
     const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
     unsigned rules = lambent_light_rules(lit), first = rules >> RULE_FIRST & RULE_KIND;
+    if (r->contract->printed)
+        find_printed(r);
+    if (r->printed_model == LAM_REFLECTION_NONE)
+        r->supports &= ~(unsigned)NEED_TWO_SIDES;
     if (!r->contract->printed || !rules)
         return;
     r->supports &= ~(unsigned)(NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT);
@@ -144,9 +187,8 @@ static void apply_lambent_rules(struct shader_interface *r)
                                              : NEED_POINT;
     if (!declarations_uses(&r->fragment, "gl_FrontFacing"))
         r->supports &= ~(unsigned)NEED_TWO_SIDES;
-    r->phong = declarations_uses(lit, "phong_lobe");
     r->supports |= rules;
-    r->supports |= declarations_uses(lit, "blinn_phong_lobe") || r->phong ? 0 : RULE_NO_SPECULAR;
+    r->supports |= has_highlight(r->printed_model) ? 0 : RULE_NO_SPECULAR;
     r->supports |= is_flat(&r->fragment) ? RULE_FLAT : 0;
     for (int g = 0; g < MAX_LIGHT_GROUPS; g++) // the rules tell the kind of each
         r->groups[g].kinds |= NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT;
@@ -282,8 +324,10 @@ bool shader_interface_make(struct shader_interface *r, const struct complete_tex
     }
     find_declared(r);
     shader_constants_find(r);
-    r->physical = contract->reflection == LAM_REFLECTION_GGX || shader_interface_declares(r, SEMANTIC_METALLIC) ||
-                  shader_interface_declares(r, SEMANTIC_ROUGHNESS);
+    // A printed shader declares every member of a material, whatever it reads.
+    uint64_t named = contract->printed ? r->used : r->declared;
+    r->physical =
+        contract->reflection == LAM_REFLECTION_GGX || named >> SEMANTIC_METALLIC & 1 || named >> SEMANTIC_ROUGHNESS & 1;
     r->space = find_space(r);
     r->light_frame = find_light_frame(r);
     r->vertex_lit = texts->vertex && !is_lit(r, &r->fragment);

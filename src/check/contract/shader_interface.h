@@ -26,7 +26,12 @@ struct shader_interface {
     struct light_group groups[MAX_LIGHT_GROUPS];
     bool vertex_lit; // the fragment shader has no name of a material or light
     bool physical;   // metalness and roughness: contract->physical says how they are lit
-    bool phong;      // printed by `lambent shader --reflection phong`
+    // Of a shader printed by `lambent shader`: its reflection model, tone curve, and whether mirrors send light to one another.
+    // AUTO, AUTO and false: another shader, or Lambert's model.
+    lam_reflection printed_model;
+    lam_tone printed_tone;
+    bool multiple_scattering;
+    bool infinite_viewer, gl1; // likewise: --viewer infinite, --gl1
 };
 
 // The interface of a program's texts. `contract` must outlive it.

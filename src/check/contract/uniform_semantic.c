@@ -29,7 +29,7 @@ static lam_rgb product(lam_rgb a, lam_rgb b) { return (lam_rgb){a.r * b.r, a.g *
 static lam_rgb total_ambient(const struct reference_scene *s)
 {
     lam_rgb sum = {0, 0, 0};
-    for (int i = 0; i < s->light_count; i++)
+    for (int i = 0; i < s->light_count && !s->dims_ambient; i++)
         sum = (lam_rgb){sum.r + s->lights[i].ambient.r, sum.g + s->lights[i].ambient.g, sum.b + s->lights[i].ambient.b};
     return sum;
 }
@@ -60,9 +60,9 @@ static struct uniform_value cone(const struct reference_light *light)
     return (struct uniform_value){{cosine, light->exponent, cosine, 1e5f}};
 }
 
-// Shaders with metalness and roughness divide by pi, as published; lambent's lights have it in them: a white surface that
-// faces a light of 1 is 1.
-static float light_scale(const struct reference_scene *s) { return s->physical ? (float)PI : 1; }
+// Published shaders with metalness and roughness divide by pi; lambent's lights have it in them: a white surface that faces
+// a light of 1 is 1.
+static float light_scale(const struct reference_scene *s) { return s->is_radiance ? (float)PI : 1; }
 
 // The inverse transpose of the matrix from the model's space.
 static struct uniform_value normal_matrix(lam_light_frame space, const struct reference_matrices *m)
@@ -110,10 +110,14 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
         return color(product(s->ambient, product_of_light ? total_ambient(s) : one), s->ka, 1);
     case SEMANTIC_DIFFUSE:
     case SEMANTIC_DIFFUSE_PRODUCT:
-        return color(product(s->diffuse, product_of_light ? light->color : one), s->kd, s->alpha);
+        // Of a metal, no light is scattered: its product is 0 (metallic is 0 where there is no such name).
+        return color(product(s->diffuse, product_of_light ? light->color : one),
+                     product_of_light ? s->kd * (1 - s->metallic) : s->kd, s->alpha);
     case SEMANTIC_SPECULAR:
     case SEMANTIC_SPECULAR_PRODUCT:
         return color(product(s->specular, product_of_light ? light->specular : one), s->ks, 1);
+    case SEMANTIC_LIGHT_AMBIENT_PRODUCT:
+        return color(product(s->ambient, light->ambient), s->ka, 1);
     case SEMANTIC_KA:
         return number(s->ka);
     case SEMANTIC_KD:
@@ -140,6 +144,8 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
         return number(s->metallic);
     case SEMANTIC_ROUGHNESS:
         return number(s->roughness);
+    case SEMANTIC_ROUGHNESS_ANGLE:
+        return number(s->roughness_angle_rad);
     case SEMANTIC_LIGHT_KIND:
         return number(light->type == LAM_LIGHT_DIRECTIONAL ? 0 : light->type == LAM_LIGHT_POINT ? 1 : 2);
     case SEMANTIC_LIGHT_COLOR:

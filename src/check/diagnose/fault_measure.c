@@ -51,8 +51,8 @@ static void order_scenes(struct fault_measure *t)
 
 bool fault_measure_open(struct fault_measure *t, struct fault_search *s, lam_error *error)
 {
-    // Every second or third pixel of every second or third row tells as much: some 32² to 48² of them.
-    *t = (struct fault_measure){.s = s, .stride = s->size >= 96 ? (s->size + 20) / 43 : s->size >= 60 ? 2 : 1};
+    // In large pictures, every second or third pixel of every second or third row tells as much: 35² to 48² of them.
+    *t = (struct fault_measure){.s = s, .stride = s->size >= 96 ? (s->size + 20) / 43 : s->size >= 70 ? 2 : 1};
     t->size = fault_shader_size(s->size, t->stride);
     size_t pixels = (size_t)t->size * (size_t)t->size, count = (size_t)s->scene_count;
     t->pixels = malloc(4 * pixels * sizeof *t->pixels);
@@ -84,8 +84,11 @@ bool fault_measure_draw(struct fault_measure *t, int index, const fault_set *set
     struct fault_search *s = t->s;
     if (!t->shader && !(t->shader = render_cache_take_shader(s->cache, s->gl_device, s->size, t->stride, error)))
         return false;
-    return fault_shader_draw(t->shader, &t->scenes[index].reference_scene, s->interface, s->light_capacity, s->frame,
-                             s->reflection, set, pixels, error);
+    if (!fault_shader_draw(t->shader, &t->scenes[index].reference_scene, s->interface, s->light_capacity, s->frame,
+                           s->reflection, set, pixels, error))
+        return false;
+    scene_comparison_apply_tone(s->interface->printed_tone, pixels, (size_t)t->size * (size_t)t->size);
+    return true;
 }
 
 // The samples of a scene drawn with faults. NULL: see `error`.
@@ -103,6 +106,7 @@ static const float *render_faults(struct fault_measure *t, int index, const faul
                              .size = s->size,
                              .light_capacity = s->light_capacity,
                              .supports = s->interface->supports,
+                             .tone = s->interface->printed_tone,
                              .expectation = s->expectation,
                              .set = *set};
     const float *kept = render_cache_find(s->cache, &key);

@@ -13,12 +13,13 @@
 
 #include "fail.h"
 
-enum { BEAM = 6, IDLE_SCENES = 3 };
+enum { BEAM = 6, IDLE_SCENES = 4 };
 
 // As fractions of the difference without faults:
 static const double max_ratio_explained = 0.125;  // may remain of a scene, or of all, that is explained
 static const double max_score_for_a_third = 0.75; // may remain after two faults for a search of three to be worthwhile
 static const double min_gain = 0.03;              // each fault more must explain
+static const double min_idle_gain = 0.001;        // of one set over another with a fault less, in some scenes
 static const double max_rival = 1.25;             // times as much a rival may leave over all scenes
 // As mean differences: what rounding leaves of an exact explanation, over all scenes and in one; and the difference
 // between the same pictures.
@@ -124,7 +125,7 @@ static bool is_idle(const struct state *t, const struct candidate *c, const stru
     double gained = 0;
     for (int k = 0; k < count; k++)
         gained += parent->parts[order[k]] - c->parts[order[k]];
-    return gained < min_gain * count / t->m.differ_count;
+    return gained < min_idle_gain * count / t->m.differ_count;
 }
 
 // Measures a parent with one more fault, alone known as `o`. `useful`: its score is within the limit, and less than its

@@ -329,5 +329,5 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     bool closed = reference_scene->mesh == MESH_SPHERE || reference_scene->mesh == MESH_COARSE;
     (closed ? gl->Enable : gl->Disable)(GL_CULL_FACE);
     gl->CullFace(fault_set_has(set, BIT_UPSIDE_DOWN) ? GL_FRONT : GL_BACK);
-    return offscreen_draw(&m->offscreen, reference_scene->mesh, 0, 1, pixels, error);
+    return offscreen_draw(&m->offscreen, reference_scene->mesh, (struct offscreen_places){0, 1, -1}, pixels, error);
 }

@@ -68,6 +68,7 @@ static size_t bucket_of(const struct render_key *k)
                               (uint64_t)k->size,
                               (uint64_t)k->light_capacity,
                               k->supports,
+                              (uint64_t)k->tone,
                               k->expectation,
                               k->set.words[0],
                               k->set.words[1],
@@ -85,7 +86,8 @@ static bool same(const struct render_key *a, const struct render_key *b)
     return a->scene == b->scene && a->contract == b->contract && a->declared == b->declared &&
            a->numbers == b->numbers && a->light_frame == b->light_frame && a->reflection == b->reflection &&
            a->vertex_lit == b->vertex_lit && a->size == b->size && a->light_capacity == b->light_capacity &&
-           a->supports == b->supports && a->expectation == b->expectation && fault_set_equal(&a->set, &b->set);
+           a->supports == b->supports && a->tone == b->tone && a->expectation == b->expectation &&
+           fault_set_equal(&a->set, &b->set);
 }
 
 static const struct cached_render *find(const lam_check_cache *cache, const struct render_key *key)

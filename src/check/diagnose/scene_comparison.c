@@ -21,6 +21,17 @@ void scene_comparison_find_inside(struct scene_comparison *scene, int size)
         }
 }
 
+void scene_comparison_apply_tone(lam_tone tone, float *pixels, size_t count)
+{
+    for (size_t i = 0; i < count && tone != LAM_TONE_AUTO; i++) {
+        float *p = pixels + 4 * i;
+        lam_rgb c = lam_tone_apply(tone, (lam_rgb){p[0], p[1], p[2]});
+        p[0] = c.r;
+        p[1] = c.g;
+        p[2] = c.b;
+    }
+}
+
 size_t scene_comparison_sample_count(const struct scene_comparison *scene)
 {
     return scene->inside_count * (scene->alpha ? 4 : 3);

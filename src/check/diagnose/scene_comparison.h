@@ -28,6 +28,9 @@ struct difference {
 // Finds the pixels to compare. The caller allocates `inside`, of size² elements.
 void scene_comparison_find_inside(struct scene_comparison *scene, int size);
 
+// Applies the tone curve of a shader printed by `lambent shader`. AUTO: none.
+void scene_comparison_apply_tone(lam_tone tone, float *pixels, size_t count);
+
 // Copies the compared pixels of a picture to `out`: red, green, blue (clamped to 0…1), and alpha where it is compared.
 size_t scene_comparison_sample_count(const struct scene_comparison *scene);
 void scene_comparison_sample(const struct scene_comparison *scene, const float *picture, float *out);

@@ -40,7 +40,7 @@ struct shader_run {
     struct draw_request request;
     struct draw_result drawn;
     GLuint program;
-    int position, normal;             // attribute locations; −1: built in, or none
+    struct offscreen_places places;
     struct uniform_binding *bindings; // one for each element of each uniform
     int binding_count;
     GLuint blocks[MAX_BLOCKS];
@@ -169,7 +169,7 @@ static void find_attributes(struct shader_run *run)
 {
     const struct gl *gl = &run->offscreen.context.gl;
     GLint count = 0;
-    run->position = run->normal = -1;
+    run->places = (struct offscreen_places){-1, -1, -1};
     gl->GetProgramiv(run->program, GL_ACTIVE_ATTRIBUTES, &count);
     for (GLuint i = 0; i < (GLuint)count; i++) {
         char name[128];
@@ -182,9 +182,11 @@ static void find_attributes(struct shader_run *run)
         if (!known)
             report_unknown(&run->drawn, name);
         else if (known->semantic == SEMANTIC_POSITION)
-            run->position = gl->GetAttribLocation(run->program, name);
+            run->places.position = gl->GetAttribLocation(run->program, name);
         else if (known->semantic == SEMANTIC_NORMAL)
-            run->normal = gl->GetAttribLocation(run->program, name);
+            run->places.normal = gl->GetAttribLocation(run->program, name);
+        else if (known->semantic == SEMANTIC_TANGENT)
+            run->places.tangent = gl->GetAttribLocation(run->program, name);
     }
 }
 
@@ -391,8 +393,7 @@ static bool draw_scenes(struct shader_run *run, enum gl_profile profile, float *
             for (int turn = 0; turn == 0 || (turn == 1 && taken > limit);
                  turn++) { // the driver may compile during the first
                 double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
-                if (!offscreen_draw(&run->offscreen, reference_scene.mesh, run->position, run->normal, pixels + at,
-                                    error))
+                if (!offscreen_draw(&run->offscreen, reference_scene.mesh, run->places, pixels + at, error))
                     return false;
                 taken = seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
             }

@@ -53,6 +53,7 @@ void offscreen_close(struct offscreen *t)
     const struct gl *gl = &t->context.gl;
     gl->DeleteBuffers(MESH_COUNT, t->positions);
     gl->DeleteBuffers(MESH_COUNT, t->normals);
+    gl->DeleteBuffers(MESH_COUNT, t->tangents);
     gl->DeleteBuffers(MESH_COUNT, t->indices);
     gl->DeleteVertexArrays(1, &t->array);
     gl->DeleteFramebuffers(1, &t->framebuffer);
@@ -94,6 +95,9 @@ static bool upload_mesh(struct offscreen *t, enum reference_mesh mesh, lam_error
     gl->GenBuffers(1, &t->normals[mesh]);
     gl->BindBuffer(GL_ARRAY_BUFFER, t->normals[mesh]);
     gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * 4 * sizeof(float)), four, GL_STATIC_DRAW);
+    gl->GenBuffers(1, &t->tangents[mesh]);
+    gl->BindBuffer(GL_ARRAY_BUFFER, t->tangents[mesh]);
+    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * 3 * sizeof(float)), points.tangents, GL_STATIC_DRAW);
     gl->GenBuffers(1, &t->indices[mesh]);
     gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, t->indices[mesh]);
     gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)((size_t)points.count * sizeof *points.indices), points.indices,
@@ -120,17 +124,19 @@ static void point_at(const struct gl *gl, GLuint buffer, int place, int width, b
     }
 }
 
-bool offscreen_draw(struct offscreen *t, enum reference_mesh mesh, int position, int normal, float *pixels,
+bool offscreen_draw(struct offscreen *t, enum reference_mesh mesh, struct offscreen_places places, float *pixels,
                     lam_error *error)
 {
     const struct gl *gl = &t->context.gl;
     if (!upload_mesh(t, mesh, error))
         return false;
     bool built_in = t->built_ins && gl->VertexPointer && gl->NormalPointer && gl->EnableClientState;
-    if (position >= 0 || built_in)
-        point_at(gl, t->positions[mesh], position, 3, false);
-    if (normal >= 0 || built_in)
-        point_at(gl, t->normals[mesh], normal, 4, true);
+    if (places.position >= 0 || built_in)
+        point_at(gl, t->positions[mesh], places.position, 3, false);
+    if (places.normal >= 0 || built_in)
+        point_at(gl, t->normals[mesh], places.normal, 4, true);
+    if (places.tangent >= 0)
+        point_at(gl, t->tangents[mesh], places.tangent, 3, false);
     gl->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, t->indices[mesh]);
     gl->DrawElements(GL_TRIANGLES, t->counts[mesh], GL_UNSIGNED_SHORT, NULL);

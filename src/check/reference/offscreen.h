@@ -14,6 +14,7 @@ struct offscreen {
     GLuint framebuffer, color, depth, array;
     GLuint positions[MESH_COUNT]; // buffers of 3 floats a vertex
     GLuint normals[MESH_COUNT];   // of 4 floats, w 0
+    GLuint tangents[MESH_COUNT];  // of 3 floats
     GLuint indices[MESH_COUNT];   // three of a triangle
     int counts[MESH_COUNT];       // of indices
 };
@@ -25,9 +26,13 @@ void offscreen_close(struct offscreen *t);
 void offscreen_rest(struct offscreen *t);
 bool offscreen_wake(struct offscreen *t, lam_error *error);
 
-// Clears, draws the mesh with the current program, and reads the picture, rows top-down. `position` and `normal`:
-// attribute locations; −1: the built-in attributes of compatibility contexts.
-bool offscreen_draw(struct offscreen *t, enum reference_mesh mesh, int position, int normal, float *pixels,
+// Attribute locations. −1: of position and normal, the built-in attributes of compatibility contexts; no tangent.
+struct offscreen_places {
+    int position, normal, tangent;
+};
+
+// Clears, draws the mesh with the current program, and reads the picture, rows top-down.
+bool offscreen_draw(struct offscreen *t, enum reference_mesh mesh, struct offscreen_places places, float *pixels,
                     lam_error *error);
 
 // Compiles a shader. 0: it does not compile; `log` has the driver's messages.

@@ -175,7 +175,9 @@ static void share_vertices(const lam_mesh *m, struct reference_points *points, i
         size_t p = m->indices ? m->indices[i] : i;
         size_t n = m->normal_indices ? m->normal_indices[i] : p;
         int32_t v = heads[p];
-        while (v >= 0 && memcmp(points->normals + 3 * (size_t)v, m->normals + 3 * n, 3 * sizeof(float)) != 0)
+        const float *tangent = m->tangents + 4 * (size_t)(m->tangent_indices ? m->tangent_indices[i] : p);
+        while (v >= 0 && (memcmp(points->normals + 3 * (size_t)v, m->normals + 3 * n, 3 * sizeof(float)) != 0 ||
+                          memcmp(points->tangents + 3 * (size_t)v, tangent, 3 * sizeof(float)) != 0))
             v = next[v];
         if (v < 0) {
             v = points->vertex_count++;
@@ -184,6 +186,7 @@ static void share_vertices(const lam_mesh *m, struct reference_points *points, i
             for (size_t k = 0; k < 3; k++) {
                 points->positions[3 * (size_t)v + k] = m->positions[3 * p + k] + (float)m->origin[k];
                 points->normals[3 * (size_t)v + k] = m->normals[3 * n + k];
+                points->tangents[3 * (size_t)v + k] = tangent[k];
             }
         }
         points->indices[i] = (uint16_t)v;
@@ -204,22 +207,24 @@ bool reference_points(enum reference_mesh mesh, struct reference_points *points,
     points->count = (int)count;
     points->positions = malloc(count * 3 * sizeof(float));
     points->normals = malloc(count * 3 * sizeof(float));
+    points->tangents = malloc(count * 3 * sizeof(float));
     points->indices = malloc(count * sizeof *points->indices);
     int32_t *heads = malloc((positions + count) * sizeof *heads);
-    bool ok = points->positions && points->normals && points->indices && heads;
+    bool ok = points->positions && points->normals && points->tangents && points->indices && heads;
     if (ok)
         share_vertices(m, points, heads, heads + positions);
     else
         reference_points_free(points);
     free(heads);
     lam_scene_free(scene);
-    return ok || fail_memory(error, count * 8 * sizeof(float));
+    return ok || fail_memory(error, count * 11 * sizeof(float));
 }
 
 void reference_points_free(struct reference_points *points)
 {
     free(points->positions);
     free(points->normals);
+    free(points->tangents);
     free(points->indices);
     *points = (struct reference_points){0};
 }
@@ -300,6 +305,7 @@ lam_scene *reference_to_scene(const struct reference_scene *s, lam_camera *camer
     material.physical = s->physical;
     material.metallic = s->metallic;
     material.roughness = s->roughness;
+    material.roughness_angle_rad = s->roughness_angle_rad;
     lam_object object = lam_object_default();
     object.mesh = add_mesh(scene, s->mesh, error);
     object.material = object.mesh < 0 ? -1 : lam_scene_add_material(scene, &material, error);

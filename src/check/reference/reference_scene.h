@@ -67,6 +67,9 @@ struct reference_scene {
     // Of shaders with metalness and roughness: `diffuse` is then the base colour, and kd and ks are 1.
     float metallic, roughness;
     bool physical;
+    bool is_radiance;          // the shader divides by pi: the lights that it gets are pi times as bright
+    bool dims_ambient;         // OpenGL 1: the lights' own ambient light is attenuated, and there is no other
+    float roughness_angle_rad; // of shaders of rough matt surfaces (Oren–Nayar)
     bool flat;
     int light_count;
     struct reference_light lights[MAX_SCENE_LIGHTS];
@@ -77,10 +80,10 @@ extern const int reference_scene_count;
 
 int reference_scene_find(const char *name); // −1: none
 
-// Positions and normals of vertices, three floats each, no two with both the same, and three indices of them for each
+// Positions, normals and tangents of vertices, three floats each, no two with all the same, and three indices of them for each
 // triangle: few enough for OpenGL ES 2, whose indices have 16 bits. From malloc.
 struct reference_points {
-    float *positions, *normals;
+    float *positions, *normals, *tangents;
     uint16_t *indices;
     int vertex_count, count; // `count`: of indices
 };

@@ -212,9 +212,9 @@ static uint32_t u32_of(const uint8_t *at)
 // The most bytes that put_frame appends for a frame: its chunks, each with a number, one that is open, and those of the animation.
 static size_t frame_bytes(const struct apng_frame *frame)
 {
-    const uint8_t *at = frame->png.data + SIGNATURE, *end = frame->png.data + frame->png.size;
+    const uint8_t *at = frame->png.data, *end = at + frame->png.size;
     size_t bytes = frame->png.size + (size_t)3 * CHUNK_BYTES + CONTROL_BYTES + 8;
-    for (; at < end; at += u32_of(at) + CHUNK_BYTES)
+    for (at += SIGNATURE; at < end; at += u32_of(at) + CHUNK_BYTES)
         bytes += SEQUENCE_BYTES;
     return bytes;
 }

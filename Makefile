@@ -13,7 +13,7 @@ all: $(build)/lambent
 help:
 	@echo 'make            builds $(build)/lambent (missing Debian packages are installed first)'
 	@echo 'make demo       builds and renders the Utah teapot to out/demo.png'
-	@echo 'make web        builds the WebAssembly modules, in build-web/'
+	@echo 'make web        builds the WebAssembly module and the page, in build-web/'
 	@echo 'make test       builds and runs the whole test suite, both compilers, with sanitizers'
 	@echo 'make test-long  what takes too long for make test: kills, 20,000 pictures, other processors under qemu, a Slurm'
 	@echo 'make test-gl    the tests of OpenGL alone; names the driver that they ran on'

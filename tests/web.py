@@ -167,6 +167,10 @@ def main():
     if done.returncode == 0:
         check_hashes(results)
         check_module(results, program)
+        done = node("page.mjs", os.path.join(OUT, "lambent.html"))
+        for line in done.stdout.splitlines():
+            results.ok(line.startswith("ok "), "page: " + line.split(" ", 1 if line.startswith("ok ") else 2)[-1])
+        results.ok(done.returncode == 0 and len(done.stdout.splitlines()) > 15, "page: all of its checks ran", done.stderr)
     print("1..%d" % results.count)
     return 1 if results.failed else 0
 

@@ -1,7 +1,11 @@
 #!/usr/bin/env python3
 """build.py [FOLDER]: the modules for the web in FOLDER (build-web): the libraries (libraries.py), then WebAssembly by Meson and
 clang 19. What is up to date is left alone. `make web` calls it; packages: group `web` of packages.txt."""
+import base64
+import gzip
+import hashlib
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -25,6 +29,62 @@ def call(*command):
     return done.stdout
 
 
+# The page's scripts, each after those that it imports.
+PAGE = ["camera.js", "state.js", "explanation.js", "panel.js", "start.js", "page.js"]
+WORKER = ["wasi.js", "lambent.js", "worker.js"]
+
+# In place of start.js's openWorker: the worker and the module stand in the page itself.
+START_INSIDE = """function openWorker() {
+  const text = (id) => document.getElementById(id).textContent;
+  const worker = new Worker(URL.createObjectURL(new Blob([text('worker')], { type: 'text/javascript' })));
+  const packed = Uint8Array.from(atob(text('wasm')), (letter) => letter.charCodeAt(0));
+  const wasm = new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+  return caller(worker, wasm);
+}
+"""
+
+
+def page_file(name):
+    path = os.path.join(HERE, "page", name)
+    return open(path if os.path.exists(path) else os.path.join(HERE, name)).read()
+
+
+def plain_script(names):
+    """Modules as one script: their imports are of one another. Names at the top of two of them would collide: an error of the script."""
+    text = "\n".join(page_file(name) for name in names)
+    text = re.sub(r"^import .*\n", "", text, flags=re.M)
+    text = re.sub(r"^export \{.*\};\n", "", text, flags=re.M)
+    return re.sub(r"^export ", "", text, flags=re.M)
+
+
+def source_hash(text):
+    return "'sha256-%s'" % base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
+def make_page(folder, wasm):
+    """The page as files that a server serves, and as one file that works by itself."""
+    served = os.path.join(folder, "page")
+    os.makedirs(served, exist_ok=True)
+    for name in PAGE + WORKER + ["index.html", "page.css", "lambent.d.ts"]:
+        open(os.path.join(served, name), "w").write(page_file(name))
+    shutil.copy(wasm, os.path.join(served, "lambent.wasm"))
+
+    style = page_file("page.css")
+    script = plain_script(PAGE)
+    script = re.sub(r"function openWorker\(\) \{.*?\n\}\n", lambda _: START_INSIDE, script, count=1, flags=re.S)
+    page = page_file("index.html")
+    policy = ("default-src 'none'; script-src %s blob: 'wasm-unsafe-eval'; worker-src blob:; style-src %s; img-src blob: data:; base-uri 'none'; "
+              "form-action 'none'" % (source_hash(script), source_hash(style)))
+    page = re.sub(r'(Content-Security-Policy" content=")[^"]*', lambda m: m[1] + policy, page)
+    page = page.replace('<link rel="stylesheet" href="page.css">', "<style>%s</style>" % style)
+    page = page.replace('<script type="module" src="page.js"></script>', "")
+    packed = base64.b64encode(gzip.compress(open(wasm, "rb").read(), 9, mtime=0)).decode()
+    inside = ('<script type="text/plain" id="worker">%s</script>\n<script type="text/plain" id="wasm">%s</script>\n'
+              '<script type="module">%s</script>\n</body>' % (plain_script(WORKER), packed, script))
+    page = page.replace("</body>", inside)
+    open(os.path.join(folder, "lambent.html"), "w").write(page)
+
+
 def main():
     folder = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else os.path.join(ROOT, "build-web"))
     if missing():
@@ -43,6 +103,7 @@ def main():
     output = call("ninja", "-C", wasm)
     if "warning:" in output:
         sys.exit("web: the compiler warns:\n" + output[-4000:])
+    make_page(folder, os.path.join(wasm, "web", "lambent.wasm"))
 
 
 if __name__ == "__main__":

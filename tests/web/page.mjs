@@ -1,0 +1,51 @@
+// page.mjs ONE_FILE: the page's state, its camera and the page in one file, without a browser: lines of the Test Anything Protocol without
+// numbers.
+import { createHash } from 'node:crypto';
+import { readFileSync } from 'node:fs';
+import { around, cameraText, orbit, pan, zoom } from '../../web/page/camera.js';
+import { State, command, fromFragment, quoted, toFragment } from '../../web/page/state.js';
+
+const ok = (good, label) => console.log(`${good ? 'ok' : 'not ok'} ${label}`);
+const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+const near = (a, b) => a.every((x, i) => Math.abs(x - b[i]) < 1e-9);
+
+// The state is a list of words; one gesture is one step of undo.
+const state = new State(['teapot', '--size=64']);
+state.set(state.withValues('light', ['position=1/2/3', 'position=3/2/1']));
+state.set(state.withValues('size', ['128']));
+ok(same(state.words, ['teapot', '--size=128', '--light=position=1/2/3', '--light=position=3/2/1']), 'options stay in their places');
+ok(same(state.values('light'), ['position=1/2/3', 'position=3/2/1']) && same(state.values('lights'), []), 'values of an option that repeats');
+for (const angle of ['1', '2', '3']) state.set(state.withValues('azimuth', [angle]), 'gesture');
+state.undo();
+ok(!state.values('azimuth').length, 'a gesture is undone at once');
+state.redo();
+ok(same(state.values('azimuth'), ['3']) && !state.canRedo, 'and redone');
+state.set(state.withValues('two-sided', ['']));
+ok(state.words.at(-1) === '--two-sided' && same(state.withValues('two-sided', []).includes('--two-sided'), false), 'a switch has no value');
+
+// Links and commands hold every word.
+const odd = ["/my models/it's.obj", '--color=#ff8800', '--light=position=1/2/3,name=a&b%', '--material=Bühne'];
+ok(same(fromFragment(toFragment(odd)), odd), 'a link holds the words');
+ok(fromFragment('#%') === null && fromFragment('') === null, 'a damaged link is none');
+ok(command(odd) === "lambent 'my models/it'\\''s.obj' '--color=#ff8800' '--light=position=1/2/3,name=a&b%' '--material=Bühne'", 'a command is quoted');
+ok(command(['/teapot']) === 'lambent ./teapot' && command(['/-x.obj']) === 'lambent ./-x.obj' && command(['teapot']) === 'lambent teapot', 'files are no shapes or options');
+ok(quoted('a;b') === "'a;b'" && quoted('x/y.obj') === 'x/y.obj', 'quotes where a shell needs them');
+
+// The camera.
+const camera = { eye: [0, 0, 5], target: [0, 0, 0], up: [0, 1, 0], fovy_deg: 30, ortho: 0 };
+ok(near(orbit(camera, Math.PI / 2, 0, [0, 1, 0], [0, 0, 0]).eye, [5, 0, 0]), 'a quarter of a turn to the right');
+ok(near(orbit(orbit(camera, 0.3, 0.2, [0, 1, 0], [0, 0, 0]), -0.3, -0.2, [0, 1, 0], [0, 0, 0]).eye, [0, 0, 5]), 'there and back');
+const high = orbit(camera, 0, 3, [0, 1, 0], [0, 0, 0]).eye;
+ok(high[1] > 4.99 && high[2] > 0, 'it stays below the pole');
+ok(near(pan(camera, 0.5, 0).target, [-5 * Math.tan(Math.PI / 12), 0, 0]), 'half a picture to the side');
+ok(near(zoom(camera, 2).eye, [0, 0, 2.5]) && zoom({ ...camera, ortho: 3 }, 2).ortho === 1.5, 'zoom');
+ok(Math.abs(around(camera, { centre: [1, 2, 3], radius: 2 }, 1).eye[2] - 3 - 2 / Math.sin(Math.PI / 12)) < 1e-9, 'a ball fills the picture');
+ok(cameraText(orbit(camera, 1, 0.5, [0, 1, 0], [0, 0, 0])) === 'eye=3.6923/2.39713/2.3708,target=0/0/0,up=0/1/0,fovy=30', 'decimal text');
+
+// The page in one file: its policy names its own script and style, and nothing is fetched.
+const page = readFileSync(process.argv[2], 'utf8');
+const hash = (text) => `'sha256-${createHash('sha256').update(text).digest('base64')}'`;
+const script = /<script type="module">([^]*?)<\/script>/.exec(page)[1], style = /<style>([^]*?)<\/style>/.exec(page)[1];
+const policy = /Content-Security-Policy" content="([^"]*)"/.exec(page)[1];
+ok(policy.startsWith("default-src 'none'; ") && policy.includes(hash(script)) && policy.includes(hash(style)), 'the policy names the script and the style');
+ok(!/^(import|export) /m.test(script) && !/fetch\(/.test(script) && !/(src|href)="(?!data:)/.test(page), 'one file needs no other');

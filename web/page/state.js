@@ -1,0 +1,100 @@
+// state.js: the state of the page: the words of a command line. Options stand in the order in which they were given; undo and redo
+// are lists of such states, a link is one in the address, and what is drawn, shown and copied is the same list.
+
+export class State {
+  #past = [];
+  #future = [];
+  #mergeKey = null;
+
+  constructor(words) {
+    this.words = words;
+    this.onchange = () => {};
+  }
+
+  // Sets the words. Changes in one gesture (the same key) are one step of undo.
+  set(words, mergeKey = null) {
+    if (words.length === this.words.length && words.every((word, i) => word === this.words[i])) return;
+    if (!mergeKey || mergeKey !== this.#mergeKey) this.#past.push(this.words);
+    this.#mergeKey = mergeKey;
+    this.#future = [];
+    this.words = words;
+    this.onchange();
+  }
+
+  endGesture() {
+    this.#mergeKey = null;
+  }
+
+  #go(from, to) {
+    if (!from.length) return;
+    to.push(this.words);
+    this.words = from.pop();
+    this.#mergeKey = null;
+    this.onchange();
+  }
+
+  undo() {
+    this.#go(this.#past, this.#future);
+  }
+
+  redo() {
+    this.#go(this.#future, this.#past);
+  }
+
+  get canUndo() {
+    return this.#past.length > 0;
+  }
+
+  get canRedo() {
+    return this.#future.length > 0;
+  }
+
+  get model() {
+    return this.words[0];
+  }
+
+  // The values of an option, in order; a switch has ''. Words are "--name=value" or "--name".
+  values(name) {
+    return this.words
+      .slice(1)
+      .filter((word) => word === `--${name}` || word.startsWith(`--${name}=`))
+      .map((word) => word.slice(name.length + 3));
+  }
+
+  // The words with other values of an option; none: without it. It stays in its place.
+  withValues(name, values) {
+    const is = (word) => word === `--${name}` || word.startsWith(`--${name}=`);
+    const at = this.words.findIndex((word, i) => i > 0 && is(word));
+    const words = this.words.filter((word, i) => i === 0 || !is(word));
+    const added = values.map((value) => (value === '' ? `--${name}` : `--${name}=${value}`));
+    words.splice(at < 0 ? words.length : at, 0, ...added);
+    return words;
+  }
+}
+
+// A word as a POSIX shell reads it.
+export function quoted(word) {
+  return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
+}
+
+// The command that draws the same picture; files are named as they lie in the folder that was opened.
+export function command(words) {
+  const model = words[0].replace(/^\//, '');
+  // A file that has the name of a shape or a command, or begins as an option does, is named by its folder.
+  const named = model !== words[0] && (!/[./]/.test(model) || model.startsWith('-')) ? './' + model : model;
+  return ['lambent', named, ...words.slice(1)].map(quoted).join(' ');
+}
+
+// The state in the fragment of an address, and back. Null: there is none.
+export function toFragment(words) {
+  return '#' + words.map(encodeURIComponent).join('&');
+}
+
+export function fromFragment(fragment) {
+  if (fragment.length < 2) return null;
+  try {
+    return fragment.slice(1).split('&').map(decodeURIComponent);
+  } catch {
+    return null;
+  }
+}

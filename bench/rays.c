@@ -51,19 +51,19 @@ static void make_rays(const struct hierarchy *h, const double light[3])
         double nearest = 1e9;
         uint32_t own = 0;
         // The nearest triangle, by walking every node (not measured).
-        uint32_t stack[2 * HIERARCHY_DEPTH][2] = {{0, 0}};
+        uint32_t stack[NODE_CHILDREN * HIERARCHY_DEPTH][2] = {{0, 0}};
         for (int waiting = 1; waiting;) {
             uint32_t child = stack[--waiting][0], count = stack[waiting][1];
-            for (int i = 0; i < 2 && !count; i++) {
+            for (int i = 0; i < NODE_CHILDREN && !count; i++) {
                 const struct ray_node *node = &h->nodes[child];
                 double near = 0, far = nearest;
                 for (int k = 0; k < 3; k++) {
-                    double u = ((double)node->low[i][k] - 1e-6 - origin[k]) / d[k],
-                           v = ((double)node->high[i][k] + 1e-6 - origin[k]) / d[k];
-                    near = fmax(near, fmin(u, v));
-                    far = fmin(far, fmax(u, v));
+                    double u = ((double)node->planes[0][k][i] - 1e-6 - origin[k]) / d[k],
+                           v = ((double)node->planes[1][k][i] + 1e-6 - origin[k]) / d[k];
+                    near = u < v ? fmax(near, u) : fmax(near, v);
+                    far = u < v ? fmin(far, v) : fmin(far, u);
                 }
-                if (near <= far) {
+                if (near <= far && node->planes[0][0][i] <= node->planes[1][0][i]) {
                     stack[waiting][0] = node->child[i];
                     stack[waiting++][1] = node->count[i];
                 }

@@ -1,7 +1,7 @@
 // gl_shadows.c: the hierarchy of a frame as a float texture, which the fragment shader walks (shadows.glsl).
 //
-// Texels: four for each node (the low and high corner of the left child with its number and its count of triangles, those of
-// the right), six for each triangle in the order of the leaves (corners, with the twin and a kind; normals of the corners,
+// Texels: two for each child of a node (the low corner of its box with its number; the high corner with twice its count of
+// triangles, and one more where no further child follows), six for each triangle in the order of the leaves (corners, with the twin and a kind; normals of the corners,
 // unit), and a number for each triangle of the frame: its place in that order.
 #include "gl_device.h"
 
@@ -9,8 +9,16 @@
 
 #include <string.h>
 
-enum { WIDTH = GLSL_LIST_WIDTH, TEXEL = 4 * sizeof(float), NODE = 4, TRIANGLE = 6, STACK = 64 };
+enum { WIDTH = GLSL_LIST_WIDTH, TEXEL = 4 * sizeof(float), NODE = 2 * NODE_CHILDREN, TRIANGLE = 6, STACK = 64 };
 enum { KIND_FLAT, KIND_CURVED, KIND_APART }; // APART: casts no shadow, and is in no ray's way
+
+static int children_of(const struct ray_node *node)
+{
+    int count = 0;
+    while (count < NODE_CHILDREN && node->planes[0][0][count] <= node->planes[1][0][count])
+        count++;
+    return count;
+}
 
 // The nodes between the root and the deepest leaf.
 static int depth_of(const struct hierarchy *h)
@@ -18,14 +26,14 @@ static int depth_of(const struct hierarchy *h)
     struct {
         uint32_t node;
         int depth;
-    } stack[2 * HIERARCHY_DEPTH] = {{0, 1}};
+    } stack[NODE_CHILDREN * HIERARCHY_DEPTH] = {{0, 1}};
     int deepest = 0;
     for (int waiting = 1; waiting;) {
         waiting--;
         uint32_t node = stack[waiting].node;
         int depth = stack[waiting].depth;
         deepest = depth > deepest ? depth : deepest;
-        for (int i = 0; i < 2; i++)
+        for (int i = 0; i < children_of(&h->nodes[node]); i++)
             if (!h->nodes[node].count[i]) {
                 stack[waiting].node = h->nodes[node].child[i];
                 stack[waiting++].depth = depth + 1;
@@ -36,11 +44,14 @@ static int depth_of(const struct hierarchy *h)
 
 static void pack_node(float *out, const struct ray_node *node)
 {
-    for (int i = 0; i < 2; i++) {
-        memcpy(out + 8 * i, node->low[i], 3 * sizeof *out);
-        memcpy(out + 8 * i + 4, node->high[i], 3 * sizeof *out);
+    int count = children_of(node) ? children_of(node) : 1; // a box that no ray meets, where nothing casts shadows
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k < 3; k++) {
+            out[8 * i + k] = node->planes[0][k][i];
+            out[8 * i + 4 + k] = node->planes[1][k][i];
+        }
         out[8 * i + 3] = (float)node->child[i];
-        out[8 * i + 7] = (float)node->count[i];
+        out[8 * i + 7] = (float)(2 * node->count[i] + (i == count - 1));
     }
 }
 

@@ -93,9 +93,9 @@ bool crosses(int at, vec3 d, int k, float end)
 
 bool any_hit(vec3 d, float end)
 {
-    ivec2 stack[64];
+    int stack[64];
     int waiting = 0;
-    ivec2 entry = ivec2(0); // a node, or the first triangle of a leaf and their number
+    int at = 0; // the texel of the next child to be tested
     vec3 size = abs(d);
     int k = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
     vec3 least = vec3(d.x < 0.0 ? -1.0e-30 : 1.0e-30, d.y < 0.0 ? -1.0e-30 : 1.0e-30, d.z < 0.0 ? -1.0e-30 : 1.0e-30);
@@ -104,33 +104,33 @@ bool any_hit(vec3 d, float end)
     float reach = 1.0e-6 * (1.0 + max(max(abs(ray_origin.x), abs(ray_origin.y)), abs(ray_origin.z)));
     int first = int(shadow_places.x);
     while (true) {
-        if (entry.y == 0) {
-            vec4 low = tree_texel(4 * entry.x);
-            vec4 high = tree_texel(4 * entry.x + 1);
-            vec4 right_low = tree_texel(4 * entry.x + 2);
-            vec4 right_high = tree_texel(4 * entry.x + 3);
-            bool left = meets_box(low.xyz, high.xyz, inverse, end, reach);
-            bool right = meets_box(right_low.xyz, right_high.xyz, inverse, end, reach);
-            if (left && right) {
-                stack[waiting] = ivec2(int(right_low.w), int(right_high.w));
-                waiting = waiting + 1;
-            }
-            if (left || right) {
-                entry = left ? ivec2(int(low.w), int(high.w)) : ivec2(int(right_low.w), int(right_high.w));
+        vec4 low = tree_texel(at);
+        vec4 high = tree_texel(at + 1);
+        int count = int(high.w) / 2;
+        bool last = int(high.w) % 2 == 1;
+        at = at + 2;
+        if (meets_box(low.xyz, high.xyz, inverse, end, reach)) {
+            if (count == 0) {
+                if (!last) {
+                    stack[waiting] = at;
+                    waiting = waiting + 1;
+                }
+                at = 16 * int(low.w);
                 continue;
             }
-        } else {
-            for (int i = 0; i < entry.y; i++) {
-                if (crosses(first + 6 * (entry.x + i), d, k, end)) {
+            for (int i = 0; i < count; i++) {
+                if (crosses(first + 6 * (int(low.w) + i), d, k, end)) {
                     return true;
                 }
             }
         }
-        if (waiting == 0) {
-            return false;
+        if (last) {
+            if (waiting == 0) {
+                return false;
+            }
+            waiting = waiting - 1;
+            at = stack[waiting];
         }
-        waiting = waiting - 1;
-        entry = stack[waiting];
     }
     return false;
 }

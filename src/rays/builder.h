@@ -36,6 +36,9 @@ struct builder {
 // Fills prepared, primitives[0], and the hierarchy's centre and scale.
 bool ray_triangles_prepare(struct builder *builder, lam_error *error);
 
+// The nodes over so many triangles, at most.
+uint32_t ray_nodes_max(uint32_t triangle_count);
+
 // Divides the primitives into nodes and leaves.
 bool ray_nodes_build(struct builder *builder, lam_error *error);
 

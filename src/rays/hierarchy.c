@@ -56,13 +56,13 @@ const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, cons
                                            struct pool *pool, struct call_control *call, bool *built, lam_error *error)
 {
     struct hierarchy *h = &memory->hierarchy;
-    size_t count = frame->triangle_count;
+    size_t count = frame->triangle_count, nodes = ray_nodes_max(frame->triangle_count);
     *built = false;
     if (memory->token && same_sources(memory, frame))
         return h;
     forget(memory);
     if (!buffer_reserve(&memory->sources, ((size_t)frame->draw_count + 1) * sizeof(struct source), call, error) ||
-        !buffer_reserve(&memory->nodes, (count + 1) * sizeof(struct ray_node), call, error) ||
+        !buffer_reserve(&memory->nodes, nodes * sizeof(struct ray_node), call, error) ||
         !buffer_reserve(&memory->triangles, (count + 1) * sizeof(struct ray_triangle), call, error) ||
         !buffer_reserve(&memory->twins, (count + 1) * sizeof(uint32_t), call, error) ||
         !buffer_reserve(&memory->scratch, (count + 1) * (sizeof(struct ray_triangle) + 2 * sizeof(struct primitive)),
@@ -81,7 +81,7 @@ const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, cons
     *h = (struct hierarchy){.nodes = builder.nodes,
                             .triangles = builder.triangles,
                             .twins = builder.twins,
-                            .node_count = count > 1 ? (uint32_t)count - 1 : 1,
+                            .node_count = (uint32_t)nodes,
                             .triangle_count = (uint32_t)count};
     bool ok = ray_triangles_prepare(&builder, error) && ray_nodes_build(&builder, error);
     // The scratch memory is twice as large as the hierarchy, and not needed again before something moves.

@@ -17,11 +17,12 @@ struct ray_triangle {
     uint32_t twin;   // the lowest number of a triangle with the same three positions; often its own
 };
 
-// A node: the boxes of its two children, conservative floats. 64 bytes, a cache line.
+// A node: the boxes of its children, conservative floats. Four cache lines.
+enum { NODE_CHILDREN = 8 };
 struct ray_node {
-    float low[2][3], high[2][3]; // side by side: ray_lanes.h reads them as 12 floats
-    uint32_t child[2];           // count 0: the number of a node; else the first triangle
-    uint32_t count[2];           // triangles of a leaf
+    _Alignas(64) float planes[2][3][NODE_CHILDREN]; // low and high, by axis; where there is no child, 3e38 and −3e38
+    uint32_t child[NODE_CHILDREN];                  // count 0: the number of a node; else the first triangle
+    uint32_t count[NODE_CHILDREN];                  // triangles of a leaf
 };
 
 enum {
@@ -34,7 +35,7 @@ struct hierarchy {
     double centre[3], scale;
     const struct ray_node *nodes;         // the root first
     const struct ray_triangle *triangles; // in the order of the leaves; one more may stand behind them
-    uint32_t node_count;                  // entries of `nodes`, of which some are not used
+    uint32_t node_count;                  // entries of `nodes`, of which some are not used, and 0
     uint32_t triangle_count;
     const uint32_t *twins; // of each triangle of the frame, as ray_triangle.twin
 };

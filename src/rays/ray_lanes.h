@@ -8,11 +8,21 @@
 // with the origin at (0, 0), a triangle's edges are decided by the signs of cross products of its corners. Rounding is
 // monotonic, so that such a sign is never wrong, only 0, and 0 belongs to both triangles at an edge: no ray slips
 // between them. A corner that is the origin itself gives t = 0: triangles around a point are not in the way of its rays.
+//
+// Of LANES rays those that go nearly the same way, a bundle, walk the hierarchy together: at a node the intervals in which
+// their origins and directions lie are tested against the boxes of all its children at once (Boulos, Wald and Shirley,
+// "Geometric and arithmetic culling methods for entire ray packets", 2006), and only at a leaf the rays themselves. A ray that
+// goes its own way is a bundle of one.
 #ifndef RAY_LANES_H
 #define RAY_LANES_H
 
 #include "double_lanes.h"
+#include "eights.h"
 #include "hierarchy.h"
+
+// The rays of a bundle lie no farther than this from one of them where they start and, had all its length (at most 1),
+// where they end; coordinates summed.
+#define BUNDLE_APART 0.2f
 
 struct ray_lanes {
     _Alignas(64) double origin[3][LANES], direction[3][LANES]; // the direction's length is the unit of t
@@ -26,13 +36,15 @@ struct ray_lanes {
 // can go through the same operations, and those that have k in common through fewer, with the same results.
 struct ray_view {
     _Alignas(64) double x[3][LANES], y[3][LANES], z[3][LANES];
-    int k; // of all active rays, which then have row k alone; −1: they differ
+    unsigned of_k[3]; // the rays with each k
+    int k, i, j;      // of all rays that are asked about, which then have row k alone; k −1: they differ
 };
 
-LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray, unsigned active)
+LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray)
 {
-    unsigned of_k[3] = {0, 0, 0};
     dnum zero = dnum_of(0), one = dnum_of(1);
+    v->of_k[0] = v->of_k[1] = v->of_k[2] = 0;
+    v->k = -1;
     for (int at = 0; at < LANES; at += DLANES) {
         dnum d[3], size[3];
         for (int i = 0; i < 3; i++) {
@@ -46,15 +58,21 @@ LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray, unsigne
         dnum to_y = -(dpick(on_x, d[2], dpick(on_y, d[0], d[1])) * inverse);
         for (int k = 0; k < 3; k++) {
             int before = (k + 2) % 3, after = (k + 1) % 3; // i is after, j before k
-            of_k[k] |= dmask_bits(on[k]) << at;
+            v->of_k[k] |= dmask_bits(on[k]) << at;
             dnum_store(v->x[k] + at, dpick(on[k], to_x, dpick(on[before], one, zero)));
             dnum_store(v->y[k] + at, dpick(on[k], to_y, dpick(on[after], one, zero)));
             dnum_store(v->z[k] + at, dpick(on[k], inverse, zero));
         }
     }
+}
+
+LANE_FN void view_common(struct ray_view *v, unsigned lanes)
+{
     v->k = -1;
     for (int k = 0; k < 3; k++)
-        v->k = (of_k[k] & active) == active ? k : v->k;
+        v->k = (v->of_k[k] & lanes) == lanes ? k : v->k;
+    v->i = v->k == 2 ? 0 : v->k + 1;
+    v->j = v->k == 0 ? 2 : v->k - 1;
 }
 
 LANE_FN dnum along(const double row[3][LANES], int at, const dnum p[3])
@@ -68,8 +86,9 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
                          unsigned active, double weights[3][LANES], double t[LANES])
 {
     unsigned hit = 0;
-    for (int part = 0; part < DPARTS; part++) {
-        int at = part * DLANES;
+    for (int at = 0; at < LANES; at += DLANES) {
+        if (!(active >> at & ((1u << DLANES) - 1)))
+            continue;
         dnum x[3], y[3], z[3], w[3], zero = dnum_of(0);
         if (view->k < 0) {
             for (int c = 0; c < 3; c++) {
@@ -81,16 +100,15 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
                 z[c] = along(view->z, at, p);
             }
         } else {
-            int k = view->k, i = k == 2 ? 0 : k + 1, j = k == 0 ? 2 : k - 1;
+            int k = view->k, i = view->i, j = view->j;
             dnum of_i = dnum_load(ray->origin[i] + at), of_j = dnum_load(ray->origin[j] + at),
                  of_k = dnum_load(ray->origin[k] + at);
-            dnum to_x = dnum_load(view->x[k] + at), to_y = dnum_load(view->y[k] + at),
-                 to_z = dnum_load(view->z[k] + at);
+            dnum to_x = dnum_load(view->x[k] + at), to_y = dnum_load(view->y[k] + at);
             for (int c = 0; c < 3; c++) {
                 dnum depth = triangle->p[c][k] - of_k;
                 x[c] = (triangle->p[c][i] - of_i) + to_x * depth;
                 y[c] = (triangle->p[c][j] - of_j) + to_y * depth;
-                z[c] = to_z * depth;
+                z[c] = depth; // of the few that come so far it is scaled below
             }
         }
         w[0] = x[1] * y[2] - y[1] * x[2];
@@ -100,6 +118,8 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
         dmask negative = (w[0] <= zero) & (w[1] <= zero) & (w[2] <= zero);
         if (!(dmask_bits(positive | negative) << at & active))
             continue;
+        for (int c = 0; c < 3 && view->k >= 0; c++)
+            z[c] = dnum_load(view->z[view->k] + at) * z[c];
         dnum det = (w[0] + w[1]) + w[2];
         dnum depth = (w[0] * z[0] + w[1] * z[1]) + w[2] * z[2];
         depth = dpick(positive, depth, -depth);
@@ -123,16 +143,15 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
 // Coordinates of triangles lie within −1…1. Rounding origin, direction, its inverse and the box moves the crossing with a
 // plane of a box by less than 2⁻²¹ (1 + |origin|) altogether; each plane is taken that much farther out.
 struct box_rays {
-    num low[3], high[3]; // the origin, to be taken from a box's low and high planes
-    num inverse[3];
-    num end;
-    int first[3]; // of all active rays: 0: they meet the low plane of the axis first; 1: the high one
-    bool apart;   // the rays differ in that
+    _Alignas(64) float low[3][LANES], high[3][LANES]; // the origin, to be taken from a box's low and high planes
+    float direction[3][LANES], inverse[3][LANES], end[LANES];
+    unsigned down[3]; // the rays that meet the high plane of an axis first
+    unsigned proper;  // those that go anywhere: not from a light to itself, which meets nothing
 };
 
-LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray, unsigned active)
+LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
 {
-    _Alignas(64) float origin[3][LANES], direction[3][LANES], end[LANES];
+    _Alignas(64) float origin[3][LANES];
     num reach = num_of(1.0f);
     for (int at = 0; at < LANES; at += DLANES) {
         dnum d[3], size;
@@ -144,52 +163,110 @@ LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray, unsign
         }
         dnum inverse = 1 / size;
         for (int i = 0; i < 3; i++)
-            dnum_store_float(direction[i] + at, d[i] * inverse);
-        dnum_store_float(end + at, dnum_load(ray->end + at) * size);
+            dnum_store_float(b->direction[i] + at, d[i] * inverse);
+        dnum_store_float(b->end + at, dnum_load(ray->end + at) * size);
     }
-    b->apart = false;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         reach = max_of(reach, 1.0f + absolute(num_load(origin[i])));
-        unsigned down = mask_bits(num_load(direction[i]) < 0.0f) & active;
-        b->first[i] = down != 0;
-        b->apart |= down && down != active;
-    }
     reach = reach * 0x1p-21f;
+    num sum = num_of(0.0f);
     for (int i = 0; i < 3; i++) {
-        num d = num_load(direction[i]);
-        b->low[i] = num_load(origin[i]) + reach;
-        b->high[i] = num_load(origin[i]) - reach;
+        num d = num_load(b->direction[i]);
+        b->down[i] = mask_bits(d < 0.0f);
+        sum += (d + num_load(origin[i])) * 0.0f;
+        num_store(b->low[i], num_load(origin[i]) + reach);
+        num_store(b->high[i], num_load(origin[i]) - reach);
         // A direction along the planes: the ray never reaches them, or so far away that it does not matter.
         num least = pick(d < 0.0f, num_of(-1e-30f), num_of(1e-30f));
-        b->inverse[i] = 1.0f / pick(absolute(d) < 1e-30f, least, d);
+        num_store(b->inverse[i], 1.0f / pick(absolute(d) < 1e-30f, least, d));
     }
-    b->end = num_load(end) * (1.0f + 0x1p-20f);
+    b->proper = mask_bits(sum == 0.0f);
+    num_store(b->end, num_load(b->end) * (1.0f + 0x1p-20f));
 }
 
-// The rays that meet a child of a node, and where.
-LANE_FN mask meets_box(const struct box_rays *b, const struct ray_node *node, int child, num *entry)
+// --- bundles
+
+// Rays that walk together, and the intervals in which they lie: a box that one of them meets, the bundle meets too. Rounding is
+// monotonic, so that this holds for the computed numbers.
+struct ray_bundle {
+    unsigned lanes;
+    int first[3], last[3];           // the planes that they meet first and last, among the floats of a node
+    const float *start[3], *stop[3]; // of box_rays: the origin, to be taken from these planes
+    eight near[3], far[3];           // the same of all
+    eight least[3], most[3];         // of the inverse of their directions
+    eight end;
+};
+
+// The first ray of `rest` and those beside it that go nearly the same way.
+LANE_FN unsigned bundle_lanes(const struct box_rays *b, unsigned rest)
 {
-    num near = num_of(0.0f), far = b->end;
+    int first = __builtin_ctz(rest);
+    unsigned same = rest;
+    num apart = num_of(0.0f), away = num_of(0.0f);
+    float length = b->end[first] < 1 ? b->end[first] : 1;
     for (int i = 0; i < 3; i++) {
-        num a = (node->low[child][i] - b->low[i]) * b->inverse[i],
-            c = (node->high[child][i] - b->high[i]) * b->inverse[i];
-        near = max_of(min_of(a, c), near);
-        far = min_of(max_of(a, c), far);
+        same &= b->down[i] >> first & 1 ? b->down[i] : ~b->down[i];
+        apart += absolute(num_load(b->direction[i]) - b->direction[i][first]);
+        away += absolute(num_load(b->low[i]) - b->low[i][first]);
     }
-    *entry = near;
-    return near <= far;
+    return same & mask_bits(apart * length + away <= BUNDLE_APART);
 }
 
-// The same where all rays meet the same plane of each axis first. `near` and `far` name the planes of the left child among
-// the floats of a node.
-LANE_FN mask meets_planes(const float *planes, const int near[3], const int far[3], const num near_origin[3],
-                          const num far_origin[3], const struct box_rays *b, num *entry)
+LANE_FN void bundle_of(struct ray_bundle *bundle, const struct box_rays *b, unsigned lanes)
 {
-    num x = (planes[near[0]] - near_origin[0]) * b->inverse[0], to_x = (planes[far[0]] - far_origin[0]) * b->inverse[0];
-    num y = (planes[near[1]] - near_origin[1]) * b->inverse[1], to_y = (planes[far[1]] - far_origin[1]) * b->inverse[1];
-    num z = (planes[near[2]] - near_origin[2]) * b->inverse[2], to_z = (planes[far[2]] - far_origin[2]) * b->inverse[2];
-    *entry = max_of(max_of(x, y), max_of(z, num_of(0.0f)));
-    return *entry <= min_of(min_of(to_x, to_y), min_of(to_z, b->end));
+    bool single = !(lanes & (lanes - 1));
+    int one = __builtin_ctz(lanes);
+    mask within = mask_of_bits(lanes);
+    bundle->lanes = lanes;
+    // In place of the others counts the ray `one`.
+    bundle->end = eight_of(single ? b->end[one] : -min_lane(-pick(within, num_load(b->end), num_of(b->end[one]))));
+    for (int i = 0; i < 3; i++) {
+        bool down = b->down[i] >> one & 1;
+        bundle->first[i] = NODE_CHILDREN * (down ? 3 + i : i);
+        bundle->last[i] = NODE_CHILDREN * (down ? i : 3 + i);
+        bundle->start[i] = down ? b->high[i] : b->low[i];
+        bundle->stop[i] = down ? b->low[i] : b->high[i];
+        float low = b->low[i][one], high = b->high[i][one], least = b->inverse[i][one], most = least;
+        if (!single) {
+            num inverse = pick(within, num_load(b->inverse[i]), num_of(least));
+            low = -min_lane(-pick(within, num_load(b->low[i]), num_of(low)));
+            high = min_lane(pick(within, num_load(b->high[i]), num_of(high)));
+            least = min_lane(inverse);
+            most = -min_lane(-inverse);
+        }
+        bundle->near[i] = eight_of(down ? high : low);
+        bundle->far[i] = eight_of(down ? low : high);
+        bundle->least[i] = eight_of(least);
+        bundle->most[i] = eight_of(most);
+    }
+}
+
+// The children of a node that a bundle may meet, as bits. `single`: it is one ray.
+LANE_FN unsigned meets_children(const struct ray_bundle *b, const struct ray_node *node, bool single)
+{
+    const float *planes = node->planes[0][0];
+    eight near = eight_of(0), far = b->end;
+    for (int i = 0; i < 3; i++) {
+        eight a = eight_load(planes + b->first[i]) - b->near[i];
+        eight c = eight_load(planes + b->last[i]) - b->far[i];
+        near = eight_max(single ? a * b->least[i] : eight_min(a * b->least[i], a * b->most[i]), near);
+        far = eight_min(single ? c * b->least[i] : eight_max(c * b->least[i], c * b->most[i]), far);
+    }
+    return eight_not_above(near, far);
+}
+
+// The rays that meet a child of a node.
+LANE_FN unsigned meets_child(const struct box_rays *b, const struct ray_bundle *bundle, const struct ray_node *node,
+                             int child)
+{
+    const float *planes = node->planes[0][0] + child;
+    num near = num_of(0.0f), far = num_load(b->end);
+    for (int i = 0; i < 3; i++) {
+        num inverse = num_load(b->inverse[i]);
+        near = max_of((planes[bundle->first[i]] - num_load(bundle->start[i])) * inverse, near);
+        far = min_of((planes[bundle->last[i]] - num_load(bundle->stop[i])) * inverse, far);
+    }
+    return mask_bits(near <= far);
 }
 
 // --- the walk
@@ -198,86 +275,77 @@ LANE_FN mask meets_planes(const float *planes, const int near[3], const int far[
 typedef unsigned ray_filter(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
                             const struct ray_view *view, unsigned lanes);
 
+// The lanes of a bundle whose rays have a triangle in their way.
+LANE_FN unsigned walk_bundle(const struct hierarchy *h, const struct ray_lanes *ray, const struct ray_view *view,
+                             const struct box_rays *boxes, const struct ray_bundle *bundle, ray_filter *filter,
+                             void *user, bool single)
+{
+    struct {
+        uint32_t node;
+        unsigned children;
+    } stack[HIERARCHY_DEPTH];
+    int waiting = 0;
+    unsigned lanes = bundle->lanes;
+    const struct ray_node *node = h->nodes;
+    unsigned children = meets_children(bundle, node, single);
+    for (;;) {
+        while (!children) {
+            if (!waiting)
+                return bundle->lanes & ~lanes;
+            node = &h->nodes[stack[--waiting].node];
+            children = stack[waiting].children;
+        }
+        int i = __builtin_ctz(children);
+        uint32_t child = node->child[i], count = node->count[i];
+        children &= children - 1;
+        if (children) { // what comes next
+            int next = __builtin_ctz(children);
+            __builtin_prefetch(node->count[next] ? (const void *)&h->triangles[node->child[next]]
+                                                 : (const void *)&h->nodes[node->child[next]]);
+        }
+        if (!count) {
+            if (children) {
+                stack[waiting].node = (uint32_t)(node - h->nodes);
+                stack[waiting++].children = children;
+            }
+            node = &h->nodes[child];
+            children = meets_children(bundle, node, single);
+            continue;
+        }
+        unsigned there = single ? lanes : lanes & meets_child(boxes, bundle, node, i);
+        for (uint32_t n = child; n < child + count && there; n++) {
+            unsigned found = crosses(&h->triangles[n], ray, view, there, NULL, NULL);
+            if (filter && found)
+                found = filter(user, &h->triangles[n], ray, view, found);
+            there &= ~found;
+            lanes &= ~found;
+        }
+        if (!lanes)
+            return bundle->lanes;
+    }
+}
+
 // The lanes of `active` whose rays have a triangle in their way. `filter` NULL: every triangle ends a ray.
 LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray, unsigned active, ray_filter *filter,
                          void *user)
 {
-    struct {
-        uint32_t child, count;
-        unsigned lanes;
-    } stack[HIERARCHY_DEPTH];
-    int waiting = 0;
-    uint32_t child = 0, count = 0;
-    unsigned hit = 0, lanes = active;
+    struct box_rays boxes;
+    struct ray_bundle bundle;
+    struct ray_view view;
+    unsigned hit = 0;
     if (!h->triangle_count || !active)
         return 0;
-    struct box_rays boxes;
-    struct ray_view view;
-    box_rays_of(&boxes, ray, active);
-    view_along(&view, ray, active);
-    num near_origin[3], far_origin[3];
-    int near[3], far[3];
-    for (int i = 0; i < 3; i++) {
-        near[i] = i + (boxes.first[i] ? 6 : 0);
-        far[i] = i + (boxes.first[i] ? 0 : 6);
-        near_origin[i] = boxes.first[i] ? boxes.high[i] : boxes.low[i];
-        far_origin[i] = boxes.first[i] ? boxes.low[i] : boxes.high[i];
+    box_rays_of(&boxes, ray);
+    view_along(&view, ray);
+    for (unsigned rest = active & boxes.proper; rest; rest &= ~bundle.lanes) {
+        bundle_of(&bundle, &boxes, bundle_lanes(&boxes, rest));
+        view_common(&view, bundle.lanes);
+        if (bundle.lanes & (bundle.lanes - 1))
+            hit |= walk_bundle(h, ray, &view, &boxes, &bundle, filter, user, false);
+        else
+            hit |= walk_bundle(h, ray, &view, &boxes, &bundle, filter, user, true);
     }
-    for (;;) {
-        if (!count) {
-            const struct ray_node *node = &h->nodes[child];
-            num t[2];
-            unsigned sides[2];
-            const float *planes = node->low[0];
-            for (int i = 0; i < 2; i++) // while the boxes are tested
-                __builtin_prefetch(node->count[i] ? (const void *)&h->triangles[node->child[i]]
-                                                  : (const void *)&h->nodes[node->child[i]]);
-            if (boxes.apart) {
-                sides[0] = lanes & mask_bits(meets_box(&boxes, node, 0, &t[0]));
-                sides[1] = lanes & mask_bits(meets_box(&boxes, node, 1, &t[1]));
-            } else {
-                sides[0] = lanes & mask_bits(meets_planes(planes, near, far, near_origin, far_origin, &boxes, &t[0]));
-                sides[1] =
-                    lanes & mask_bits(meets_planes(planes + 3, near, far, near_origin, far_origin, &boxes, &t[1]));
-            }
-            if (sides[0] && sides[1]) {
-                // First the child that more of the rays meet first.
-                unsigned common = sides[0] & sides[1], right = mask_bits(t[1] < t[0]) & common;
-                int first = 2 * __builtin_popcount(right) > __builtin_popcount(common);
-                stack[waiting].child = node->child[!first];
-                stack[waiting].count = node->count[!first];
-                stack[waiting++].lanes = sides[!first];
-                child = node->child[first];
-                count = node->count[first];
-                lanes = sides[first];
-                continue;
-            }
-            if (sides[0] || sides[1]) {
-                child = node->child[!sides[0]];
-                count = node->count[!sides[0]];
-                lanes = sides[0] | sides[1];
-                continue;
-            }
-        } else {
-            for (uint32_t i = 0; i < count && lanes; i++) {
-                unsigned found = crosses(&h->triangles[child + i], ray, &view, lanes, NULL, NULL);
-                if (filter && found)
-                    found = filter(user, &h->triangles[child + i], ray, &view, found);
-                hit |= found;
-                lanes &= ~found;
-            }
-            if (hit == active)
-                return hit;
-        }
-        do {
-            if (!waiting)
-                return hit;
-            waiting--;
-            lanes = stack[waiting].lanes & ~hit;
-        } while (!lanes);
-        child = stack[waiting].child;
-        count = stack[waiting].count;
-    }
+    return hit;
 }
 
 #if LANES == 1
@@ -288,20 +356,22 @@ LANE_FN uint32_t nearest_hit(const struct hierarchy *h, const struct ray_lanes *
                                             const struct ray_lanes *ray, const struct ray_view *view),
                              void *user, double *t)
 {
-    uint32_t found = (uint32_t)NO_TRIANGLE, stack[2 * HIERARCHY_DEPTH][2] = {{0, 0}};
+    uint32_t found = (uint32_t)NO_TRIANGLE, stack[NODE_CHILDREN * HIERARCHY_DEPTH][2] = {{0, 0}};
     struct box_rays boxes;
+    struct ray_bundle bundle;
     struct ray_view view;
-    box_rays_of(&boxes, ray, 1);
-    view_along(&view, ray, 1);
+    box_rays_of(&boxes, ray);
+    bundle_of(&bundle, &boxes, 1);
+    view_along(&view, ray);
+    view_common(&view, 1);
     *t = 0;
-    for (int waiting = h->triangle_count ? 1 : 0; waiting;) {
+    for (int waiting = h->triangle_count && boxes.proper ? 1 : 0; waiting;) {
         uint32_t child = stack[--waiting][0], count = stack[waiting][1];
-        num entry;
-        for (int i = 0; i < 2 && !count; i++)
-            if (meets_box(&boxes, &h->nodes[child], i, &entry)) {
-                stack[waiting][0] = h->nodes[child].child[i];
-                stack[waiting++][1] = h->nodes[child].count[i];
-            }
+        const struct ray_node *node = &h->nodes[child];
+        for (unsigned rest = count ? 0 : meets_children(&bundle, node, true); rest; rest &= rest - 1) {
+            stack[waiting][0] = node->child[__builtin_ctz(rest)];
+            stack[waiting++][1] = node->count[__builtin_ctz(rest)];
+        }
         for (uint32_t i = child; i < child + count; i++) {
             const struct ray_triangle *triangle = &h->triangles[i];
             double at;

@@ -56,10 +56,11 @@ static float half_area(struct box b)
 // Primitives of which nodes are to be made.
 struct range {
     uint32_t first, count;
-    uint32_t node; // the first of count − 1 nodes that it may use
+    uint32_t node; // the first of node_places(count) nodes that it may use
     int depth, buffer;
+    bool sorted;                   // the middles are the same; the primitives lie in the order of sort_group
     struct box box, middles;       // of the triangles; of twice the middles of their boxes
-    uint32_t *child, *child_count; // where its node or leaf is entered
+    uint32_t *child, *child_count; // where its node or leaf is entered; NULL: it is the root
 };
 
 // --- leaves
@@ -78,19 +79,19 @@ static bool same_positions(const struct ray_triangle *a, const struct ray_triang
 }
 
 // Makes a leaf. Triangles with the same positions have the same box, and are therefore in one leaf, or in one group
-// (divide_group), which has found them.
-static void make_leaf(struct builder *b, const struct range *r, bool grouped)
+// (sort_group), which has found them.
+static void make_leaf(struct builder *b, const struct range *r)
 {
     const struct primitive *p = b->primitives[r->buffer] + r->first;
     for (uint32_t i = 0; i < r->count; i++) {
         struct ray_triangle *t = &b->triangles[r->first + i];
         *t = b->prepared[primitive_number(&p[i])];
-        for (uint32_t j = 0; j < r->count && !grouped; j++) {
+        for (uint32_t j = 0; j < r->count && !r->sorted; j++) {
             uint32_t other = primitive_number(&p[j]);
             if (other < t->twin && same_positions(t, &b->prepared[other]))
                 t->twin = other;
         }
-        if (grouped)
+        if (r->sorted)
             t->twin = b->twins[t->number];
         b->twins[t->number] = t->twin;
     }
@@ -100,32 +101,49 @@ static void make_leaf(struct builder *b, const struct range *r, bool grouped)
 
 // --- nodes
 
-static void set_box(struct ray_node *node, int child, struct box box)
+// The nodes below a range of so many triangles, at most. A node with fewer than NODE_CHILDREN children has leaves alone, and
+// more than LEAF_MIN triangles; hence, by induction, (2 count − 1)/7 — and one more for ranges above SMALL, which are divided in two
+// steps.
+static uint32_t node_places(uint32_t count)
 {
-    for (int axis = 0; axis < 3; axis++) {
-        node->low[child][axis] = lane(box.low, axis);
-        node->high[child][axis] = lane(box.high, axis);
+    return count ? (uint32_t)((2 * (uint64_t)count - 1) / 7) + count / SMALL : 0;
+}
+
+// Enters the node of a range that was divided into `parts`, and says where theirs go.
+static void make_node(struct builder *b, const struct range *r, struct range *parts, int count)
+{
+    struct ray_node *node = &b->nodes[r->node];
+    uint32_t next = r->node + 1;
+    if (r->child) {
+        *r->child = r->node;
+        *r->child_count = 0;
+    }
+    for (int i = 0; i < NODE_CHILDREN; i++) {
+        struct box box = i < count ? parts[i].box : empty_box();
+        for (int axis = 0; axis < 3; axis++) {
+            node->planes[0][axis][i] = lane(box.low, axis);
+            node->planes[1][axis][i] = lane(box.high, axis);
+        }
+        node->child[i] = node->count[i] = 0;
+        if (i >= count)
+            continue;
+        parts[i].node = next;
+        parts[i].child = &node->child[i];
+        parts[i].child_count = &node->count[i];
+        next += node_places(parts[i].count);
     }
 }
 
-// Enters a node for a range, with the first `left` of its primitives on the left.
-static void make_node(struct builder *b, const struct range *r, uint32_t left, const struct box boxes[2],
-                      const struct box middles[2], struct range out[2])
+static void halves_of(const struct range *r, uint32_t left, const struct box boxes[2], const struct box middles[2],
+                      struct range out[2])
 {
-    struct ray_node *node = &b->nodes[r->node];
-    *r->child = r->node;
-    *r->child_count = 0;
     for (int i = 0; i < 2; i++) {
-        set_box(node, i, boxes[i]);
-        out[i] = (struct range){.first = i ? r->first + left : r->first,
-                                .count = i ? r->count - left : left,
-                                .node = i ? r->node + left : r->node + 1,
-                                .depth = r->depth + 1,
-                                .buffer = r->buffer,
-                                .box = boxes[i],
-                                .middles = middles[i],
-                                .child = &node->child[i],
-                                .child_count = &node->count[i]};
+        out[i] = *r;
+        out[i].first = i ? r->first + left : r->first;
+        out[i].count = i ? r->count - left : left;
+        out[i].depth = r->depth + 1;
+        out[i].box = boxes[i];
+        out[i].middles = middles[i];
     }
 }
 
@@ -145,13 +163,13 @@ static struct box box_of_all(const struct primitive *p, uint32_t count)
     return box;
 }
 
-// Enters a node for a range whose primitives are in order.
-static void make_ordered_node(struct builder *b, const struct range *r, uint32_t left, struct range out[2])
+// Divides a range whose primitives are in order.
+static void divide_at(struct builder *b, const struct range *r, uint32_t left, struct range out[2])
 {
     const struct primitive *p = b->primitives[r->buffer] + r->first;
     struct box boxes[2] = {box_of_all(p, left), box_of_all(p + left, r->count - left)};
     struct box middles[2] = {middles_of(p, left), middles_of(p + left, r->count - left)};
-    make_node(b, r, left, boxes, middles, out);
+    halves_of(r, left, boxes, middles, out);
 }
 
 // --- bins
@@ -345,28 +363,15 @@ static void sort_corners(double p[3][3])
     }
 }
 
-// Puts the leaves of a group in order: any halves will do.
-static void halve(struct builder *b, const struct range *r)
-{
-    if (r->count <= LEAF_MAX) {
-        make_leaf(b, r, true);
-        return;
-    }
-    struct range halves[2];
-    make_ordered_node(b, r, r->count / 2, halves);
-    halve(b, &halves[0]);
-    halve(b, &halves[1]);
-}
-
-// More triangles than a leaf holds, all with the same middle.
-static void divide_group(struct builder *b, const struct range *r)
+// More triangles than a leaf holds, all with the same middle: sorts them, and finds twins. Any halves will do then.
+static bool sort_group(struct builder *b, const struct range *r)
 {
     struct primitive *p = b->primitives[r->buffer] + r->first;
     size_t bytes = r->count * sizeof(struct sorted_triangle);
     struct sorted_triangle *sorted = aligned_alloc(64, (bytes + 63) & ~(size_t)63);
     if (!sorted) {
         no_memory(&b->loop);
-        return;
+        return false;
     }
     for (uint32_t i = 0; i < r->count; i++) {
         sorted[i].number = primitive_number(&p[i]);
@@ -383,49 +388,81 @@ static void divide_group(struct builder *b, const struct range *r)
         p[i] = sorted[i].primitive;
     }
     free(sorted);
-    halve(b, r);
+    return true;
 }
 
-static void divide(struct builder *b, const struct range *r)
+// Divides a range in two. False: it is to be a leaf.
+static bool divide_range(struct builder *b, struct range *r, struct range out[2])
 {
     struct primitive *p = b->primitives[r->buffer] + r->first;
     struct split split;
-    struct range sides[2];
-    if (r->count <= LEAF_MIN) {
-        make_leaf(b, r, false);
-        return;
-    }
-    if (!choose_axis(r, &split)) {
-        if (r->count <= LEAF_MAX)
-            make_leaf(b, r, false);
-        else
-            divide_group(b, r);
-        return;
+    if (r->count <= LEAF_MIN)
+        return false;
+    if (r->sorted || !choose_axis(r, &split)) {
+        if (r->count <= LEAF_MAX || (!r->sorted && !sort_group(b, r)))
+            return false;
+        r->sorted = true;
+        divide_at(b, r, r->count / 2, out);
+        return true;
     }
     if (r->depth >= BALANCED_AT) {
-        if (r->count <= LEAF_MAX) {
-            make_leaf(b, r, false);
-            return;
+        if (r->count <= LEAF_MAX)
+            return false;
+        divide_at(b, r, divide_evenly(p, r->count, split.axis), out);
+        return true;
+    }
+    struct bins bins;
+    struct box boxes[2], middles[2];
+    clear_bins(&bins, split.bins);
+    fill_bins(&bins, &split, p, r->count);
+    float cost = choose_bin(&bins, &split), area = half_area(r->box);
+    if (r->count <= LEAF_MAX && TRIANGLE_WORK * area * (float)r->count <= area + TRIANGLE_WORK * cost)
+        return false;
+    partition(p, r->count, &split);
+    halves_of(r, sides_of(&bins, split.bin, boxes, middles), boxes, middles, out);
+    return true;
+}
+
+// The part with the largest box of those that are `open` to be divided; −1: none is.
+static int widest_part(const struct range *parts, const bool *open, int count)
+{
+    int widest = -1;
+    float most = -1;
+    for (int i = 0; i < count; i++)
+        if (open[i] && half_area(parts[i].box) > most) {
+            most = half_area(parts[i].box);
+            widest = i;
         }
-        make_ordered_node(b, r, divide_evenly(p, r->count, split.axis), sides);
-    } else {
-        struct bins bins;
-        struct box boxes[2], middles[2];
-        clear_bins(&bins, split.bins);
-        fill_bins(&bins, &split, p, r->count);
-        float cost = choose_bin(&bins, &split), area = half_area(r->box);
-        if (r->count <= LEAF_MAX && TRIANGLE_WORK * area * (float)r->count <= area + TRIANGLE_WORK * cost) {
-            make_leaf(b, r, false);
-            return;
-        }
-        partition(p, r->count, &split);
-        uint32_t left = sides_of(&bins, split.bin, boxes, middles);
-        make_node(b, r, left, boxes, middles, sides);
+    return widest;
+}
+
+// Makes the nodes of a range, or a leaf where it is not divided. The root is a node always.
+static void divide(struct builder *b, const struct range *r)
+{
+    struct range parts[NODE_CHILDREN], two[2];
+    bool open[NODE_CHILDREN] = {true};
+    int count = 1, i;
+    parts[0] = *r;
+    while (count < NODE_CHILDREN && (i = widest_part(parts, open, count)) >= 0) {
+        open[i] = divide_range(b, &parts[i], two);
+        if (!open[i])
+            continue;
+        parts[i] = two[0];
+        parts[count] = two[1];
+        open[count++] = true;
     }
     if (r->count > 512 && !should_continue(&b->loop))
         return;
-    divide(b, &sides[0]);
-    divide(b, &sides[1]);
+    if (count == 1 && r->child) {
+        make_leaf(b, &parts[0]);
+        return;
+    }
+    make_node(b, r, parts, count);
+    for (i = 0; i < count; i++)
+        if (open[i])
+            divide(b, &parts[i]);
+        else
+            make_leaf(b, &parts[i]);
 }
 
 // --- large ranges
@@ -437,7 +474,7 @@ struct large {
     struct bins *bins;   // of each piece
     uint32_t *to;        // of each piece: where its primitives go, left and right
     struct range *small; // ranges that are left
-    size_t small_count;
+    size_t small_count, small_capacity;
 };
 
 static void bins_task(void *user, size_t index, int thread)
@@ -463,16 +500,14 @@ static void move_task(void *user, size_t index, int thread)
         to[at[bin_of(&l->split, &from[i]) >= l->split.bin]++] = from[i];
 }
 
-// Divides a range down to small ones.
-static void divide_large(struct large *l, const struct range *r)
+// As divide_range.
+static bool divide_large_range(struct large *l, struct range *r, struct range out[2])
 {
     struct builder *b = l->builder;
     size_t pieces = ((size_t)r->count + RAY_PIECE - 1) / RAY_PIECE;
+    if (r->depth >= BALANCED_AT || r->sorted || !choose_axis(r, &l->split))
+        return divide_range(b, r, out);
     l->range = r;
-    if (r->count <= SMALL || r->depth >= BALANCED_AT || !choose_axis(r, &l->split)) {
-        l->small[l->small_count++] = *r;
-        return;
-    }
     pool_run(b->pool, pieces, bins_task, l);
     struct bins all;
     clear_bins(&all, l->split.bins);
@@ -488,13 +523,56 @@ static void divide_large(struct large *l, const struct range *r)
             at[n >= l->split.bin] += l->bins[i].counts[n];
     }
     pool_run(b->pool, pieces, move_task, l);
-    struct range moved = *r, sides[2];
-    moved.buffer = !r->buffer;
-    make_node(b, &moved, left, boxes, middles, sides);
-    if (!should_continue(&b->loop))
+    r->buffer = !r->buffer;
+    halves_of(r, left, boxes, middles, out);
+    return true;
+}
+
+static void add_small(struct large *l, const struct range *r)
+{
+    if (l->small_count == l->small_capacity) {
+        size_t capacity = l->small_capacity ? 2 * l->small_capacity : 64;
+        struct range *grown = aligned_alloc(64, (capacity * sizeof *grown + 63) & ~(size_t)63);
+        if (!grown) {
+            no_memory(&l->builder->loop);
+            return;
+        }
+        if (l->small_count)
+            memcpy(grown, l->small, l->small_count * sizeof *grown);
+        free(l->small);
+        l->small = grown;
+        l->small_capacity = capacity;
+    }
+    l->small[l->small_count++] = *r;
+}
+
+// Divides a range down to small ones.
+static void divide_large(struct large *l, const struct range *r)
+{
+    struct range parts[NODE_CHILDREN] = {*r}, two[2];
+    bool open[NODE_CHILDREN] = {r->count > SMALL};
+    int count = 1, i;
+    if (!should_continue(&l->builder->loop))
         return;
-    divide_large(l, &sides[0]);
-    divide_large(l, &sides[1]);
+    while (count < NODE_CHILDREN && (i = widest_part(parts, open, count)) >= 0) {
+        open[i] = divide_large_range(l, &parts[i], two);
+        if (!open[i]) // no memory
+            return;
+        parts[i] = two[0];
+        parts[count] = two[1];
+        open[i] = two[0].count > SMALL;
+        open[count++] = two[1].count > SMALL;
+    }
+    if (count == 1) {
+        add_small(l, r);
+        return;
+    }
+    make_node(l->builder, r, parts, count);
+    for (i = 0; i < count; i++)
+        if (open[i])
+            divide_large(l, &parts[i]);
+        else
+            add_small(l, &parts[i]);
 }
 
 static void small_task(void *user, size_t index, int thread)
@@ -505,19 +583,18 @@ static void small_task(void *user, size_t index, int thread)
         divide(l->builder, &l->small[index]);
 }
 
+uint32_t ray_nodes_max(uint32_t triangle_count) { return 1 + node_places(triangle_count); }
+
 bool ray_nodes_build(struct builder *b, lam_error *error)
 {
-    uint32_t count = b->frame->triangle_count, root = 0, root_count = 0;
+    uint32_t count = b->frame->triangle_count;
     size_t pieces = ((size_t)count + RAY_PIECE - 1) / RAY_PIECE;
-    // A range that is divided has more than SMALL triangles, and those at one depth have none in common.
-    size_t smalls = 2 + (size_t)BALANCED_AT * (count / SMALL);
     struct large l = {.builder = b};
     l.bins = aligned_alloc(64, (pieces * sizeof *l.bins + 127) & ~(size_t)63);
     l.to = malloc((2 * pieces + 1) * sizeof *l.to);
-    l.small = aligned_alloc(64, (smalls * sizeof *l.small + 63) & ~(size_t)63);
-    bool ok = l.bins && l.to && l.small;
+    bool ok = l.bins && l.to;
     if (ok) {
-        struct range all = {.count = count, .child = &root, .child_count = &root_count};
+        struct range all = {.count = count};
         all.box = box_of_all(b->primitives[0], count);
         all.middles = middles_of(b->primitives[0], count);
         divide_large(&l, &all);
@@ -530,12 +607,5 @@ bool ray_nodes_build(struct builder *b, lam_error *error)
     free(l.small);
     if (!should_continue(&b->loop))
         return loop_error(&b->loop, pieces * sizeof *l.bins, error);
-    if (root_count) { // a leaf alone: beside it one of a triangle that no ray meets
-        struct box box = box_of_all(b->primitives[0], count);
-        b->triangles[count] = (struct ray_triangle){.number = count, .twin = count};
-        b->nodes[0] = (struct ray_node){.child = {root, count}, .count = {root_count, 1}};
-        set_box(&b->nodes[0], 0, box);
-        set_box(&b->nodes[0], 1, box);
-    }
     return true;
 }

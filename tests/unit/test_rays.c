@@ -156,7 +156,8 @@ static unsigned every_triangle(const struct soup *s, const struct ray_lanes *ray
 {
     struct ray_view view;
     unsigned hit = 0;
-    view_along(&view, ray, active);
+    view_along(&view, ray);
+    view_common(&view, active);
     for (uint32_t i = 0; i < s->count; i++)
         hit |= crosses(&s->hierarchy->triangles[i], ray, &view, active, NULL, NULL);
     return hit;
@@ -209,13 +210,23 @@ static uint32_t check_node(const struct hierarchy *h, uint32_t child, uint32_t c
         for (int k = 0; k < 9; k++)
             assert_true((float)t->p[k / 3][k % 3] >= low[k % 3] && (float)t->p[k / 3][k % 3] <= high[k % 3]);
     }
-    for (int side = 0; side < 2 && !count; side++) {
-        const struct ray_node *n = &h->nodes[child];
-        if (n->child[side] == h->triangle_count)
-            continue; // beside a lone leaf
+    const struct ray_node *n = &h->nodes[child];
+    bool ended = false;
+    for (int i = 0; i < NODE_CHILDREN && !count; i++) {
+        float own_low[3], own_high[3];
+        for (int k = 0; k < 3; k++) {
+            own_low[k] = n->planes[0][k][i];
+            own_high[k] = n->planes[1][k][i];
+            ended |= own_low[k] > own_high[k];
+        }
+        if (ended) { // no child, and none behind it
+            assert_true(own_low[0] > 1e38f && own_high[0] < -1e38f && i > 0);
+            continue;
+        }
         for (int k = 0; k < 3; k++)
-            assert_true(n->low[side][k] >= low[k] && n->high[side][k] <= high[k]);
-        sum += check_node(h, n->child[side], n->count[side], n->low[side], n->high[side], seen, depth + 1);
+            assert_true(own_low[k] >= low[k] && own_high[k] <= high[k]);
+        assert_true(n->count[i] || n->child[i] < h->node_count);
+        sum += check_node(h, n->child[i], n->count[i], own_low, own_high, seen, depth + 1);
     }
     return sum + count;
 }
@@ -245,10 +256,10 @@ static void test_tree(void **unused)
             memset(seen, 0, sizeof seen);
             assert_int_equal(check_node(soup.hierarchy, 0, 0, low, high, seen, 0), soup.count);
             if (threads == 1) {
-                memcpy(nodes, soup.hierarchy->nodes, (soup.count - 1) * sizeof *nodes);
+                memcpy(nodes, soup.hierarchy->nodes, soup.hierarchy->node_count * sizeof *nodes);
                 memcpy(triangles, soup.hierarchy->triangles, soup.count * sizeof *triangles);
             }
-            assert_memory_equal(nodes, soup.hierarchy->nodes, (soup.count - 1) * sizeof *nodes);
+            assert_memory_equal(nodes, soup.hierarchy->nodes, soup.hierarchy->node_count * sizeof *nodes);
             assert_memory_equal(triangles, soup.hierarchy->triangles, soup.count * sizeof *triangles);
             check_rays(&soup, 10);
             drop(&soup);
@@ -372,7 +383,8 @@ static void test_exact(void **unused)
             (w[0] >= 0 && w[1] >= 0 && w[2] >= 0 && det > 0) || (w[0] <= 0 && w[1] <= 0 && w[2] <= 0 && det < 0);
         bool wanted = inside && (det > 0 ? t > 0 && t < det : t < 0 && t > det);
         struct ray_view view;
-        view_along(&view, &ray, 0xff);
+        view_along(&view, &ray);
+        view_common(&view, 0xff);
         assert_int_equal(crosses(&triangle, &ray, &view, 0xff, NULL, NULL), wanted ? 0xff : 0);
         view.k = -1; // the same by the operations of rays that differ
         assert_int_equal(crosses(&triangle, &ray, &view, 0xff, NULL, NULL), wanted ? 0xff : 0);

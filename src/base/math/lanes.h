@@ -349,9 +349,20 @@ LANE_FN num lanes_at(num x, inum at)
 // The minimum of all lanes, none of which is NaN.
 LANE_FN float min_lane(num x)
 {
+#if (LANES == 16 && defined(__AVX512DQ__)) || (LANES == 8 && defined(__AVX__))
+#if LANES == 16
+    __m256 half = _mm256_min_ps(_mm512_castps512_ps256((__m512)x), _mm512_extractf32x8_ps((__m512)x, 1));
+#else
+    __m256 half = (__m256)x;
+#endif
+    __m128 four = _mm_min_ps(_mm256_castps256_ps128(half), _mm256_extractf128_ps(half, 1));
+    four = _mm_min_ps(four, _mm_movehl_ps(four, four));
+    return _mm_cvtss_f32(_mm_min_ss(four, _mm_movehdup_ps(four)));
+#else
     for (int apart = 1; apart < LANES; apart *= 2)
         x = min_of(x, lanes_at(x, lane_numbers() ^ apart));
     return lane(x, 0);
+#endif
 }
 
 // The lower half of the lanes from one address, the upper half from another.

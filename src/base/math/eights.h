@@ -1,0 +1,69 @@
+// eights.h: eight floats side by side on any instruction set, whatever LANES is: what is read eight numbers at a time
+// from memory that every set shares. As in lanes.h: correctly rounded operations alone, by the operators of C.
+#ifndef EIGHTS_H
+#define EIGHTS_H
+
+#include "lanes.h"
+
+typedef float eight __attribute__((vector_size(32)));
+typedef float eight_memory __attribute__((vector_size(32), aligned(4), may_alias));
+
+LANE_FN eight eight_of(float x) { return x - (eight){0}; }
+LANE_FN eight eight_load(const float *at) { return (eight) * (const eight_memory *)at; }
+
+// Minimum and maximum as min_of and max_of have them, and the numbers of a that are not above those of b: bit i is number i.
+#if defined(__AVX__)
+LANE_FN eight eight_min(eight a, eight b) { return (eight)_mm256_min_ps((__m256)a, (__m256)b); }
+LANE_FN eight eight_max(eight a, eight b) { return (eight)_mm256_max_ps((__m256)a, (__m256)b); }
+LANE_FN unsigned eight_not_above(eight a, eight b)
+{
+    return (unsigned)_mm256_movemask_ps(_mm256_cmp_ps((__m256)a, (__m256)b, _CMP_LE_OQ));
+}
+#elif defined(__SSE2__)
+union eight_halves {
+    eight all;
+    __m128 half[2];
+};
+LANE_FN eight eight_min(eight a, eight b)
+{
+    union eight_halves x = {a}, y = {b};
+    for (int i = 0; i < 2; i++)
+        x.half[i] = _mm_min_ps(x.half[i], y.half[i]);
+    return x.all;
+}
+LANE_FN eight eight_max(eight a, eight b)
+{
+    union eight_halves x = {a}, y = {b};
+    for (int i = 0; i < 2; i++)
+        x.half[i] = _mm_max_ps(x.half[i], y.half[i]);
+    return x.all;
+}
+LANE_FN unsigned eight_not_above(eight a, eight b)
+{
+    union eight_halves x = {a}, y = {b};
+    return (unsigned)_mm_movemask_ps(_mm_cmple_ps(x.half[0], y.half[0])) |
+           (unsigned)_mm_movemask_ps(_mm_cmple_ps(x.half[1], y.half[1])) << 4;
+}
+#else
+LANE_FN eight eight_min(eight a, eight b)
+{
+    for (int i = 0; i < 8; i++)
+        a[i] = a[i] < b[i] ? a[i] : b[i];
+    return a;
+}
+LANE_FN eight eight_max(eight a, eight b)
+{
+    for (int i = 0; i < 8; i++)
+        a[i] = a[i] > b[i] ? a[i] : b[i];
+    return a;
+}
+LANE_FN unsigned eight_not_above(eight a, eight b)
+{
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i++)
+        bits |= (unsigned)(a[i] <= b[i]) << i;
+    return bits;
+}
+#endif
+
+#endif

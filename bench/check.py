@@ -58,7 +58,9 @@ def jobs():
     found.update({"draw phong": ["-s", "320", "--samples", "4", "teapot"], "draw phong, 1 sample": ["-s", "320", "--samples", "1", "teapot"],
                   "draw gouraud": ["-s", "256", "--samples", "4", "--shading", "gouraud", "teapot"], "draw flat": ["-s", "256", "--samples", "4", "--shading", "flat", "teapot"],
                   "16 lights": ["-s", "256", "--samples", "1", *lights, "sphere"], "translucent": ["-s", "200", "--samples", "4", "--opacity", "0.5", "torus-knot"],
-                  "encode": ["-s", "700", "--samples", "1", "--reflection", "none", "-b", "white", "cube"]})
+                  "encode": ["-s", "700", "--samples", "1", "--reflection", "none", "-b", "white", "cube"],
+                  "shadows": ["-s", "200", "--samples", "1", "--light", "point:position=2/3/2", "--shadows", "teapot"],
+                  "edges": ["-s", "200", "--samples", "1", "--edges", "all", "teapot"], "wireframe": ["-s", "200", "--samples", "1", "--wireframe", "teapot"]})
     # What the default look has on top stands in a job of its own.
     found = {name: words if words == ["--version"] else ["--ao", "off", *words] for name, words in found.items()}
     found["ambient occlusion"] = found["draw phong"][2:]

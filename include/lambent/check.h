@@ -216,7 +216,7 @@ typedef struct lam_check_report {
     void *memory;                      // owns the strings above
     int scenes_wanted;                 // that the shaders were to draw
     bool search_stopped;               // the search for mistakes ended at max_pictures
-    uint64_t tried;                    // mistakes, and sets of several, that were compared; 0: no search was needed
+    uint64_t tried;                    // mistakes and sets of them that were compared
     LAM_RESERVED(6);
 } lam_check_report;
 

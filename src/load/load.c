@@ -57,6 +57,8 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     const lam_load_params *params = source->params;
     if (!check_not_empty(scene, source->name, error))
         return false;
+    if (!importer->is_scene_file && !scene_give_colors_white(scene, error))
+        return false;
     show_clear_scene(scene, source->name);
     // A scene file records the origin of each of its models itself.
     struct scene_origin origin = {.normals = params->normals, .crease_angle_rad = params->crease_angle_rad};

@@ -144,6 +144,10 @@ void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double cr
 
 // Whether some mesh has a material with a normal map and no tangents.
 bool scene_needs_tangents(const struct lam_scene *scene);
+
+// Gives surfaces with colours of their own and no material a white one, so that the colours are what they return; the
+// neutral grey would darken them. For a scene that was just read. False: out of memory.
+bool scene_give_colors_white(struct lam_scene *scene, lam_error *error);
 // Gives each such mesh, or with `all` every mesh, that has normals, texture coordinates and no tangents those of MikkTSpace,
 // for the texture coordinates of the normal map. Charged to `call`.
 bool scene_make_tangents(struct lam_scene *scene, bool all, struct call_control *call, lam_error *error);

@@ -51,6 +51,25 @@ class Show(Case):
         self.assertEqual(pixel(self.png("sphere", "--view", "front", "-s", SIZE + 1, "--show", "roughness"), 20, 20), (0, 0, 0, 255))
         self.assertEqual(self.floats(*gold[:-2], "--material", "#ffc356,metallic=0.6,roughness=0.4", "--show", "roughness")[SIZE * SIZE // 2 * 3 + 60], struct.unpack("f", struct.pack("f", 0.4))[0])
 
+    def test_colors_without_material(self):
+        """A surface with colours of its own and no material returns those colours, from a scene file too; one without returns grey."""
+        head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+        tail = "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        corners = ("-9 -9 0", "9 -9 0", "0 9 0")
+        (self.folder / "colored.ply").write_text(head + colors + tail + "".join(c + " 250 130 20\n" for c in corners) + "3 0 1 2\n")
+        (self.folder / "plain.ply").write_text(head + tail + "".join(c + "\n" for c in corners) + "3 0 1 2\n")
+        (self.folder / "colored.obj").write_text("".join("v %s 0.5 0.25 1\n" % c for c in corners) + "f 1 2 3\n")
+        (self.folder / "both.json").write_text('{"lambent": 1, "objects": [{"file": "colored.ply"}, {"file": "plain.ply", "transform": [["translate", 30, 0, 0]]}]}')
+        self.given |= {"colored.ply", "plain.ply", "colored.obj", "both.json"}
+        look = ("-s", SIZE + 1, "--show", "base-color", "--camera", "eye=0/0/30,target=0/0/0,fovy=10")
+        grey = pixel(self.png("plain.ply", *look), 20, 20)
+        self.assertTrue(grey[0] == grey[1] == grey[2] and 190 < grey[0] < 200, grey)
+        self.assertEqual(pixel(self.png("colored.ply", *look), 20, 20), (250, 130, 20, 255))
+        self.assertEqual(pixel(self.png("both.json", *look), 20, 20), (250, 130, 20, 255))
+        self.assertEqual(pixel(self.png("colored.obj", *look), 20, 20), (128, 64, 255, 255))
+        self.assertEqual(pixel(self.png("both.json", *look[:-1], "eye=30/0/30,target=30/0/0,fovy=10"), 20, 20), grey)
+
     def test_background(self):
         """It is the picture's wherever a number is of a surface, and on the sheets; numbers of pixels have no background."""
         names = {"normals": 1, "depth": 1, "facing": 1, "ids": 1, "n.l": 1, "n.h": 1, "diffuse": 1, "picture": 1, "coverage": 0, "overdraw": 0}

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""machines.py: the library compiles for other machines: 64-bit Arm with NEON kernels, and WebAssembly with SIMD.
+"""machines.py: the library compiles for another machine: 64-bit Arm with NEON kernels. (tests/web.py builds for WebAssembly.)
 
-Clang's cross compilers with Debian's C libraries look at every source file of the folders that a picture needs, without the
+Clang's cross compiler with Debian's C library looks at every source file of the folders that a picture needs, without the
 importers and codecs that depend on a packaged library: their types, intrinsics and warnings. No code is generated, which takes minutes; tests/emulated.py
-builds for other processors and draws there, in `make test-long`, and tests/web.py builds for WebAssembly."""
+builds for other processors and draws there, in `make test-long`."""
 import glob
 import os
 import subprocess
@@ -19,10 +19,6 @@ MACHINES = {
     "arm64": {"flags": ["--target=aarch64-linux-gnu", "-isystem", "/usr/aarch64-linux-gnu/include"],
               "needs": "/usr/aarch64-linux-gnu/include/stdio.h", "package": "libc6-dev-arm64-cross",
               "kernels": [("scalar", 1), ("neon", 4)], "without": ["file_write_web.c"]},
-    "wasm": {"flags": ["--target=wasm32-wasi", "-isystem", os.path.join(ROOT, "web", "libc"), "-isystem", "/usr/include/wasm32-wasi", "-msimd128"],
-             "needs": "/usr/include/wasm32-wasi/stdio.h", "package": "wasi-libc",
-             "kernels": [("scalar", 1), ("wasm", 4)],
-             "without": ["file_write.c"]}, # file_write_web.c is its own
 }
 LEFT_OUT = ["png_read.c", "jpeg.c", "jpeg_write.c"]  # libspng's and libjpeg's own headers are the host's
 

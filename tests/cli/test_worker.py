@@ -26,12 +26,16 @@ def children(pid):
         return []
 
 
+# AddressSanitizer would make an exit code of a signal.
+SANITIZER = {"ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":handle_segv=0"}
+
+
 class Worker:
     """A worker whose answers are collected by a thread."""
 
     def __init__(self, folder, *words, env=None):
         self.process = subprocess.Popen([PROGRAM, "batch", "--jobs", "-", *map(str, words)], cwd=folder, stdin=subprocess.PIPE,
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={**os.environ, **(env or {})})
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={**os.environ, **SANITIZER, **(env or {})})
         self.answers, self.came = [], threading.Condition()
         self.err = b""
         self.readers = [threading.Thread(target=self.read, daemon=True), threading.Thread(target=self.read_err, daemon=True)]

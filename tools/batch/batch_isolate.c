@@ -110,7 +110,8 @@ static bool read_bytes(struct rest *rest, void *to, size_t size)
 {
     if (rest->size < size)
         return false;
-    memcpy(to, rest->at, size);
+    if (size) // of nothing, the addresses may be NULL
+        memcpy(to, rest->at, size);
     rest->at += size;
     rest->size -= size;
     return true;

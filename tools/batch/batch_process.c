@@ -27,7 +27,8 @@ bool batch_answer_add(struct batch_answer *answer, const void *data, size_t size
         answer->data = more;
         answer->capacity = capacity;
     }
-    memcpy(answer->data + answer->size, data, size);
+    if (size) // of nothing, the address may be NULL
+        memcpy(answer->data + answer->size, data, size);
     answer->size += size;
     return true;
 }

@@ -20,7 +20,7 @@ from lectures import LECTURES  # noqa: E402
 from mistakes import MISTAKES  # noqa: E402
 
 SHADERS = ROOT / "tests" / "check"
-EVERY = int(os.environ.get("LAMBENT_CHECK_EVERY", "1"))  # only every n-th mistake is checked
+EVERY = int(os.environ.get("LAMBENT_CHECK_EVERY", "1"))  # only every n-th mistake and correct style; make test-long has all
 SCHEMA = json.loads((ROOT / "docs" / "check.schema.json").read_text())
 
 
@@ -300,7 +300,7 @@ class Mistakes(CheckTest):
 
     def tell(self, number, expected):
         if number % EVERY:
-            self.skipTest(f"only every {EVERY}th of the mistakes; the plain build has all")
+            self.skipTest(f"only every {EVERY}th of the mistakes; make test-long has all")
         report = self.reports.get(f"{number:03}.frag")
         self.assertTrue(report, self.said)
         check_value(self, report, SCHEMA, "check")

@@ -13,7 +13,7 @@
 #include "glsl_combinations.h"
 #include "glsl_rows.h"
 
-// All choices take minutes (LAMBENT_EVERY_SHADER=1), so the test takes every STEP-th; glslangValidator compiles them all
+// All choices take minutes (LAMBENT_EVERY_SHADER=1), so the test takes every STEP-th; glslangValidator compiles more of them
 // (test_glsl.c). The step is a prime, so that it covers every loop of glsl_combinations. One build has a smaller step.
 #ifdef EVERY_TEXT
 enum { STEP = 37 };

@@ -1,0 +1,48 @@
+// target_job.c: fuzz target for the lines of `lambent batch --jobs` (docs/worker.md). Nothing is drawn: a line is read, with the options,
+// the plan and the model's bytes that it asks for. Its files may lie in an empty folder.
+#include "target.h"
+
+#include <string.h>
+#include <unistd.h>
+
+#include "batch_job.h"
+
+static char root[] = "/tmp/lambent-fuzz-job-XXXXXX";
+
+static void leave(void) { rmdir(root); }
+
+static struct options *worker(struct job_roots *roots)
+{
+    static struct options options;
+    static char *paths[] = {root};
+    if (!roots->count) {
+        option_table_fill();
+        options = option_defaults();
+        if (!mkdtemp(root) || atexit(leave) != 0)
+            abort();
+        *roots = (struct job_roots){paths, 1};
+    }
+    return &options;
+}
+
+// Invariant for every line: a job that is as it must be to be drawn, the id of one to be cancelled, or a sentence.
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static struct job_roots roots;
+    struct batch_job_rules rules = {
+        .options = worker(&roots), .threads = 1, .in_flight = 1, .roots = &roots, .has_keys = true};
+    lam_error error = {0};
+    json_t *id;
+    struct batch_job *job;
+    enum batch_line kind = batch_job_read((const char *)data, size, &rules, &job, &id, &error);
+    note_sentence(kind == LINE_REFUSED ? error.text : "");
+    if ((kind == LINE_REFUSED) != (error.text[0] != 0) || (kind == LINE_REFUSED) != (error.code != LAM_OK) ||
+        (kind == LINE_JOB) != (job != NULL) || (kind == LINE_CANCEL && !id))
+        abort();
+    if (job && (job->plan.count != 1 || job->plan.view_count < 1 || !job->output || !job->id || !job->options_text ||
+                !(job->options.time_limit_s > 0)))
+        abort();
+    batch_job_free(job);
+    json_decref(id);
+    return 0;
+}

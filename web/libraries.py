@@ -14,23 +14,26 @@ import sys
 
 CLANG = "clang-19"
 ARCHIVER = "/usr/lib/llvm-19/bin/llvm-ar"
-FLAGS = ["--target=wasm32-wasi", "-O2", "-DNDEBUG", "-msimd128", "-ffp-contract=off", "-w",
+FLAGS = ["--target=wasm32-wasi", "-DNDEBUG", "-msimd128", "-mbulk-memory", "-mnontrapping-fptoint", "-ffp-contract=off", "-w",
          "-mllvm", "-wasm-enable-sjlj", "-isystem", os.path.join(os.path.dirname(os.path.abspath(__file__)), "libc")]
 
-JPEG = """jaricom jcapimin jcapistd jcarith jccoefct jccolor jcdctmgr jchuff jcicc jcinit jcmainct jcmarker jcmaster jcomapi jcparam
-jcphuff jcprepct jcsample jctrans jdapimin jdapistd jdarith jdatadst jdatasrc jdcoefct jdcolor jddctmgr jdhuff jdicc jdinput
-jdmainct jdmarker jdmaster jdmerge jdphuff jdpostct jdsample jdtrans jerror jfdctflt jfdctfst jfdctint jidctflt jidctfst
-jidctint jidctred jquant1 jquant2 jutils jmemmgr jmemnobs jsimd_none""".split()
+JPEG = """jaricom jcapimin jcapistd jccoefct jccolor jcdctmgr jchuff jcinit jcmainct jcmarker jcmaster jcomapi jcparam
+jcprepct jcsample jdapimin jdapistd jdarith jdatadst jdatasrc jdcoefct jdcolor jddctmgr jdhuff jdinput
+jdmainct jdmarker jdmaster jdphuff jdpostct jdsample jerror jfdctint jidctint jutils jmemmgr jmemnobs jsimd_none""".split()
+# What no picture of Lambent's is read or written with: a page fetches the module.
+JPEG_WITHOUT = """DCT_IFAST DCT_FLOAT C_MULTISCAN_FILES C_PROGRESSIVE INPUT_SMOOTHING BLOCK_SMOOTHING IDCT_SCALING UPSAMPLE_MERGING
+QUANT_1PASS QUANT_2PASS""".split()
 ZLIB = "adler32 crc32 deflate inffast inflate inftrees trees zutil compress uncompr".split()
 
-# One row for each: Debian's source package, the files, the headers that others include, and what pkg-config says.
+# One row for each: Debian's source package, the files, the headers that others include, what pkg-config says, and flags: for size where
+# speed does not show.
 LIBRARIES = [
-    {"source": "zlib", "library": "z", "files": [n + ".c" for n in ZLIB], "headers": ["zlib.h", "zconf.h"], "pc": "zlib"},
+    {"source": "zlib", "library": "z", "files": [n + ".c" for n in ZLIB], "headers": ["zlib.h", "zconf.h"], "pc": "zlib", "flags": ["-O2"]},
     {"source": "jansson", "library": "jansson", "files": ["src/*.c"], "headers": ["src/jansson.h", "src/jansson_config.h"], "pc": "jansson",
-     "flags": ["-DHAVE_CONFIG_H"]},
-    {"source": "libspng", "library": "spng", "files": ["spng/spng.c"], "headers": ["spng/spng.h"], "pc": "spng", "needs": "zlib"},
+     "flags": ["-Oz", "-DHAVE_CONFIG_H"]},
+    {"source": "libspng", "library": "spng", "files": ["spng/spng.c"], "headers": ["spng/spng.h"], "pc": "spng", "needs": "zlib", "flags": ["-Os"]},
     {"source": "libjpeg-turbo", "library": "jpeg", "files": [n + ".c" for n in JPEG],
-     "headers": ["jpeglib.h", "jmorecfg.h", "jerror.h", "jconfig.h"], "pc": "libjpeg"},
+     "headers": ["jpeglib.h", "jmorecfg.h", "jerror.h", "jconfig.h"], "pc": "libjpeg", "flags": ["-Os", "-DUSE_CLZ_INTRINSIC"]},
 ]
 
 
@@ -87,10 +90,13 @@ def configure(name, path):
         version = os.path.basename(path).rsplit("-", 1)[1]
         number = "%d%03d%03d" % tuple(int(n) for n in version.split("."))
         fill("jconfig.h.in", {"JPEG_LIB_VERSION": "62", "VERSION": version, "LIBJPEG_TURBO_VERSION_NUMBER": number, "BITS_IN_JSAMPLE": "8"},
-             ["C_ARITH_CODING_SUPPORTED", "D_ARITH_CODING_SUPPORTED", "MEM_SRCDST_SUPPORTED"])
-        fill("jconfigint.h.in", {"BUILD": "lambent", "INLINE": "inline __attribute__((always_inline))", "THREAD_LOCAL": "_Thread_local",
+             ["D_ARITH_CODING_SUPPORTED", "MEM_SRCDST_SUPPORTED"])
+        fill("jconfigint.h.in", {"BUILD": "lambent", "INLINE": "inline", "THREAD_LOCAL": "_Thread_local",
                                  "CMAKE_PROJECT_NAME": name, "VERSION": version, "SIZE_T": "4"})
         fill("jversion.h.in", {"COPYRIGHT_YEAR": "2023"})
+        header = os.path.join(path, "jmorecfg.h")
+        text = re.sub(r"^#define (%s)_SUPPORTED" % "|".join(JPEG_WITHOUT), r"#undef \1_SUPPORTED", open(header).read(), flags=re.M)
+        open(header, "w").write(text)
 
 
 def build(row, folder):

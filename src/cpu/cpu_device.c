@@ -82,10 +82,9 @@ static void tile_task(void *user, size_t index, int thread)
         call_progress(cpu->call, (double)index / (double)tile_count(cpu), "frame");
 }
 
-// Draws the one tile with the explained pixel, by the kernels that record its values.
+// Draws the one tile with the explained pixel once more; its values are recorded.
 static void record_tile(struct cpu_frame *cpu, struct recorder *recorder)
 {
-    cpu->kernels = &kernels_recording;
     const lam_explanation *out = recorder->out;
     tile_task(cpu, (size_t)(out->y >> TILE_SHIFT) * (size_t)cpu->raster.tiles_across + (size_t)(out->x >> TILE_SHIFT),
               0);

@@ -12,7 +12,7 @@ static void shade(const struct cpu_frame *cpu, struct thread_state *thread, cons
     if (thread->shading.shadow_layers.failed)
         raster_fail(&cpu->raster, FAILED_MEMORY);
     if (cpu->shade.recorder)
-        cpu->kernels->record_fragments(cpu, thread, tile);
+        recording_kernels.record_fragments(cpu, thread, tile);
 }
 
 // Draws the layers over the pixels of `area`. A thread holds at most LAYERS_MAX fragments: an area with more is drawn in
@@ -93,7 +93,7 @@ static void resolve_into(const struct resolve_target *target, const struct cpu_f
     if (lam_output_is_light(output)) {
         kernels->resolve(target, &thread->fragments, &thread->samples, &thread->sums, tile);
         if (cpu->shade.recorder)
-            kernels->record_pixel(cpu, thread, tile);
+            recording_kernels.record_pixel(cpu, thread, tile);
         return;
     }
     if (output == LAM_OUTPUT_CLIPPED) { // resolved into floats first

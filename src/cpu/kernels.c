@@ -1,4 +1,5 @@
-// kernels.c: the text of all kernels, compiled once for each instruction set with LANES and ISA defined (meson.build).
+// kernels.c: the text of all kernels, compiled once for each instruction set with LANES and ISA defined (meson.build); and once with
+// RECORDING, for the shading of one pixel that keeps its numbers. (What only the drawing calls is left out of that one by the compiler.)
 #include "kernels.h"
 
 #include "clip.h"
@@ -19,6 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#ifndef RECORDING
 #include "vertex_transform.inc"
 #include "corners.inc"
 #include "occlusion.inc"
@@ -30,10 +32,14 @@
 #include "visibility_resolve.inc"
 #include "fragment_store.inc"
 #include "tile_depth.inc"
+#endif
 #include "shade.inc"
 #include "resolve.inc"
 #include "record_pixel.inc"
 
+#ifdef RECORDING
+const struct recording_kernels recording_kernels = {.record_fragments = record_fragments, .record_pixel = record_pixel};
+#else
 #define JOIN(a, b) a##b
 #define NAME(isa)  JOIN(kernels_, isa)
 #define TEXT(x)    #x
@@ -55,8 +61,5 @@ const struct kernels NAME(ISA) = {
     .occlusion = &occlusion_kernels,
     .resolve = resolve,
     .resolve_empty = resolve_empty,
-#ifdef RECORDING
-    .record_fragments = record_fragments,
-    .record_pixel = record_pixel,
-#endif
 };
+#endif

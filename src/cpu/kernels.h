@@ -84,16 +84,23 @@ struct kernels {
 
     // Sets target->empty_pixel to the background, encoded.
     void (*resolve_empty)(struct resolve_target *target);
+};
 
-    // Only in kernels_recording, else NULL: records the explained pixel's fragments once they are shaded, and the pixel
-    // once it is resolved.
+// The shading of `scalar` once more, with hooks that keep the numbers of one pixel (record.inc).
+struct recording_kernels {
+    // Records the explained pixel's fragments once they are shaded.
     void (*record_fragments)(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile);
+    // The pixel, once it is resolved.
     void (*record_pixel)(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile);
 };
 
-// As `scalar`, and with the numbers of one pixel recorded (record.inc).
-extern const struct kernels kernels_recording;
-
-extern const struct kernels kernels_scalar, kernels_sse4, kernels_avx2, kernels_avx512, kernels_neon, kernels_wasm;
+extern const struct recording_kernels recording_kernels;
+// A module for the web may be linked without plain C: every browser has SIMD (web/meson.build).
+#if defined(__wasm_simd128__)
+extern const struct kernels kernels_scalar __attribute__((weak));
+#else
+extern const struct kernels kernels_scalar;
+#endif
+extern const struct kernels kernels_sse4, kernels_avx2, kernels_avx512, kernels_neon, kernels_wasm;
 
 #endif

@@ -30,29 +30,11 @@ FN vec3 cross3(vec3 a, vec3 b) { return (vec3){a.y * b.z - a.z * b.y, a.z * b.x 
 FN vec3 mix3(vec3 a, vec3 b, num t) { return add3(a, scale3(sub3(b, a), t)); } // a at 0, b at 1
 FN vec3 pick3(mask m, vec3 a, vec3 b) { return (vec3){pick(m, a.x, b.x), pick(m, a.y, b.y), pick(m, a.z, b.z)}; }
 
-// Numbers of the tables that single_scattering and schlick_scattering read.
-FN num albedo_texel(num index)
-{
-    static const float table[] = {
-#include "albedo.table"
-    };
-    return num_of_bits(igather((const int32_t *)table, int_of(index)));
-}
-FN num bias_texel(num index)
-{
-    static const float table[] = {
-#include "bias.table"
-    };
-    return num_of_bits(igather((const int32_t *)table, int_of(index)));
-}
-// Of the table that sheen_albedo reads.
-FN num sheen_texel(num index)
-{
-    static const float table[] = {
-#include "sheen.table"
-    };
-    return num_of_bits(igather((const int32_t *)table, int_of(index)));
-}
+// Numbers of the tables that single_scattering, schlick_scattering and sheen_albedo read (tables.c).
+extern const float albedo_table[], bias_table[], sheen_table[];
+FN num albedo_texel(num index) { return num_of_bits(igather((const int32_t *)albedo_table, int_of(index))); }
+FN num bias_texel(num index) { return num_of_bits(igather((const int32_t *)bias_table, int_of(index))); }
+FN num sheen_texel(num index) { return num_of_bits(igather((const int32_t *)sheen_table, int_of(index))); }
 
 // The whole part of a number from 0 to 2^31.
 FN num whole(num x) { return num_of_int(int_of(x)); }

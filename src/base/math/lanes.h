@@ -25,7 +25,12 @@
 #include <wasm_simd128.h>
 #endif
 
+// Always inlined, so that lanes stay in registers; but not in what computes one pixel (src/cpu/kernels.c), where size counts.
+#ifdef RECORDING
+#define LANE_FN static inline __attribute__((unused))
+#else
 #define LANE_FN static inline __attribute__((always_inline, unused))
+#endif
 
 #if LANES == 1
 typedef float num;

@@ -45,7 +45,7 @@ struct shade_frame {
     const float *decode_srgb, *decode_linear;          // 256 entries each: the value of a colour byte
     struct visible_normals
         visible;               // of draws whose meshes have no normals; its set holds triangle numbers of the frame
-    struct recorder *recorder; // of the pixel that is explained (recorder.h), in the recording kernels; else NULL
+    struct recorder *recorder; // of the pixel that is explained (recorder.h); else NULL
 };
 
 // The parts of an environment's light that the frame's materials read (environment_light.h): all of them where a roughness varies.

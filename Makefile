@@ -50,7 +50,8 @@ web:
 
 test:
 	@scripts/setup.sh build test
-	@scripts/setup.sh web || true # optional: what is missing is skipped
+	@scripts/setup.sh web browser || true # optional: what is missing is skipped
+	@command -v npm >/dev/null || scripts/setup.sh npm || true
 	@python3 tests/run.py
 
 test-gl:
@@ -59,7 +60,8 @@ test-gl:
 
 test-long:
 	@scripts/setup.sh build test
-	@scripts/setup.sh long || true # optional: what is missing is skipped
+	@scripts/setup.sh long web browser || true # optional: what is missing is skipped
+	@command -v npm >/dev/null || scripts/setup.sh npm || true
 	@python3 tests/run.py long
 
 # Exceptions stand in tests/lint/cppcheck.txt and .clang-tidy, with their reasons.

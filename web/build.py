@@ -2,8 +2,10 @@
 """build.py [FOLDER]: the modules for the web in FOLDER (build-web): the libraries (libraries.py), then WebAssembly by Meson and
 clang 19. What is up to date is left alone. `make web` calls it; packages: group `web` of packages.txt."""
 import base64
+import fcntl
 import gzip
 import hashlib
+import json
 import os
 import re
 import shutil
@@ -30,7 +32,7 @@ def call(*command):
 
 
 # The page's scripts, each after those that it imports.
-PAGE = ["camera.js", "state.js", "explanation.js", "panel.js", "start.js", "page.js"]
+PAGE = ["camera.js", "state.js", "explanation.js", "dropped.js", "panel.js", "start.js", "page.js"]
 WORKER = ["wasi.js", "lambent.js", "worker.js"]
 
 # In place of start.js's openWorker: the worker and the module stand in the page itself.
@@ -61,6 +63,22 @@ def source_hash(text):
     return "'sha256-%s'" % base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
 
 
+def make_offline(served):
+    """The service worker of the served page, and what starts it; its list is of all files that the page loads."""
+    open(os.path.join(served, "offline.js"), "w").write(page_file("offline.js"))
+    path = os.path.join(served, "index.html")
+    page = open(path).read()
+    script = '<script type="module" src="page.js"></script>'
+    if script not in page:
+        sys.exit("web: index.html has no %s" % script)
+    open(path, "w").write(page.replace(script, script + '\n<script type="module" src="offline.js"></script>'))
+    files = sorted(name for name in os.listdir(served) if name.endswith((".js", ".css", ".html", ".wasm")) and name != "offline_worker.js")
+    contents = hashlib.sha256(b"".join(name.encode() + open(os.path.join(served, name), "rb").read() for name in files)).hexdigest()
+    worker = page_file("offline_worker.js").replace("lambent-HASH", "lambent-" + contents[:16])
+    worker = worker.replace("const FILES = [];", "const FILES = %s;" % json.dumps(["./"] + files))
+    open(os.path.join(served, "offline_worker.js"), "w").write(worker)
+
+
 def make_page(folder, wasm):
     """The page as files that a server serves, and as one file that works by itself."""
     served = os.path.join(folder, "page")
@@ -68,6 +86,7 @@ def make_page(folder, wasm):
     for name in PAGE + WORKER + ["index.html", "page.css", "lambent.d.ts"]:
         open(os.path.join(served, name), "w").write(page_file(name))
     shutil.copy(wasm, os.path.join(served, "lambent.wasm"))
+    make_offline(served)
 
     style = page_file("page.css")
     script = plain_script(PAGE)
@@ -90,6 +109,8 @@ def main():
     if missing():
         sys.exit("web: not installed: " + " ".join(missing()))
     os.makedirs(folder, exist_ok=True)
+    alone = open(os.path.join(folder, "lock"), "w") # two tests build the same folder
+    fcntl.flock(alone, fcntl.LOCK_EX)
     libraries = subprocess.run([sys.executable, os.path.join(HERE, "libraries.py"), folder])
     if libraries.returncode:
         sys.exit(1)

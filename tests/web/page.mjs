@@ -38,6 +38,7 @@ ok(near(orbit(orbit(camera, 0.3, 0.2, [0, 1, 0], [0, 0, 0]), -0.3, -0.2, [0, 1, 
 const high = orbit(camera, 0, 3, [0, 1, 0], [0, 0, 0]).eye;
 ok(high[1] > 4.99 && high[2] > 0, 'it stays below the pole');
 ok(near(pan(camera, 0.5, 0).target, [-5 * Math.tan(Math.PI / 12), 0, 0]), 'half a picture to the side');
+ok(near(pan(camera, 0, 0.5).target, [0, -5 * Math.tan(Math.PI / 12), 0]), 'half a picture up');
 ok(near(zoom(camera, 2).eye, [0, 0, 2.5]) && zoom({ ...camera, ortho: 3 }, 2).ortho === 1.5, 'zoom');
 ok(Math.abs(around(camera, { centre: [1, 2, 3], radius: 2 }, 1).eye[2] - 3 - 2 / Math.sin(Math.PI / 12)) < 1e-9, 'a ball fills the picture');
 ok(cameraText(orbit(camera, 1, 0.5, [0, 1, 0], [0, 0, 0])) === 'eye=3.6923/2.39713/2.3708,target=0/0/0,up=0/1/0,fovy=30', 'decimal text');

@@ -50,12 +50,12 @@ export function around(camera, sphere, aspect) {
   return { ...camera, eye: add(sphere.centre, out, distance), target: sphere.centre, ortho };
 }
 
-// By parts of the picture's height.
+// What is seen moves to the right and up, by parts of the picture's height.
 export function pan(camera, right, up) {
   const out = sub(camera.eye, camera.target), back = unit(out);
   const side = unit(cross(camera.up, back)), above = cross(back, side);
   const height = camera.ortho > 0 ? 2 * camera.ortho : 2 * length(out) * Math.tan((camera.fovy_deg * Math.PI) / 360);
-  const move = add(scale(side, -right * height), above, up * height);
+  const move = add(scale(side, -right * height), above, -up * height);
   return { ...camera, eye: add(camera.eye, move), target: add(camera.target, move) };
 }
 

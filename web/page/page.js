@@ -1,5 +1,6 @@
 // page.js: the page: files come in, gestures and controls change the words of a command line (state.js), and a worker draws them.
 import { around, cameraText, orbit, pan, zoom } from './camera.js';
+import { droppedFiles } from './dropped.js';
 import { State, command, fromFragment, toFragment } from './state.js';
 import { explanation } from './explanation.js';
 import { Panel } from './panel.js';
@@ -231,17 +232,6 @@ for (const id of ['files', 'folder'])
     event.target.value = '';
   };
 
-// The files of a dropped entry, and of all folders below it.
-async function filesOf(entry, prefix) {
-  if (entry.isFile) return [[prefix + entry.name, await new Promise((resolve, reject) => entry.file(resolve, reject))]];
-  const reader = entry.createReader(), found = [];
-  for (;;) {
-    const part = await new Promise((resolve, reject) => reader.readEntries(resolve, reject));
-    if (!part.length) return found;
-    for (const child of part) found.push(...(await filesOf(child, `${prefix}${entry.name}/`)));
-  }
-}
-
 addEventListener('dragover', (event) => {
   event.preventDefault();
   $('drop').hidden = false;
@@ -252,9 +242,7 @@ addEventListener('dragleave', (event) => {
 addEventListener('drop', async (event) => {
   event.preventDefault();
   $('drop').hidden = true;
-  const entries = [...event.dataTransfer.items].map((item) => item.webkitGetAsEntry()).filter(Boolean);
-  const lists = await Promise.all(entries.map((entry) => filesOf(entry, '')));
-  takeFiles(lists.flat());
+  takeFiles(await droppedFiles(event.dataTransfer));
 });
 
 // --- the bar

@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""browser.py PROGRAM [--long]: the page of `make web` in Debian's chromium, driven by playwright-core (web/browser.mjs): gestures and the command
+lines that they make, controls, links, drops, explanations, the page in one file, without its server, names and roles, texts. After random
+sequences of gestures, 3 or with --long 30, PROGRAM draws the copied command, and the canvas has the same pixels.
+
+Skipped where chromium, a package of the group `web`, or playwright-core is missing; npm installs that in build-web/npm, as web/package-lock.json
+has it."""
+import hashlib
+import json
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+OUT = os.path.join(ROOT, "build-web")
+sys.path[:0] = [os.path.join(ROOT, "web"), os.path.join(ROOT, "tests")]
+import build  # noqa: E402
+from web import Results, make_models  # noqa: E402
+
+
+def playwright():
+    """The folder of node's modules with playwright-core, installed where it is not yet; None: npm is missing or cannot get it."""
+    place = os.path.join(OUT, "npm")
+    lock = open(os.path.join(ROOT, "web", "package-lock.json")).read()
+    stamp = os.path.join(place, "installed")
+    if not os.path.exists(stamp) or open(stamp).read() != lock:
+        if not shutil.which("npm"):
+            return None
+        os.makedirs(place, exist_ok=True)
+        for name in ("package.json", "package-lock.json"):
+            shutil.copy(os.path.join(ROOT, "web", name), place)
+        done = subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund"], cwd=place, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        if done.returncode:
+            return None
+        open(stamp, "w").write(lock)
+    return os.path.join(place, "node_modules")
+
+
+def colors_of(path):
+    """The RGB bytes of a PPM file."""
+    data = open(path, "rb").read()
+    header = re.match(rb"P6\s+#[^\n]*\n\d+ \d+\s+255\n", data)
+    return data[header.end():]
+
+
+def check_picture(results, program, folder, kind, said):
+    """Draws a command line that the page copied; it begins with "lambent"."""
+    path = os.path.join(folder, "drawn.ppm" if kind == "pixels" else "drawn.png")
+    command = "%s -q %s -o %s" % (shlex.quote(program), said["command"].split(" ", 1)[1], path)
+    done = subprocess.run(["sh", "-c", command], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if done.returncode:
+        results.ok(False, "drawn: " + said["command"], done.stderr)
+        return
+    data = colors_of(path) if kind == "pixels" else open(path, "rb").read()
+    results.ok(hashlib.sha256(data).hexdigest() == said["hash"], "%s: %s" % (said.get("label", "the same " + kind), said["command"]))
+    os.remove(path)
+
+
+def skip(why):
+    print("ok 1 - browser # SKIP %s\n1..1" % why)
+    return 0
+
+
+def main():
+    program, long = os.path.abspath(sys.argv[1]), "--long" in sys.argv
+    chromium = shutil.which("chromium")
+    if not chromium or build.missing():
+        return skip("not installed: " + " ".join(build.missing() + ([] if chromium else ["chromium"])))
+    results = Results()
+    done = subprocess.run([sys.executable, os.path.join(ROOT, "web", "build.py"), OUT], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode:
+        if "apt-get" in done.stdout:
+            return skip("Debian's sources cannot be fetched")
+        results.ok(False, "build-web is built", done.stdout)
+    modules = playwright()
+    if not modules:
+        return skip("npm cannot install playwright-core")
+    sequences = 30 if long else 3
+    with tempfile.TemporaryDirectory() as folder:
+        make_models(folder)
+        done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "browser.mjs"), modules, chromium, OUT, folder, str(sequences)],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        drawn = 0
+        for line in done.stdout.splitlines():
+            kind, _, text = line.partition(" ")
+            if kind in ("pixels", "file"):
+                check_picture(results, program, folder, kind, json.loads(text))
+                drawn += "label" in json.loads(text)
+            elif kind == "#":
+                print(line)
+            else:
+                results.ok(kind == "ok", text if kind == "ok" else text.partition(" ")[2])
+        results.ok(done.returncode == 0 and drawn == sequences, "%d sequences of gestures were drawn" % sequences, done.stderr)
+    print("1..%d" % results.count)
+    return 1 if results.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,414 @@
+// browser.mjs PLAYWRIGHT CHROMIUM BUILD_WEB MODELS SEQUENCES: the page in a browser, by what a person does: pointers, keys, drops. Prints lines of the
+// Test Anything Protocol without numbers, and for each random sequence of gestures "pixels {command, hash}": the command that the page copies,
+// and the SHA-256 of the canvas' colours; the caller (browser.py) draws that command with the program.
+import { createHash } from 'node:crypto';
+import { readFileSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { createRequire } from 'node:module';
+import { extname, join, resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+const [, , playwright, executablePath, built, models, sequences] = process.argv, all = Number(sequences) > 3; // all: of make test-long
+const { chromium } = createRequire(join(resolve(playwright), 'x'))('playwright-core');
+const ok = (good, label, why = '') => console.log(`${good ? 'ok' : 'not ok'} ${label}${good || why === '' ? '' : `\n# ${String(why).replaceAll('\n', '\n# ')}`}`);
+const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+
+const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
+const server = createServer((request, answer) => {
+  const name = new URL(request.url, 'http://x').pathname.replace(/^\/$/, '/index.html');
+  try {
+    const bytes = readFileSync(join(built, 'page', name));
+    answer.writeHead(200, { 'content-type': TYPES[extname(name)] ?? 'application/octet-stream' }).end(bytes);
+  } catch {
+    answer.writeHead(404).end();
+  }
+});
+await new Promise((done) => server.listen(0, '127.0.0.1', done));
+const origin = `http://127.0.0.1:${server.address().port}/`;
+
+const browser = await chromium.launch({ executablePath, headless: true, args: ['--no-sandbox', '--disable-gpu', '--no-first-run', '--disable-background-networking',
+  '--disable-component-update', '--disable-sync'] });
+const context = await browser.newContext({ viewport: { width: 1100, height: 800 }, permissions: ['clipboard-read', 'clipboard-write'] });
+
+// What the browser reports about the page: errors, and all that its content-security policy has refused.
+const reports = [];
+async function openPage(address, where = context) {
+  const page = await where.newPage();
+  page.on('pageerror', (error) => reports.push(error.message));
+  page.on('console', (message) => message.type() === 'error' && reports.push(message.text()));
+  await page.addInitScript(() => addEventListener('securitypolicyviolation', (event) => console.error(`policy: ${event.violatedDirective} ${event.blockedURI}`)));
+  await page.goto(address);
+  return page;
+}
+
+const fragment = (words) => '#' + words.map(encodeURIComponent).join('&');
+const commandOf = (page) => page.locator('#command').textContent();
+const undoIn = (page) => page.locator('#undo').click();
+
+// Waits until `f` is true in the page. (Playwright's own way evaluates a string there, which the policy refuses, as it should.)
+async function until(page, f, argument) {
+  for (const end = Date.now() + 60000; Date.now() < end; await new Promise((done) => setTimeout(done, 20))) if (await page.evaluate(f, argument)) return;
+  throw new Error(`nothing came of ${f}`);
+}
+
+// The picture of the command line is on the canvas, with all of its samples.
+async function drawn(page, change) {
+  await until(page, () => {
+    const shown = document.body.dataset.drawn;
+    const words = location.hash.slice(1).split('&').map(decodeURIComponent);
+    return shown && shown === JSON.stringify(words);
+  }).catch(async (error) => {
+    throw new Error(`${change}: no picture of ${await page.evaluate(() => `${location.hash}; drawn is ${document.body.dataset.drawn}; ${document.getElementById('message').textContent}`)}`, { cause: error });
+  });
+}
+
+async function start(words, where) {
+  const page = await openPage(origin + fragment(words), where);
+  await drawn(page, 'start');
+  return page;
+}
+
+// Waits until a gesture has come to an end (its last step is a timer's) and its picture is there.
+async function settled(page, label) {
+  await page.waitForTimeout(180);
+  await drawn(page, label);
+}
+
+async function drag(page, from, by, { shift = false, button = 'left' } = {}) {
+  if (shift) await page.keyboard.down('Shift');
+  await page.mouse.move(...from);
+  await page.mouse.down({ button });
+  await page.mouse.move(from[0] + by[0] / 2, from[1] + by[1] / 2);
+  await page.mouse.move(from[0] + by[0], from[1] + by[1]);
+  await page.mouse.up({ button });
+  if (shift) await page.keyboard.up('Shift');
+}
+
+async function middle(page) {
+  const box = await page.locator('#canvas').boundingBox();
+  return { x: box.x + box.width / 2, y: box.y + box.height / 2, width: box.width, height: box.height };
+}
+
+// --- each gesture changes the command line as this table says. Numbers are within 0.002.
+
+const CAMERA = '--camera=eye=0/0/5,target=0/0/0,up=0/1/0,fovy=30', START = ['sphere', '--size=120x120', CAMERA];
+const side = 5 * Math.sin(Math.PI / 24), depth = 5 * Math.cos(Math.PI / 24), step = 0.05 * 10 * Math.tan(Math.PI / 12);
+const key = (name) => (page) => page.locator('#canvas').press(name);
+const camera = (...eye) => ({ eye, target: [0, 0, 0] });
+const GESTURES = [
+  ['ArrowRight', key('ArrowRight'), camera(side, 0, depth)],
+  ['ArrowLeft', key('ArrowLeft'), camera(-side, 0, depth)],
+  ['ArrowUp', key('ArrowUp'), camera(0, side, depth)],
+  ['ArrowDown', key('ArrowDown'), camera(0, -side, depth)],
+  ['Shift+ArrowRight', key('Shift+ArrowRight'), { eye: [-step, 0, 5], target: [-step, 0, 0] }],
+  ['Shift+ArrowUp', key('Shift+ArrowUp'), { eye: [0, -step, 5], target: [0, -step, 0] }],
+  ['+', key('+'), camera(0, 0, 5 / 1.15)],
+  ['-', key('-'), camera(0, 0, 5 * 1.15)],
+  ['wheel', async (page) => {
+    const at = await middle(page);
+    await page.mouse.move(at.x, at.y);
+    await page.mouse.wheel(0, -100);
+  }, camera(0, 0, 5 * Math.exp(-0.15))],
+  ['drag right by half the height', async (page) => {
+    const at = await middle(page);
+    await drag(page, [at.x, at.y], [at.height / 2, 0]);
+  }, camera(-5, 0, 0)],
+  ['drag down by a quarter of the height', async (page) => {
+    const at = await middle(page);
+    await drag(page, [at.x, at.y], [0, at.height / 4]);
+  }, camera(0, 5 * Math.sin(Math.PI / 4), 5 * Math.cos(Math.PI / 4))],
+  ['Shift and drag right by a tenth', async (page) => {
+    const at = await middle(page);
+    await drag(page, [at.x, at.y], [at.height / 10, 0], { shift: true });
+  }, { eye: [-2 * step, 0, 5], target: [-2 * step, 0, 0] }],
+  ['Shift and drag down by a tenth', async (page) => {
+    const at = await middle(page);
+    await drag(page, [at.x, at.y], [0, at.height / 10], { shift: true });
+  }, { eye: [0, 2 * step, 5], target: [0, 2 * step, 0] }],
+  ['Home', key('Home'), null],
+];
+
+const cameraOf = (text) => {
+  const found = /--camera=(\S+)/.exec(text);
+  return found && Object.fromEntries(found[1].split(',').map((part) => part.split('=')).map(([name, value]) => [name, value.split('/').map(Number)]));
+};
+const near = (a, b) => a?.length === b.length && a.every((x, i) => Math.abs(x - b[i]) < 0.002);
+
+async function gestures() {
+  const page = await start(START);
+  for (const [label, act, wanted] of GESTURES) {
+    await act(page);
+    await settled(page, label);
+    const text = await commandOf(page), found = cameraOf(text);
+    const good = wanted ? found && near(found.eye, wanted.eye) && near(found.target, wanted.target) && near(found.fovy, [30]) : !found;
+    ok(good && text.startsWith('lambent sphere --size=120x120'), `gesture: ${label}`, text);
+    await undoIn(page);
+    ok((await commandOf(page)) === ['lambent', ...START].join(' '), `gesture: ${label}, undone at once`, await commandOf(page));
+    if (!all && label !== 'wheel') continue;
+    await settled(page, `undo ${label}`);
+    await page.locator('#redo').click();
+    await settled(page, `redo ${label}`);
+    ok((await commandOf(page)) === text, `gesture: ${label}, and redone`, await commandOf(page));
+    await undoIn(page);
+    await settled(page, `undo ${label}`);
+  }
+  await page.close();
+}
+
+// --- touch
+
+async function touch() {
+  const fingers = await browser.newContext({ viewport: { width: 700, height: 900 }, hasTouch: true });
+  const page = await start(START, fingers), session = await fingers.newCDPSession(page), at = await middle(page);
+  const send = (type, ...points) => session.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  await send('touchStart', [at.x - 40, at.y], [at.x + 40, at.y]);
+  for (const apart of [50, 60, 70, 80]) await send('touchMove', [at.x - apart, at.y], [at.x + apart, at.y]);
+  await send('touchEnd');
+  await settled(page, 'pinch');
+  const found = cameraOf(await commandOf(page));
+  ok(found && Math.abs(Math.hypot(...found.eye.map((x, i) => x - found.target[i])) - 2.5) < 0.01, 'touch: fingers twice as far apart, twice as near', await commandOf(page));
+  await fingers.close();
+}
+
+// --- controls, links, copies
+
+async function controls() {
+  const page = await start(START);
+  const option = (name) => page.locator(`#option-${name}`);
+  await page.locator('#search').fill('shading');
+  await option('shading').selectOption('flat');
+  await settled(page, 'shading');
+  ok((await commandOf(page)).endsWith(' --shading=flat'), 'control: a choice', await commandOf(page));
+  await page.locator('#search').fill('wireframe');
+  await option('wireframe').check();
+  await settled(page, 'wireframe');
+  ok((await commandOf(page)).endsWith(' --shading=flat --wireframe'), 'control: a switch', await commandOf(page));
+  await option('wireframe').uncheck();
+  await settled(page, 'no wireframe');
+  await page.locator('#search').fill('wireframe-width');
+  await option('wireframe-width').fill('-1');
+  await option('wireframe-width').press('Enter');
+  await until(page, () => !document.getElementById('message').hidden);
+  ok(/option '--wireframe-width'/.test(await page.locator('#message').textContent()), "control: a refused value has the program's sentence", await page.locator('#message').textContent());
+  await undoIn(page);
+  await settled(page, 'undo');
+  await page.locator('#copy-command').click();
+  const copied = await page.evaluate(() => navigator.clipboard.readText());
+  ok(copied === (await commandOf(page)), 'the command is copied', copied);
+  await page.locator('#copy-link').click();
+  const link = await page.evaluate(() => navigator.clipboard.readText()), other = await openPage(link);
+  await drawn(other, 'link');
+  ok((await commandOf(other)) === copied && (await pixels(other)) === (await pixels(page)), 'a link opens the same picture', link);
+  await other.close();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('#save').click()]);
+  const png = createHash('sha256').update(readFileSync(await download.path())).digest('hex');
+  await until(page, () => /[0-9a-f]{64}/.test(document.getElementById('status').textContent));
+  ok((await page.locator('#status').textContent()).includes(png), 'the saved picture has the hash that is shown');
+  console.log(`file ${JSON.stringify({ command: copied, hash: png })}`);
+  await page.close();
+}
+
+async function pixels(page) {
+  const colors = await page.evaluate(() => {
+    const canvas = document.getElementById('canvas'), { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    const bytes = data.filter((_, i) => i % 4 !== 3);
+    let text = '';
+    for (let i = 0; i < bytes.length; i += 8192) text += String.fromCharCode(...bytes.subarray(i, i + 8192));
+    return btoa(text);
+  });
+  return createHash('sha256').update(Buffer.from(colors, 'base64')).digest('hex');
+}
+
+// --- the explanation of a point has the bytes of its pixel
+
+async function explained() {
+  const page = await start(['sphere', '--size=200x200', '--background=#203040', '--samples=1']), at = await middle(page);
+  await page.mouse.click(at.x + at.width * 0.1, at.y - at.height * 0.1);
+  await until(page, () => document.getElementById('explain').textContent.length > 100);
+  const bytes = await page.evaluate(() => [...document.getElementById('canvas').getContext('2d').getImageData(120, 80, 1, 1).data]);
+  const text = await page.locator('#explain').textContent();
+  ok(text.includes(bytes.slice(0, 3).join(' ')), 'explain: the bytes of the pixel', `${bytes}: ${text}`);
+  await page.locator('#canvas').press('Enter');
+  await until(page, (before) => document.getElementById('explain').textContent !== before, text);
+  ok(/100, 100/.test(await page.locator('#explain').textContent()), 'explain: Enter explains the middle');
+  await page.close();
+}
+
+// --- files and folders, as the system drops them
+
+async function drop(page, ...paths) {
+  const session = await page.context().newCDPSession(page), at = await middle(page);
+  const data = { items: [], files: paths.map((path) => resolve(path)), dragOperationsMask: 1 };
+  for (const type of ['dragEnter', 'dragOver', 'drop']) await session.send('Input.dispatchDragEvent', { type, x: at.x, y: at.y, data });
+}
+
+async function files() {
+  const page = await start(['sphere', '--size=96x96', '--background=white']);
+  const model = async (path) => {
+    await until(page, (name) => document.getElementById('model').value === name, path);
+    await settled(page, path);
+  };
+  await drop(page, join(models, 'cube.ply'));
+  await model('/cube.ply');
+  ok((await commandOf(page)) === 'lambent cube.ply --size=96x96 --background=white', 'a dropped file', await commandOf(page));
+  console.log(`pixels ${JSON.stringify({ command: await commandOf(page), hash: await pixels(page) })}`);
+  await drop(page, join(models, 'textured'));
+  await model('/textured/damaged.obj');
+  await page.locator('#model').selectOption('/textured/quad.obj');
+  await model('/textured/quad.obj');
+  ok((await commandOf(page)) === 'lambent textured/quad.obj --size=96x96 --background=white', 'a dropped folder, with the pictures that its model names', await commandOf(page));
+  console.log(`pixels ${JSON.stringify({ command: await commandOf(page), hash: await pixels(page) })}`);
+  await page.locator('#files').setInputFiles(join(models, 'cube.stl'));
+  await model('/cube.stl');
+  ok((await commandOf(page)).startsWith('lambent cube.stl '), 'an opened file');
+  await drop(page, join(models, 'broken.obj'));
+  await until(page, () => !document.getElementById('message').hidden);
+  ok(/^broken\.obj:2: |broken\.obj/.test(await page.locator('#message').textContent()), "a refused file has the program's sentence", await page.locator('#message').textContent());
+  await page.close();
+}
+
+// --- the page in one file, and the served one without its server
+
+async function oneFile() {
+  const page = await openPage(pathToFileURL(join(built, 'lambent.html')) + fragment(['sphere', '--size=96x96', '--background=white']));
+  await drawn(page, 'one file');
+  console.log(`pixels ${JSON.stringify({ command: await commandOf(page), hash: await pixels(page) })}`);
+  await drop(page, join(models, 'cube.obj'));
+  await until(page, () => document.getElementById('model').value === '/cube.obj');
+  await settled(page, 'one file');
+  await drop(page, join(models, 'textured'));
+  await until(page, () => document.getElementById('model').value === '/textured/damaged.obj');
+  await page.locator('#model').selectOption('/textured/quad.obj');
+  await settled(page, 'one file, a folder');
+  console.log(`pixels ${JSON.stringify({ command: await commandOf(page), hash: await pixels(page) })}`);
+  await page.close();
+}
+
+async function offline() {
+  const away = await browser.newContext(), page = await start(START, away);
+  await page.evaluate(async () => {
+    const { active, waiting, installing } = await navigator.serviceWorker.ready, worker = active ?? waiting ?? installing;
+    if (worker.state !== 'activated') await new Promise((done) => (worker.onstatechange = () => worker.state === 'activated' && done()));
+  });
+  await away.setOffline(true);
+  await page.reload();
+  await drawn(page, 'offline');
+  await page.locator('#canvas').press('+');
+  await settled(page, 'offline, zoomed');
+  ok(cameraOf(await commandOf(page)).eye[2] < 5, 'without the server: the page loads again, and draws');
+  ok(same(await page.evaluate(() => caches.keys().then((names) => names.length)), 1), 'without the server: one cache');
+  await away.close();
+}
+
+// --- roles, names and the order of the focus; texts; narrow pages
+
+async function accessible() {
+  const page = await start(START), session = await context.newCDPSession(page);
+  const { nodes } = await session.send('Accessibility.getFullAXTree');
+  const property = (node, name) => node.properties?.find((p) => p.name === name)?.value.value;
+  const unnamed = nodes.filter((node) => !node.ignored && property(node, 'focusable') && !node.name?.value && node.role.value !== 'RootWebArea' && node.role.value !== 'scrollable');
+  ok(nodes.length > 100 && !unnamed.length, 'whatever has the focus has a name', JSON.stringify(unnamed.map((node) => [node.role.value, node.properties])).slice(0, 500));
+  const roleOf = (name) => nodes.find((node) => node.name?.value?.includes(name))?.role.value;
+  ok(roleOf('The model') === 'application' && nodes.some((node) => node.role.value === 'searchbox') && nodes.some((node) => node.role.value === 'combobox'), 'roles: the picture, the search, the choice of a model');
+  ok(nodes.some((node) => node.role.value === 'main') && nodes.some((node) => node.role.value === 'contentinfo') && nodes.some((node) => node.role.value === 'complementary'), 'roles: main, the options, the footer');
+  const order = [];
+  for (let i = 0; i < 400; i++) {
+    await page.keyboard.press('Tab');
+    const at = await page.evaluate(() => document.activeElement.id || document.activeElement.tagName);
+    if (at === 'BODY') break;
+    order.push(at);
+  }
+  const wanted = ['model', 'open', 'open-folder', 'save', 'canvas', 'search', 'command', 'copy-command', 'copy-link'];
+  ok(same(order.filter((id) => wanted.includes(id)).slice(0, wanted.length), wanted), 'the focus goes from the bar to the picture, the options, the command', order.join(' '));
+  await page.setViewportSize({ width: 320, height: 640 });
+  ok(await page.evaluate(() => document.documentElement.scrollWidth <= 320), '320 pixels wide: nothing is wider');
+  await page.close();
+}
+
+// Texts of the page are of one table (web/page/strings.js): under the pseudo-locale each stands between ⟦ and ⟧. Words of the program are in
+// elements with translate="no".
+async function pseudo() {
+  const page = await openPage(`${origin}?locale=pseudo${fragment(START)}`);
+  await drawn(page, 'pseudo-locale');
+  await page.locator('#canvas').press('Enter');
+  await until(page, () => document.getElementById('explain').textContent.length > 100);
+  const escaped = await page.evaluate(() => {
+    const found = [], of = (element) => element.closest('[translate=no], script, style');
+    const walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    const plain = (text) => /\p{L}/u.test(text) && !/⟦[^]*⟧/.test(text);
+    while (walk.nextNode()) if (!of(walk.currentNode.parentElement) && plain(walk.currentNode.data)) found.push(walk.currentNode.data.trim());
+    for (const element of document.body.querySelectorAll('[aria-label], [placeholder], [title]'))
+      for (const name of ['aria-label', 'placeholder', 'title']) if (element.hasAttribute(name) && element.translate && plain(element.getAttribute(name))) found.push(`${name}=${element.getAttribute(name)}`);
+    return found;
+  });
+  ok(!escaped.length, 'no text outside of the table', [...new Set(escaped)].slice(0, 30).join('\n'));
+  await page.close();
+}
+
+// --- random sequences of gestures: the canvas has the pixels of the copied command
+
+function random(seed) { // xorshift32
+  let x = seed * 2654435761 >>> 0 || 1;
+  return (n) => {
+    x ^= x << 13, x >>>= 0, x ^= x >>> 17, x ^= x << 5, x >>>= 0;
+    return x % n;
+  };
+}
+
+const CHOICES = [['shading', ['flat', 'gouraud', 'phong']], ['reflection', ['phong', 'blinn-phong']], ['tone', ['none', 'agx']]];
+
+async function sequence(page, seed) {
+  const pick = random(seed), shapes = ['teapot', 'torus-knot', 'sphere'];
+  await page.goto('about:blank');
+  await page.goto(origin + fragment([shapes[pick(3)], '--size=160x120', '--background=#8899aa']));
+  await drawn(page, `sequence ${seed}`);
+  const acts = [];
+  for (let i = 0, count = 4 + pick(6); i < count; i++) {
+    const at = await middle(page), act = pick(10);
+    acts.push(act);
+    if (act < 3) await drag(page, [at.x, at.y], [pick(200) - 100, pick(160) - 80], { shift: act === 2 });
+    else if (act === 3) (await page.mouse.move(at.x, at.y), await page.mouse.wheel(0, pick(400) - 200));
+    else if (act === 4) await page.locator('#canvas').press(['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight', '+', '-', 'Shift+ArrowLeft', 'Home'][pick(8)]);
+    else if (act === 5) await page.locator('#model').selectOption(shapes[pick(3)]);
+    else if (act < 8) {
+      const [name, words] = CHOICES[pick(CHOICES.length)], control = page.locator(`#option-${name}`);
+      await page.locator('#search').fill(name);
+      const there = await control.locator('option').evaluateAll((list) => list.map((o) => o.value));
+      const offered = words.filter((word) => there.includes(word));
+      if (offered.length) await control.selectOption(offered[pick(offered.length)]);
+    } else {
+      const button = page.locator(act === 8 ? '#undo' : '#redo');
+      if (await button.isEnabled()) await button.click();
+    }
+    if (pick(2)) await settled(page, `sequence ${seed}: ${acts}`);
+  }
+  await settled(page, `sequence ${seed}: ${acts}`);
+  console.log(`pixels ${JSON.stringify({ command: await commandOf(page), hash: await pixels(page), label: `sequence ${seed}` })}`);
+}
+
+async function sequencesOf(count) {
+  const page = await openPage('about:blank');
+  for (let seed = 1; seed <= count; seed++) await sequence(page, seed);
+  await page.close();
+}
+
+const parts = { gestures, touch, controls, explained, files, oneFile, offline, accessible, ...(await hasTable() ? { pseudo } : {}), random: () => sequencesOf(Number(sequences)) };
+
+async function hasTable() {
+  try {
+    return readFileSync(join(built, 'page', 'strings.js'), 'utf8').includes('pseudo');
+  } catch {
+    return false;
+  }
+}
+
+const only = process.env.LAMBENT_BROWSER?.split(',');
+for (const [name, part] of Object.entries(parts)) {
+  if (only && !only.includes(name)) continue;
+  const began = Date.now();
+  await part().then(() => ok(true, `${name} ran`), (error) => ok(false, name, error.stack));
+  if (process.env.LAMBENT_TIMES) console.log(`# ${name}: ${Date.now() - began} ms`);
+}
+ok(!reports.length, 'the browser reports no error, and the content-security policy refuses nothing', reports.join('\n'));
+await browser.close();
+server.close();

@@ -1,0 +1,31 @@
+// dropped.js: the files of what is dropped, with those in all folders below it. Chromium gives the page from a disk no file of an entry
+// (webkitGetAsEntry), so the item's own file and the handle of a folder come first; other browsers have entries alone.
+
+async function ofHandle(handle, prefix) {
+  if (handle.kind === 'file') return [[prefix + handle.name, await handle.getFile()]];
+  const lists = [];
+  for await (const child of handle.values()) lists.push(await ofHandle(child, `${prefix}${handle.name}/`));
+  return lists.flat();
+}
+
+async function ofEntry(entry, prefix) {
+  if (entry.isFile) return [[prefix + entry.name, await new Promise((resolve, reject) => entry.file(resolve, reject))]];
+  const reader = entry.createReader(), found = [];
+  for (;;) {
+    const part = await new Promise((resolve, reject) => reader.readEntries(resolve, reject));
+    if (!part.length) return found;
+    for (const child of part) found.push(...(await ofEntry(child, `${prefix}${entry.name}/`)));
+  }
+}
+
+async function ofItem(file, entry, handle) {
+  if (!entry?.isDirectory) return file ? [[file.name, file]] : [];
+  const folder = await handle;
+  return folder ? ofHandle(folder, '') : ofEntry(entry, '');
+}
+
+// [path, File], of a drop's DataTransfer; it must be called in the event itself.
+export async function droppedFiles(transfer) {
+  const items = [...transfer.items].filter((item) => item.kind === 'file');
+  return (await Promise.all(items.map((item) => ofItem(item.getAsFile(), item.webkitGetAsEntry(), item.getAsFileSystemHandle?.())))).flat();
+}

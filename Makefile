@@ -6,7 +6,7 @@ DESTDIR ?=
 time    ?= 60
 MAKEFLAGS += --no-print-directory
 
-.PHONY: all demo web test test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall clean help
+.PHONY: all demo web site test test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall clean help
 
 all: $(build)/lambent
 
@@ -14,6 +14,7 @@ help:
 	@echo 'make            builds $(build)/lambent (missing Debian packages are installed first)'
 	@echo 'make demo       builds and renders the Utah teapot to out/demo.png'
 	@echo 'make web        builds the WebAssembly module and the page, in build-web/'
+	@echo 'make site       writes README and docs/ as pages, in build-site/; figures open in the Lab'
 	@echo 'make test       builds and runs the whole test suite, both compilers, with sanitizers'
 	@echo 'make test-long  what takes too long for make test: kills, 20,000 pictures, other processors under qemu, a Slurm'
 	@echo 'make test-gl    the tests of OpenGL alone; names the driver that they ran on'
@@ -47,6 +48,9 @@ demo: $(build)/lambent
 web:
 	@scripts/setup.sh build web
 	@python3 web/build.py build-web
+
+site: $(build)/lambent web
+	@python3 scripts/make_site.py $(build)/lambent build-site
 
 test:
 	@scripts/setup.sh build test

@@ -82,6 +82,9 @@ def main():
     sequences = 30 if long else 3
     with tempfile.TemporaryDirectory() as folder:
         make_models(folder)
+        with open(os.path.join(OUT, "included.html"), "w") as out:
+            model = open(os.path.join(folder, "cube.ply"), "rb").read()
+            out.write(build.with_files(open(os.path.join(OUT, "lambent.html")).read(), {"/cube.ply": model}))
         done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "browser.mjs"), modules, chromium, OUT, folder, str(sequences)],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         drawn = 0

@@ -41,9 +41,33 @@ START_INSIDE = """function openWorker() {
   const worker = new Worker(URL.createObjectURL(new Blob([text('worker')], { type: 'text/javascript' })));
   const packed = Uint8Array.from(atob(text('wasm')), (letter) => letter.charCodeAt(0));
   const wasm = new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
-  return caller(worker, wasm);
+  const { call } = caller(worker, wasm), included = document.getElementById('included');
+  return {
+    async call(name, message) {
+      const result = await call(name, message);
+      if (name === 'start' && included) await call('files', { files: await unpacked(JSON.parse(included.textContent)) });
+      return result;
+    },
+  };
+}
+
+// Files that stand in the page too: their names, and their bytes as gzip in base64.
+async function unpacked(files) {
+  const bytes = (text) => new Response(new Blob([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))]).stream()
+    .pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+  return Promise.all(Object.entries(files).map(async ([path, text]) => [path, new Uint8Array(await bytes(text))]));
 }
 """
+
+
+def packed_text(content):
+    return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode()
+
+
+def with_files(page, files):
+    """The one-file page with files in it, {path: bytes}, for links that draw them."""
+    texts = json.dumps({path: packed_text(content) for path, content in sorted(files.items())})
+    return page.replace('<script type="text/plain" id="worker">', '<script type="application/json" id="included">%s</script>\n<script type="text/plain" id="worker">' % texts, 1)
 
 
 def page_file(name):
@@ -97,7 +121,7 @@ def make_page(folder, wasm):
     page = re.sub(r'(Content-Security-Policy" content=")[^"]*', lambda m: m[1] + policy, page)
     page = page.replace('<link rel="stylesheet" href="page.css">', "<style>%s</style>" % style)
     page = page.replace('<script type="module" src="page.js"></script>', "")
-    packed = base64.b64encode(gzip.compress(open(wasm, "rb").read(), 9, mtime=0)).decode()
+    packed = packed_text(open(wasm, "rb").read())
     inside = ('<script type="text/plain" id="worker">%s</script>\n<script type="text/plain" id="wasm">%s</script>\n'
               '<script type="module">%s</script>\n</body>' % (plain_script(WORKER), packed, script))
     page = page.replace("</body>", inside)

@@ -205,6 +205,28 @@ class Compare(Case):
                     if i not in equal.get(picture, ()):
                         self.assertGreaterEqual(share, faint.get(picture, 1.5), [round(s, 2) for s in shares])
 
+    def test_json_says_the_words_of_each_picture(self):
+        """Drawn alone, the words give the picture of the sheet."""
+        for words in (("cube.obj", "--across", "shading", "--azimuth", "50"), ("torus", "--sheet", "terms"),
+                      ("sphere", "--across", "ao=off,screen", "--across", "reflection=phong,ggx", "-b", "black")):
+            with self.subTest(words):
+                sheet = ("-s", "48x40", "--no-captions")
+                said = json.loads(self.good("compare", *words, *sheet, "--json", "-o", "sheet.png").stdout)
+                page = self.sheet(*words, *sheet)
+                columns = (page[0] - 3) // 51
+                self.assertEqual(said["model"], words[0])
+                self.assertEqual(len(said["pictures"]), columns * ((page[1] - 3) // 43))
+                common, i = [], 0
+                while i < len(words):
+                    if words[i] in ("--across", "--sheet"):
+                        i += 2
+                        continue
+                    common.append(words[i])
+                    i += 1
+                for i, picture in enumerate(said["pictures"]):
+                    one = self.png(*common, *picture["words"], "-s", "48x40", "-q")[2]
+                    self.assertEqual(part(page, 3 + i % columns * 51, 3 + i // columns * 43, 48, 40), one, picture["caption"])
+
     def test_grid(self):
         """Two rows crossed: the first makes the rows, the second the columns."""
         page = self.sheet("cube.obj", "-s", "48x40", "--no-captions", "--across", "shading=flat,phong", "--across", "azimuth=0,30,60")
@@ -242,5 +264,5 @@ class Compare(Case):
         self.bad(4, "compare", "cube.obj", "--across", "azimuth=" + ",".join(map(str, range(25))), says="24")
         self.bad(4, "compare", "cube.obj", "-s", 30000, says="65535")
         self.bad(3, "compare", "cube.obj", "-o", "sheet.pfm", says="sheet.pfm")
-        self.bad(1, "compare", "cube.obj", "--json", says="does not apply")
+        self.bad(1, "compare", "cube.obj", "--verbose", says="option '--verbose' does not apply")
         self.bad(1, "cube.obj", "--sheet", "terms", says="does not apply")

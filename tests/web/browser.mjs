@@ -273,6 +273,10 @@ async function oneFile() {
   const page = await openPage(pathToFileURL(join(built, 'lambent.html')) + fragment(['sphere', '--size=96x96', '--background=white']));
   await drawn(page, 'one file');
   console.log(`pixels ${JSON.stringify({ command: await commandOf(page), hash: await pixels(page) })}`);
+  const other = await openPage(pathToFileURL(join(built, 'included.html')) + fragment(['/cube.ply', '--size=96x96', '--background=white']));
+  await drawn(other, 'a model in the page');
+  console.log(`pixels ${JSON.stringify({ command: await commandOf(other), hash: await pixels(other) })}`);
+  await other.close();
   await drop(page, join(models, 'cube.obj'));
   await until(page, () => document.getElementById('model').value === '/cube.obj');
   await settled(page, 'one file');

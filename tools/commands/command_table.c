@@ -38,7 +38,8 @@ const struct command command_table[] = {
          .defaults = journal_defaults},
     [COMMAND_compare] = {"compare", "MODEL",
                          "Draw one labelled sheet of pictures: methods, lights or terms side by side.",
-                         (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET,
+                         (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET |
+                             TAKES_JSON,
                          .min_operands = 1, .max_operands = 1, .defaults = compare_defaults},
     [COMMAND_explain] =
         {"explain", "MODEL X,Y",

@@ -11,6 +11,7 @@
 #include "drawing.h"
 #include "interrupt.h"
 #include "job.h"
+#include "json.h"
 #include "output.h"
 #include "report.h"
 #include "sheet.h"
@@ -310,6 +311,49 @@ static bool draw_sheet(struct compare *c, lam_error *error)
     return true;
 }
 
+static bool has_word(const char *const *words, int count, const char *word)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(words[i], word) == 0)
+            return true;
+    return false;
+}
+
+// Prints what each picture is: its caption, and the words that make it of the command line without the sheet's own options.
+static void print_json(const struct compare *c, const char *path)
+{
+    struct json json = {.file = strcmp(path, "-") == 0 ? stderr : stdout};
+    json_open(&json, NULL, '{');
+    json_text(&json, "lambent", lam_version());
+    json_text(&json, "model", c->model);
+    json_text(&json, "sheet", path);
+    json_open(&json, "pictures", '[');
+    for (int i = 0; i < c->sheet.count; i++) {
+        const struct cell *cell = &c->sheet.cells[i];
+        const char *words[CELL_WORDS + 2];
+        int count = words_of(c, cell, words);
+        json_open(&json, NULL, '{');
+        json_text(&json, "caption", cell->caption);
+        json_open(&json, "words", '[');
+        for (int k = 0; k < c->default_count; k++)
+            json_text(&json, NULL, c->defaults[k]);
+        for (int k = 0; k < count; k++)
+            json_text(&json, NULL, words[k]);
+        const char *own[] = {"--background", c->options->background ? NULL : SHEET_BACKGROUND, "--ao",
+                             option_given(c->options, "ao") ? NULL : "off"};
+        for (size_t k = 0; k < sizeof own / sizeof *own; k += 2)
+            if (own[k + 1] && !has_word(words, count, own[k])) {
+                json_text(&json, NULL, own[k]);
+                json_text(&json, NULL, own[k + 1]);
+            }
+        json_close(&json, ']');
+        json_close(&json, '}');
+    }
+    json_close(&json, ']');
+    json_close(&json, '}');
+    putc('\n', json.file);
+}
+
 // The sheet's path; "koala-terms.png" by default.
 static char *path_of(const struct options *o, const char *model, const char *sheet)
 {
@@ -381,7 +425,9 @@ int run_compare(int operand_count, char **operands, const struct options *option
         c.drawing.quality = options->quality;
         c.drawing.durable = options->durable;
         ok = ok && drawing_write(&c.drawing, path, &error);
-        if (ok && !options->quiet)
+        if (ok && options->json)
+            print_json(&c, path);
+        else if (ok && !options->quiet)
             say_plain("%s  %dx%d  %d pictures\n", strcmp(path, "-") == 0 ? "standard output" : path, c.drawing.width,
                       c.drawing.height, c.sheet.count);
         lam_device_free(c.device);

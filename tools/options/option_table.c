@@ -824,7 +824,8 @@ const struct option option_table[] = {
     {"json", 0, GROUP_REPORT, NULL, NULL, "Print a report in JSON, one line for each model.",
      "The report goes to standard output, or to standard error when the picture goes to standard output (then "
      "nothing else is written there). It replaces the line with the file's name, and is printed on failure as "
-     "well. Its schema is `docs/report.schema.json`.",
+     "well. Its schema is `docs/report.schema.json`. Of `compare` it has the caption of each picture and the words "
+     "that draw it.",
      .brief = "print a report for other programs", .store = store_switch, .others = "stats info", FIELD(json),
      .single = TAKES_JSON},
     {"dry-run", 0, GROUP_REPORT, NULL, NULL, "Print what would be drawn and written, and write nothing.",

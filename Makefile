@@ -92,10 +92,10 @@ bench-check bench-check-record: $(build)/lambent
 	@scripts/setup.sh test
 	@python3 bench/check.py $(build)/lambent $(if $(findstring record,$@),--record)
 
-# The prefix is baked into lambent.pc: configured before the build that makes it.
+# The prefix is baked into lambent.pc: configured before the build that makes it. The page of `make web` is installed where it is there by now.
 install: $(build)/build.ninja
 	@scripts/setup.sh build
-	meson configure $(build) --prefix=$(prefix)
+	meson setup --reconfigure $(build) --prefix=$(prefix)
 	ninja -C $(build)
 	DESTDIR=$(DESTDIR) meson install -C $(build)
 

@@ -85,6 +85,9 @@ def main():
         with open(os.path.join(OUT, "included.html"), "w") as out:
             model = open(os.path.join(folder, "cube.ply"), "rb").read()
             out.write(build.with_files(open(os.path.join(OUT, "lambent.html")).read(), {"/cube.ply": model}))
+        filled = subprocess.run([program, "-q", "textured/quad.obj", "--size", "96", "--background", "white", "-o", os.path.join(OUT, "filled.html")], cwd=folder,
+                                env={**os.environ, "LAMBENT_PAGE": os.path.join(OUT, "lambent.html")}, stderr=subprocess.PIPE, text=True)
+        results.ok(filled.returncode == 0, "a page is written with a model in it", filled.stderr)
         done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "browser.mjs"), modules, chromium, OUT, folder, str(sequences)],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         drawn = 0

@@ -5,6 +5,7 @@ import base64
 import fcntl
 import gzip
 import hashlib
+import html
 import json
 import os
 import re
@@ -32,7 +33,7 @@ def call(*command):
 
 
 # The page's scripts, each after those that it imports.
-PAGE = ["camera.js", "state.js", "explanation.js", "dropped.js", "panel.js", "start.js", "page.js"]
+PAGE = ["camera.js", "state.js", "explanation.js", "dropped.js", "inside.js", "panel.js", "start.js", "page.js"]
 WORKER = ["wasi.js", "lambent.js", "worker.js"]
 
 # In place of start.js's openWorker: the worker and the module stand in the page itself.
@@ -41,21 +42,7 @@ START_INSIDE = """function openWorker() {
   const worker = new Worker(URL.createObjectURL(new Blob([text('worker')], { type: 'text/javascript' })));
   const packed = Uint8Array.from(atob(text('wasm')), (letter) => letter.charCodeAt(0));
   const wasm = new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
-  const { call } = caller(worker, wasm), included = document.getElementById('included');
-  return {
-    async call(name, message) {
-      const result = await call(name, message);
-      if (name === 'start' && included) await call('files', { files: await unpacked(JSON.parse(included.textContent)) });
-      return result;
-    },
-  };
-}
-
-// Files that stand in the page too: their names, and their bytes as gzip in base64.
-async function unpacked(files) {
-  const bytes = (text) => new Response(new Blob([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))]).stream()
-    .pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
-  return Promise.all(Object.entries(files).map(async ([path, text]) => [path, new Uint8Array(await bytes(text))]));
+  return caller(worker, wasm);
 }
 """
 
@@ -66,8 +53,9 @@ def packed_text(content):
 
 def with_files(page, files):
     """The one-file page with files in it, {path: bytes}, for links that draw them."""
-    texts = json.dumps({path: packed_text(content) for path, content in sorted(files.items())})
-    return page.replace('<script type="text/plain" id="worker">', '<script type="application/json" id="included">%s</script>\n<script type="text/plain" id="worker">' % texts, 1)
+    texts = "".join('<script type="text/plain" class="inside-file" data-path="%s" data-packed="gzip">%s</script>\n' % (html.escape(path), packed_text(content))
+                    for path, content in sorted(files.items()))
+    return page.replace('<script type="text/plain" id="worker">', texts + '<script type="text/plain" id="worker">', 1)
 
 
 def page_file(name):

@@ -98,6 +98,7 @@ ROWS = [
     ("docs/scene-file.md", "| `samples` | {} up to {}² pixels, {} above |", *SAMPLES),
     ("tools/options/option_table.c", "\"{} up to {}x512 pixels, {} above\"", *SAMPLES),
     ("include/lambent/device.h", "where lam_draw_params do not say: {} up to {}² pixels, whose edges show steps at 4, and {} above", *SAMPLES),
+    ("docs/web.md", "at most {} MB together", counted("megabytes of PAGE_FILES_MAX", lambda: constant("tools/page/page_write.h", "PAGE_FILES_MAX").look_up() / 1e6)),
     ("docs/lighting/diffuse.md", "`roughness_angle` in degrees, {} by default", field("roughness_angle")),
     ("docs/lighting/lights.md", "With more than {}, each part of the picture skips", FEW_LIGHTS),
     ("docs/lighting/surfaces.md", "At most {} translucent triangles may lie over one pixel", LAYERS),

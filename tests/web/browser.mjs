@@ -277,6 +277,12 @@ async function oneFile() {
   await drawn(other, 'a model in the page');
   console.log(`pixels ${JSON.stringify({ command: await commandOf(other), hash: await pixels(other) })}`);
   await other.close();
+  const filled = await openPage(pathToFileURL(join(built, 'filled.html')).href);
+  await drawn(filled, 'a page written by the program');
+  const command = await commandOf(filled);
+  ok(command === 'lambent quad.obj --size=96 --background=white', "its command line is the program's", command);
+  console.log(`pixels ${JSON.stringify({ command: command.replace('quad.obj', 'textured/quad.obj'), hash: await pixels(filled) })}`);
+  await filled.close();
   await drop(page, join(models, 'cube.obj'));
   await until(page, () => document.getElementById('model').value === '/cube.obj');
   await settled(page, 'one file');

@@ -16,6 +16,7 @@
 #include "limit_options.h"
 #include "output.h"
 #include "plan.h"
+#include "page_write.h"
 #include "report.h"
 #include "sandbox_start.h"
 #include "xxh64.h"
@@ -301,7 +302,9 @@ static void finish_picture(struct reading *r, struct job *job, int view, bool ok
 static void run_views(struct reading *r, struct job *job, struct progress *progress)
 {
     lam_error error = {0};
-    bool read = job_load(job, progress, &error) && job_arrange(job, progress, &error);
+    job->output = r->item->outputs[0];
+    bool read = (!page_wanted(job) || page_refuse_several(&error)) && job_load(job, progress, &error) &&
+                job_arrange(job, progress, &error);
     for (int i = 0; i < job->view_count; i++) {
         job->output = r->item->outputs[i];
         job->picture_bytes = r->item->contents ? &r->item->contents[i] : NULL;
@@ -343,8 +346,9 @@ static void draw(struct reading *r)
     } else {
         lam_error error = {0};
         job.output = item->outputs[0];
-        bool ok =
-            animation_wanted(job.options) ? animation_run(&job, &progress, &error) : job_run(&job, &progress, &error);
+        bool ok = animation_wanted(job.options) ? animation_run(&job, &progress, &error)
+                  : page_wanted(&job)           ? page_run(&job, &progress, &error)
+                                                : job_run(&job, &progress, &error);
         progress_end(&progress);
         finish_picture(r, &job, 0, ok, &error);
     }

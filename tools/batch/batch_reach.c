@@ -8,6 +8,7 @@
 #include "batch_job.h"
 #include "console.h"
 #include "output.h"
+#include "page_file.h"
 #include "sandbox_start.h"
 
 // Pictures that are given to the sandbox one by one; more of them by their folder.
@@ -63,6 +64,16 @@ static bool is_within_reach(const char *model, const char *before)
     return same && !scene && lstat(model, &about) == 0 && !S_ISLNK(about.st_mode);
 }
 
+// The page that is filled with a model. Where there is none, writing one says so.
+static void add_page(struct sandbox_paths *paths)
+{
+    lam_error error;
+    char *page = page_file_find(&error);
+    if (page)
+        sandbox_add(paths, page, SANDBOX_READ);
+    free(page);
+}
+
 bool batch_reach_enter(const struct batch *b, const char *journal, size_t first, size_t count, lam_error *error)
 {
     struct sandbox_paths paths = {0};
@@ -84,6 +95,8 @@ bool batch_reach_enter(const struct batch *b, const char *journal, size_t first,
         add_folder(&paths, folder_of(journal));
     if (b->options->report_page)
         add_folder(&paths, folder_of(b->options->report_page));
+    if (b->options->jobs || page_is_named(b->options->output)) // a job may ask for one
+        add_page(&paths);
     return sandbox_start(b->options, &paths, error);
 }
 
@@ -98,5 +111,7 @@ bool batch_reach_enter_job(const struct batch_job *job, lam_error *error)
         add_folder(&paths, batch_plan_folder(&job->plan));
     if (!job->bytes.data)
         sandbox_add_input(&paths, job->plan.models[0].path);
+    if (!job->in_answer)
+        add_page(&paths);
     return sandbox_start(&options, &paths, error);
 }

@@ -129,6 +129,7 @@ const struct example examples[] = {
     {"lambent batch models/ -o 'thumbs/{dir}/{stem}.png'", "all models of a folder and below it, with a journal",
      false},
     {"lambent - -o - < part.stl > part.png", "from standard input to standard output", false},
+    {"lambent koala.obj -o koala.html", "a page in one file, in which the model is turned", false},
     {"lambent koala.obj --turntable 36 --fps 12", "an animated PNG in which the model turns", false},
     {"lambent koala.obj --sweep light.azimuth=0..360 -o 'light-{frame}.png'", "36 pictures, the light all around",
      false},

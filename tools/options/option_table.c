@@ -259,7 +259,7 @@ static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest that 
 
 const struct option option_table[] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png",
-     "Write to FILE (.png, .ppm, .pfm, .exr, .jpg or .webp), to the folder FILE/, or to standard output (-).",
+     "Write to FILE (.png, .ppm, .pfm, .exr, .jpg, .webp; or .html), to the folder FILE/, or to standard output (-).",
      "The extension selects the format: `.png` (8 bits, sRGB, with alpha), `.ppm` (8 bits over the background), "
      "`.jpg` (8 bits over the background, lossy: `--quality`), `.webp` (8 bits with alpha, lossless; needs libwebp), "
      "`.pfm` and `.exr` (linear floats, premultiplied by alpha; `.exr` needs OpenEXR's library). `-` writes a "
@@ -273,7 +273,9 @@ const struct option option_table[] = {
      "a leading slash), "
      "`{view}` the word of `--view`, `{size}` the size in pixels, `256` or `256x128`. Missing folders are made, and "
      "existing files replaced. Two models whose pictures would have one name are an error before the start. `{{` "
-     "and `}}` are braces.",
+     "and `}}` are braces.\n"
+     "`.html` writes a page in one file that shows the picture, with the model in it: who opens it turns the model and "
+     "changes every option of the picture, without a network (`docs/web.md`).",
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .store = store_text, .alias = "out",
      .others = "outfile file format export save write", FIELD(output), .single = TAKES_OUTPUT},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.", NULL,

@@ -3,6 +3,7 @@ import { around, cameraText, orbit, pan, zoom } from './camera.js';
 import { droppedFiles } from './dropped.js';
 import { State, command, fromFragment, toFragment } from './state.js';
 import { explanation } from './explanation.js';
+import { insideWords, takeInsideFiles } from './inside.js';
 import { Panel } from './panel.js';
 import { openWorker } from './start.js';
 
@@ -13,7 +14,7 @@ const MODELS = /\.(obj|stl|ply|gltf|glb|json)$/i;
 // What makes the view; a camera takes the place of all of them.
 const VIEW = ['view', 'azimuth', 'elevation', 'zoom', 'projection'];
 
-const state = new State(fromFragment(location.hash) ?? START);
+const state = new State(fromFragment(location.hash) ?? insideWords() ?? START);
 let shapes = [], files = new Map(), camera = null, sphere = null, panel = null, moving = false;
 
 // --- the worker: the newest drawing alone waits
@@ -290,6 +291,8 @@ addEventListener('hashchange', () => {
 try {
   const table = await call('start', {});
   shapes = table.shapes;
+  files = await takeInsideFiles();
+  if (files.size) await call('files', { files: [...files] });
   panel = new Panel($('options'), $('search'), table.options, (name, values) => {
     let words = state.withValues(name, values);
     const without = VIEW.includes(name) ? ['camera'] : name === 'camera' ? VIEW : [];

@@ -1,0 +1,98 @@
+// page_file.c: where the page lies, and reading whole files.
+#include "page_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "console.h"
+
+#ifndef LAMBENT_DATADIR // Meson's datadir
+#define LAMBENT_DATADIR "share"
+#endif
+
+bool page_is_named(const char *output)
+{
+    size_t length = output ? strlen(output) : 0;
+    return length > 5 && strcasecmp(output + length - 5, ".html") == 0;
+}
+
+char *page_file_find(lam_error *error)
+{
+    const char *named = getenv("LAMBENT_PAGE");
+    char own[PATH_MAX], path[PATH_MAX + 100];
+    char *found = NULL;
+    if (named && *named) {
+        found = strdup(named);
+        if (!found)
+            complain(error, LAM_LIMIT, "out of memory");
+        return found;
+    }
+    // From the program's folder: installed, and in a build folder.
+    static const char *const places[] = {"../" LAMBENT_DATADIR "/lambent/lambent.html", "../build-web/lambent.html"};
+    ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
+    own[length > 0 ? length : 0] = 0;
+    char *slash = strrchr(own, '/');
+    for (size_t i = 0; slash && i < sizeof places / sizeof *places; i++) {
+        snprintf(path, sizeof path, "%.*s%s", (int)(slash + 1 - own), own, places[i]);
+        if (access(path, R_OK) != 0)
+            continue;
+        found = strdup(path);
+        if (!found)
+            complain(error, LAM_LIMIT, "out of memory");
+        return found;
+    }
+    complain(error, LAM_UNSUPPORTED,
+             "this build has no page for browsers: `make web` makes it, lambent.html, and LAMBENT_PAGE may name it");
+    return NULL;
+}
+
+// Reads `size` bytes. False: errno, or 0 where the file has ended before.
+static bool read_all(int file, char *bytes, size_t size)
+{
+    for (size_t at = 0; at < size;) {
+        ssize_t count = read(file, bytes + at, size - at);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count == 0)
+            errno = 0;
+        if (count <= 0)
+            return false;
+        at += (size_t)count;
+    }
+    return true;
+}
+
+char *page_file_read(const char *path, size_t most, size_t *size, lam_error *error)
+{
+    struct stat about;
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+    char *bytes = NULL;
+    if (file < 0 || fstat(file, &about) != 0) {
+        complain(error, LAM_CANNOT_READ, "%s: cannot read: %s", path, strerror(errno));
+    } else if (!S_ISREG(about.st_mode)) {
+        complain(error, LAM_CANNOT_READ, "%s: cannot read: is not a regular file", path);
+    } else if ((uint64_t)about.st_size > most) {
+        complain(error, LAM_LIMIT, "%s: has %.1f MB, more than the %.1f MB that fit", path, (double)about.st_size / 1e6,
+                 (double)most / 1e6);
+    } else if (!(bytes = malloc((size_t)about.st_size + 1))) {
+        complain(error, LAM_LIMIT, "out of memory");
+    } else if (!read_all(file, bytes, (size_t)about.st_size)) {
+        complain(error, LAM_CANNOT_READ, "%s: cannot read: %s", path,
+                 errno ? strerror(errno) : "the file has become shorter");
+        free(bytes);
+        bytes = NULL;
+    } else {
+        *size = (size_t)about.st_size;
+        bytes[*size] = 0;
+    }
+    if (file >= 0)
+        close(file);
+    return bytes;
+}

@@ -1,0 +1,19 @@
+// page_file.h: where the page in one file lies that `make web` makes (docs/web.md).
+#ifndef PAGE_FILE_H
+#define PAGE_FILE_H
+
+#include <lambent/base.h>
+
+// Whether an output is a page by its ending: ".html".
+bool page_is_named(const char *output);
+
+// The path of the page, from malloc: that of LAMBENT_PAGE; else the installed one, share/lambent/lambent.html beside the
+// program's folder; else that of the build, build-web/lambent.html beside the build folder. NULL: LAM_UNSUPPORTED (there is none),
+// LAM_LIMIT.
+char *page_file_find(lam_error *error);
+
+// A whole file, its `*size` bytes and a zero after them, from malloc. NULL: LAM_CANNOT_READ; LAM_LIMIT where it has more than `most`
+// bytes or memory is out.
+char *page_file_read(const char *path, size_t most, size_t *size, lam_error *error);
+
+#endif

@@ -1,0 +1,190 @@
+// page_model.c: the files and the words of a model in a page.
+#include "page_model.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "console.h"
+#include "environment_option.h"
+#include "json.h"
+#include "plan.h"
+
+// --- files
+
+static bool add(struct page_model *model, const char *path, char *inside, lam_error *error)
+{
+    struct page_file *grown = realloc(model->files, (size_t)(model->count + 1) * sizeof *grown);
+    char *copy = grown ? strdup(path) : NULL;
+    if (grown)
+        model->files = grown;
+    if (!copy || !inside) {
+        free(copy);
+        free(inside);
+        return complain(error, LAM_LIMIT, "out of memory");
+    }
+    model->files[model->count++] = (struct page_file){copy, inside};
+    return true;
+}
+
+// Whether ".." leads a name out of the folder that it begins in.
+static bool climbs_out(const char *name)
+{
+    int depth = 0;
+    for (const char *at = name; *at; at += strspn(at, "/")) {
+        size_t length = strcspn(at, "/");
+        bool here = length == 1 && at[0] == '.', up = length == 2 && at[0] == '.' && at[1] == '.';
+        depth += up ? -1 : here || !length ? 0 : 1;
+        if (depth < 0)
+            return true;
+        at += length;
+    }
+    return false;
+}
+
+static bool is_file(const char *path)
+{
+    struct stat about;
+    return stat(path, &about) == 0 && S_ISREG(about.st_mode);
+}
+
+// Whether a file lies in the folder or below it, wherever links lead. `folder`: a real path.
+static bool is_below(const char *folder, const char *path)
+{
+    char *real = realpath(path, NULL);
+    size_t length = strlen(folder);
+    bool below = real && strncmp(real, folder, length) == 0 && (real[length] == '/' || folder[length - 1] == '/');
+    free(real);
+    return below;
+}
+
+// The model and what it names, by their names in the model's folder, which is the page's "/".
+static bool add_files(const struct job *job, struct page_model *model, lam_error *error)
+{
+    const char *slash = strrchr(job->model, '/'), *path;
+    int length = slash ? (int)(slash + 1 - job->model) : 0;
+    char *named = length ? strndup(job->model, (size_t)length) : strdup("."),
+         *folder = named ? realpath(named, NULL) : NULL;
+    bool ok = folder || !lam_scene_file(job->scene, 0) ||
+              complain(error, named ? LAM_CANNOT_READ : LAM_LIMIT, "%s: its folder cannot be read", job->model);
+    for (int i = 0; ok && (path = lam_scene_file(job->scene, i)); i++) {
+        const char *name = path + length;
+        char *inside = NULL;
+        bool beside = strncmp(path, job->model, (size_t)length) == 0 && *name != '/' && !climbs_out(name);
+        if (beside && !is_file(path)) // it was not found: the page says so too
+            continue;
+        if (!beside || (i && !is_below(folder, path))) { // the model itself may be a link, which the user has named
+            ok = complain(
+                error, LAM_UNSUPPORTED,
+                "%s: lies outside of the folder of %s, and a page has no files of other folders; copy it there", path,
+                job->model);
+            break;
+        }
+        if (asprintf(&inside, "/%s", name) < 0)
+            inside = NULL;
+        ok = add(model, path, inside, error);
+    }
+    free(named);
+    free(folder);
+    return ok;
+}
+
+static bool add_environment(const struct options *options, struct page_model *model, lam_error *error)
+{
+    const char *text = options->environment, *paths[LAM_FACE_COUNT] = {text};
+    if (!text || environment_option_built_in(text))
+        return true;
+    char *copy = strchr(text, ',') ? environment_option_faces(text, paths, error) : strdup(text);
+    if (!copy)
+        return strchr(text, ',') ? false : complain(error, LAM_LIMIT, "out of memory");
+    size_t size = 0;
+    FILE *value = open_memstream(&model->environment, &size);
+    bool ok = value || complain(error, LAM_LIMIT, "out of memory");
+    for (int i = 0; ok && i < (strchr(text, ',') ? LAM_FACE_COUNT : 1); i++) {
+        const char *slash = strrchr(paths[i], '/');
+        char *inside = NULL;
+        if (asprintf(&inside, "/.environment/%d-%s", i + 1, slash ? slash + 1 : paths[i]) < 0)
+            inside = NULL;
+        if (inside)
+            fprintf(value, "%s%s", i ? "," : "", inside);
+        ok = add(model, paths[i], inside, error);
+    }
+    if (value && fclose(value) != 0 && ok)
+        ok = complain(error, LAM_LIMIT, "out of memory");
+    free(copy);
+    return ok;
+}
+
+bool page_model_list(const struct job *job, struct page_model *model, lam_error *error)
+{
+    *model = (struct page_model){0};
+    bool ok = add_files(job, model, error) && add_environment(job->options, model, error);
+    if (!ok)
+        page_model_free(model);
+    return ok;
+}
+
+void page_model_free(struct page_model *model)
+{
+    for (int i = 0; i < model->count; i++) {
+        free(model->files[i].path);
+        free(model->files[i].inside);
+    }
+    free(model->files);
+    free(model->environment);
+    *model = (struct page_model){0};
+}
+
+// --- words
+
+// Whether an option belongs to the picture: those that the page has controls for. A look is in the options that it sets.
+static bool is_of_picture(const struct option *option)
+{
+    static const char *const without[] = {"output", "save-scene", "durable", "compress", "quality", "look"};
+    for (size_t i = 0; i < sizeof without / sizeof *without; i++)
+        if (strcmp(option->name, without[i]) == 0)
+            return false;
+    return option->group == GROUP_PICTURE || option->group == GROUP_MODEL || option->group == GROUP_VIEW ||
+           option->group == GROUP_LIGHTS || option->group == GROUP_MATERIALS || option->group == GROUP_SHADING;
+}
+
+struct words {
+    struct json json;
+    const struct page_model *model;
+};
+
+static void put_option(void *user, const char *name, const char *value)
+{
+    struct words *words = user;
+    char *word = NULL;
+    if (!is_of_picture(option_find(name)))
+        return;
+    if (strcmp(name, "environment") == 0 && words->model->environment)
+        value = words->model->environment;
+    if (asprintf(&word, "--%s%s%s", name, value ? "=" : "", value ? value : "") < 0)
+        word = NULL;
+    json_text(&words->json, NULL, word);
+    free(word);
+}
+
+void page_model_words(FILE *out, const struct job *job, const struct options *given, const struct page_model *model)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *list = open_memstream(&text, &size);
+    if (!list)
+        return;
+    struct words words = {.json = {.file = list}, .model = model};
+    json_open(&words.json, NULL, '[');
+    bool shape = lam_shape_find(job->model) >= 0 || !model->count;
+    json_text(&words.json, NULL, shape ? job->model : model->files[0].inside);
+    each_given_option(given, put_option, &words);
+    json_close(&words.json, ']');
+    fclose(list);
+    for (const char *c = text; c && *c; c++)
+        if (*c == '<')
+            fputs("\\u003c", out);
+        else
+            putc(*c, out);
+    free(text);
+}

@@ -1,0 +1,29 @@
+// page_model.h: what a page holds of a model: its files by their paths in the page, and the words of its command line.
+#ifndef PAGE_MODEL_H
+#define PAGE_MODEL_H
+
+#include <stdio.h>
+
+#include "job.h"
+
+struct page_file {
+    char *path;   // on this machine
+    char *inside; // in the page: "/bunny.obj", "/textures/fur.png"
+};
+
+struct page_model {
+    struct page_file *files; // those that exist; from malloc
+    int count;
+    char *environment; // the value of --environment with paths in the page; NULL: it names no file
+};
+
+// Lists the files of a loaded model, and those of --environment. False: LAM_UNSUPPORTED (one that lies outside of the model's folder),
+// LAM_LIMIT.
+bool page_model_list(const struct job *job, struct page_model *model, lam_error *error);
+void page_model_free(struct page_model *model);
+
+// Prints the words of the picture's command line as a list in JSON, in which no '<' is left: the model, and an option with its value in
+// one word. `given`: the options of the command line. Options of the machine (threads, device, limits) and of files to write are left out.
+void page_model_words(FILE *out, const struct job *job, const struct options *given, const struct page_model *model);
+
+#endif

@@ -1,0 +1,148 @@
+// page_write.c: the page in one file, with a model in it. The model's files and the command line are texts that no browser runs, so the
+// page's policy, which names its scripts by their hashes, stays as it is; web/page/inside.js reads them.
+#include "page_write.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base64.h"
+#include "console.h"
+#include "html.h"
+#include "output.h"
+#include "page_file.h"
+#include "page_model.h"
+#include "scene_settings.h"
+
+enum { PAGE_MAX = 64 << 20 }; // bytes of the page without a model
+
+bool page_wanted(const struct job *job) { return !job->picture_bytes && page_is_named(job->output); }
+
+bool page_refuse_several(lam_error *error)
+{
+    return complain(error, LAM_BAD_ARGUMENT,
+                    "a page shows one picture, and its reader turns it: options '--views' and '--sizes' do not go with "
+                    "-o FILE.html");
+}
+
+static bool check(const struct job *job, char **page, lam_error *error)
+{
+    const struct options *o = job->options;
+    if (strcmp(job->model, "-") == 0)
+        return complain(error, LAM_BAD_ARGUMENT, "%s: a page needs a model with a name; standard input has none",
+                        job->output);
+    if (o->show && strcmp(o->show, "all") == 0)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--show all' makes several pictures, and a page shows one");
+    *page = page_file_find(error);
+    return *page && output_check(job->output, job->model, output_given(o->output), error);
+}
+
+// What a file may hold that the page's module has no decoder for.
+static void warn_formats(const struct job *job, const struct page_model *model)
+{
+    static const char *const endings[] = {".webp", ".exr"};
+    const lam_file_info *info = lam_scene_file_info(job->scene);
+    for (size_t k = 0; k < sizeof endings / sizeof *endings; k++)
+        for (int i = 0; i < model->count; i++) {
+            const char *dot = strrchr(model->files[i].path, '.');
+            if (dot && strcasecmp(dot, endings[k]) == 0)
+                lam_scene_add_warning(job->scene, k ? "the page cannot read pictures in EXR"
+                                                    : "the page cannot read pictures in WebP");
+        }
+    for (int i = 0; i < info->extension_count; i++) {
+        const char *name = info->extensions[i].name;
+        if (strcmp(name, "KHR_draco_mesh_compression") == 0)
+            lam_scene_add_warning(job->scene, "the page cannot read meshes compressed by Draco");
+        if (strcmp(name, "EXT_texture_webp") == 0)
+            lam_scene_add_warning(job->scene, "the page cannot read pictures in WebP");
+    }
+}
+
+static bool put_file(FILE *out, const struct page_file *file, size_t *left, lam_error *error)
+{
+    size_t size = 0, length = 0;
+    lam_error why = {0};
+    char *bytes = page_file_read(file->path, *left, &size, &why);
+    if (!bytes && why.code == LAM_LIMIT && strstr(why.text, " MB"))
+        return complain(error, LAM_LIMIT, "%.400s: the model's files have more than the %d MB that a page may hold",
+                        file->path, PAGE_FILES_MAX / 1000000);
+    if (!bytes)
+        return complain(error, why.code, "%s", why.text);
+    *left -= size;
+    char *text = base64_encode((const uint8_t *)bytes, size, &length);
+    free(bytes);
+    if (!text)
+        return complain(error, LAM_LIMIT, "out of memory");
+    fputs("<script type=\"text/plain\" class=\"inside-file\" data-path=\"", out);
+    html_text(out, file->inside);
+    fputs("\">", out);
+    fwrite(text, 1, length, out);
+    fputs("</script>\n", out);
+    free(text);
+    return true;
+}
+
+// The page's own text, with the model before its end.
+static bool put_page(FILE *out, const struct job *job, const struct options *given, const char *page,
+                     const struct page_model *model, lam_error *error)
+{
+    const char *end = NULL;
+    for (const char *at = page; (at = strstr(at, "</body>")); at++)
+        end = at;
+    if (!end)
+        return complain(error, LAM_UNSUPPORTED,
+                        "the page that LAMBENT_PAGE or the build names is not lambent.html: it has no end of its body");
+    size_t left = PAGE_FILES_MAX;
+    bool ok = true;
+    fwrite(page, 1, (size_t)(end - page), out);
+    for (int i = 0; ok && i < model->count; i++)
+        ok = put_file(out, &model->files[i], &left, error);
+    fputs("<script type=\"application/json\" id=\"inside-words\">", out);
+    page_model_words(out, job, given, model);
+    fputs("</script>\n", out);
+    fputs(end, out);
+    return ok;
+}
+
+static bool write_page(struct job *job, const struct options *given, const char *path, lam_error *error)
+{
+    struct page_model model;
+    size_t size = 0, length = 0;
+    char *page = page_file_read(path, PAGE_MAX, &size, error), *text = NULL;
+    bool ok = page && page_model_list(job, &model, error);
+    if (!ok) {
+        free(page);
+        return false;
+    }
+    warn_formats(job, &model);
+    FILE *out = open_memstream(&text, &length);
+    ok = out ? put_page(out, job, given, page, &model, error) : complain(error, LAM_LIMIT, "out of memory");
+    if (out && (ferror(out) | fclose(out)) && ok)
+        ok = complain(error, LAM_LIMIT, "out of memory");
+    ok = ok && output_save_bytes(&(lam_bytes){text, length}, job->output, given->durable, &job->bytes, error);
+    page_model_free(&model);
+    free(page);
+    free(text);
+    return ok;
+}
+
+bool page_run(struct job *job, struct progress *progress, lam_error *error)
+{
+    const struct options *given = job->options; // loading adds a scene file's settings
+    char *page = NULL;
+    bool ok = check(job, &page, error);
+    job->format = "html";
+    job->pixels = LAM_RGBA8;
+    if (ok && given->dry_run) {
+        ok = job->planned = job_load(job, progress, error) && job_arrange(job, progress, error);
+    } else if (ok) {
+        ok = job_draw(job, job->pixels, progress, error);
+        double start = clock_ms();
+        ok = ok && write_page(job, given, page, error);
+        job->times.encode += clock_ms() - start;
+        job->written = ok;
+        ok = ok && (!given->save_scene || scene_settings_save(job, error));
+    }
+    free(page);
+    return ok;
+}

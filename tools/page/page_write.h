@@ -1,0 +1,21 @@
+// page_write.h: `lambent MODEL -o page.html`: the page in one file with the model and the command line in it.
+#ifndef PAGE_WRITE_H
+#define PAGE_WRITE_H
+
+#include "job.h"
+
+// The bytes of a model and of all files that it reads, which a page may hold.
+enum { PAGE_FILES_MAX = 100000000 };
+
+// Whether the job's output is a page.
+bool page_wanted(const struct job *job);
+
+// job_run for a page: draws the picture, which finds whatever is wrong with the model or the options, and writes the page. Errors:
+// those of job_run; LAM_UNSUPPORTED (no page is installed, a file outside of the model's folder), LAM_LIMIT (more than
+// PAGE_FILES_MAX).
+bool page_run(struct job *job, struct progress *progress, lam_error *error);
+
+// Why a page cannot hold several pictures: LAM_BAD_ARGUMENT. Returns false.
+bool page_refuse_several(lam_error *error);
+
+#endif

@@ -149,6 +149,19 @@ typedef struct lam_explained_values {
     LAM_RESERVED(8);
 } lam_explained_values;
 
+// A point on its way from the mesh to the window, as a vertex shader and what follows it compute it.
+typedef struct lam_explained_place {
+    lam_vec3 mesh_position; // of the mesh's own space
+    lam_vec3 eye_position;  // the eye at the origin, looking along −z
+    double clip[4];         // x, y, z, w: inside the picture where w > 0 and −w ≤ x, y, z ≤ w
+    // x, y and z of `clip` divided by w: −1…1 inside the picture, y up. NaN where w ≤ 0: behind the eye.
+    double ndc[3];
+    // Pixels from the lower left corner, as OpenGL counts them: (ndc.x + 1) · width / 2, (ndc.y + 1) · height / 2; and the
+    // depth (ndc.z + 1) / 2. NaN where w ≤ 0.
+    double window[3];
+    LAM_RESERVED(4);
+} lam_explained_place;
+
 // A triangle that the pixel shows.
 typedef struct lam_explained_fragment {
     // Indices in the scene; `part` is −1 for a mesh without parts, and all three for the ground.
@@ -189,7 +202,12 @@ typedef struct lam_explained_fragment {
     // LAM_GROUND_SHADOW: the luminance that the point sends to the eye, and that it would send with nothing in the way of light.
     // What is missing is its opacity: 1 − received / unobstructed, times that to which it has faded out.
     float received, unobstructed;
-    LAM_RESERVED(8);
+    // 4: the triangle's corners, and the point with the weights above. NULL: a line or a point, which has no corners in a mesh.
+    const lam_explained_place *places;
+    // (x3−x2)(y1−y2) − (y3−y2)(x1−x2) of the corners' window positions: twice the area in square pixels, positive where
+    // they run counter-clockwise. A mirroring transform turns the winding of a front round. NaN where a corner lies behind the eye.
+    double winding;
+    LAM_RESERVED(6);
 } lam_explained_fragment;
 
 // One pixel of a picture.

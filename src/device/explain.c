@@ -107,6 +107,66 @@ static void complete_angles(lam_explained_point *point)
     }
 }
 
+// --- the way of a triangle from its mesh to the window
+
+static lam_explained_place place_of(const struct frame_draw *draw, lam_vec3 origin, lam_vec3 p, int width, int height)
+{
+    lam_explained_place out = {.mesh_position = v3_add(origin, p)};
+    const double at[4] = {p.x, p.y, p.z, 1}, none = __builtin_nan("");
+    double eye[3] = {0}, pixel[4] = {0};
+    for (int column = 0; column < 4; column++) {
+        for (int row = 0; row < 3; row++)
+            eye[row] += (double)draw->eye[row][column] * at[column];
+        for (int row = 0; row < 4; row++)
+            pixel[row] += (double)draw->pixel[row][column] * at[column];
+    }
+    const double w = pixel[3];
+    out.eye_position = v3(eye[0], eye[1], eye[2]);
+    out.clip[0] = 2 * pixel[0] / width - w; // the frame's rows are in pixels, y down
+    out.clip[1] = w - 2 * pixel[1] / height;
+    out.clip[2] = pixel[2];
+    out.clip[3] = w;
+    const double size[3] = {width, height, 1};
+    for (int k = 0; k < 3; k++) {
+        out.ndc[k] = w > 0 ? out.clip[k] / w : none;
+        out.window[k] = (out.ndc[k] + 1) * size[k] / 2;
+    }
+    return out;
+}
+
+static const struct frame_draw *draw_of(const struct frame *frame, const lam_explained_fragment *fragment)
+{
+    for (int i = 0; i < frame->draw_count; i++)
+        if (fragment->ground ? frame->draws[i].ground
+                             : !frame->draws[i].ground && frame->draws[i].object == fragment->object)
+            return &frame->draws[i];
+    return NULL;
+}
+
+static void complete_places(struct recorder *recorder, lam_explained_fragment *fragment, const struct frame *frame)
+{
+    const struct frame_draw *draw = draw_of(frame, fragment);
+    if (!draw || draw->strokes)
+        return;
+    lam_explained_place *places = recorder_alloc(recorder, 4, sizeof *places);
+    if (!places)
+        return;
+    const lam_mesh *mesh = draw->mesh;
+    const lam_vec3 origin = v3(mesh->origin[0], mesh->origin[1], mesh->origin[2]);
+    const int width = recorder->out->width, height = recorder->out->height;
+    lam_vec3 point = {0, 0, 0};
+    for (size_t k = 0; k < 3; k++) {
+        const float *given = mesh->positions + 3 * (size_t)mesh->indices[3 * (size_t)fragment->triangle + k];
+        lam_vec3 p = v3((double)given[0], (double)given[1], (double)given[2]);
+        places[k] = place_of(draw, origin, p, width, height);
+        point = v3_add(point, v3_scale(p, (double)fragment->weights[k]));
+    }
+    places[3] = place_of(draw, origin, point, width, height);
+    const double *a = places[0].window, *b = places[1].window, *c = places[2].window;
+    fragment->winding = (c[0] - b[0]) * (a[1] - b[1]) - (c[1] - b[1]) * (a[0] - b[0]);
+    fragment->places = places;
+}
+
 static void complete(struct recorder *recorder, const lam_scene *scene, const lam_camera *camera,
                      const struct frame *frame)
 {
@@ -123,6 +183,7 @@ static void complete(struct recorder *recorder, const lam_scene *scene, const la
         fragment->corners = mesh->line_count ? 2 : mesh->point_count ? 1 : 3;
         if (mesh_is_strokes(mesh))
             fragment->triangle /= 2;
+        complete_places(recorder, fragment, frame);
         for (int k = 0; k < fragment->point_count; k++) {
             lam_explained_point *point = (lam_explained_point *)(uintptr_t)&fragment->points[k];
             if (mesh_is_strokes(mesh)) {
@@ -213,6 +274,12 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
     take_frame(out, &device->frame);
     out->stops = params ? params->exposure : 0;
     complete(&recorder, scene, camera, &device->frame);
+    explanation->arena = recorder.arena; // which has grown
+    if (recorder.failed) {
+        lam_explanation_free(out);
+        fail(error, LAM_LIMIT, "out of memory");
+        return NULL;
+    }
     return out;
 }
 

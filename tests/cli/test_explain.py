@@ -55,6 +55,39 @@ class Explain(Case):
         for model in models:
             self.same_as_picture(str(model), "-s", 200)
 
+    def test_places(self):
+        """Each space follows from the one before it; the point's window position is the place that the pixel is lit at."""
+        scene = {"lambent": 1, "objects": [{"shape": "teapot", "transform": [["scale", -1, 1, 1]]}]}
+        (self.folder / "mirrored.json").write_text(json.dumps(scene))
+        for words in (["teapot", "30,30"], ["teapot", "30,30", "--shading", "gouraud"], ["mirrored.json", "30,30"],
+                      ["teapot", "30,30", "--projection", "orthographic"]):
+            told = self.told(*words, "-s", "64x48", "--samples", 1)
+            for triangle in told["triangles"]:
+                *corners, point = triangle["places"]
+                for place in triangle["places"]:
+                    x, y, z, w = place["clip"]
+                    self.assertGreater(w, 0)
+                    for got, expected in zip(place["ndc"], (x / w, y / w, z / w)):
+                        self.assertAlmostEqual(got, expected, 12)
+                    for got, n, size in zip(place["window"], place["ndc"], (64, 48, 1)):
+                        self.assertAlmostEqual(got, (n + 1) * size / 2, 9)
+                    self.assertTrue(-1 <= place["ndc"][2] <= 1)
+                    self.assertLess(place["eye"][2], 0)
+                for space in ("object", "eye", "clip"):
+                    for k, got in enumerate(point[space]):
+                        self.assertAlmostEqual(got, sum(w * c[space][k] for w, c in zip(triangle["weights"], corners)), 4)
+                self.assertAlmostEqual(point["window"][0], triangle["picture_position"][0], 2)
+                self.assertAlmostEqual(48 - point["window"][1], triangle["picture_position"][1], 2)
+                (x1, y1, _), (x2, y2, _), (x3, y3, _) = (c["window"] for c in corners)
+                area = (x3 - x2) * (y1 - y2) - (y3 - y2) * (x1 - x2)
+                self.assertAlmostEqual(triangle["winding"], area, 6)
+                mirrored = words[0] == "mirrored.json"
+                self.assertEqual(triangle["winding"] > 0, (triangle["side"] == "front") != mirrored)
+        (self.folder / "mirrored.json").unlink()
+        text = self.good("explain", "teapot", "30,30", "-s", 64).stdout.decode()
+        for words in ("on the way to the window", "NDC", "clip ÷ w", "winding", "counter-clockwise"):
+            self.assertIn(words, text)
+
     def test_isa_does_not_matter(self):
         words = ("explain", "teapot", "30,30", "-s", 64, "--json")
         self.assertEqual(self.good(*words).stdout, self.good(*words, "--isa", "plain", "-j", 1).stdout)

@@ -242,6 +242,38 @@ static void write_maps(struct json *json, const lam_explained_fragment *f)
     json_close(json, '}');
 }
 
+static void doubles(struct json *json, const char *key, const double *values, int count)
+{
+    json_open(json, key, '[');
+    for (int i = 0; i < count; i++)
+        json_number(json, NULL, values[i]);
+    json_close(json, ']');
+}
+
+// The corners and the point in each space, or null.
+static void write_places(struct json *json, const lam_explained_fragment *f)
+{
+    if (!f->places) {
+        json_none(json, "places");
+        return;
+    }
+    static const char *const names[] = {"corner 0", "corner 1", "corner 2", "point"};
+    json_open(json, "places", '[');
+    for (int i = 0; i < 4; i++) {
+        const lam_explained_place *p = &f->places[i];
+        json_open(json, NULL, '{');
+        json_text(json, "of", names[i]);
+        vector(json, "object", p->mesh_position);
+        vector(json, "eye", p->eye_position);
+        doubles(json, "clip", p->clip, 4);
+        doubles(json, "ndc", p->ndc, 3);
+        doubles(json, "window", p->window, 3);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+    json_number(json, "winding", f->winding);
+}
+
 static void write_fragment(struct json *json, const lam_explained_fragment *f)
 {
     const lam_material *m = &f->surface;
@@ -272,6 +304,7 @@ static void write_fragment(struct json *json, const lam_explained_fragment *f)
     json_number(json, NULL, f->picture_y);
     json_close(json, ']');
     triple(json, "weights", (double)f->weights[0], (double)f->weights[1], (double)f->weights[2]);
+    write_places(json, f);
     json_open(json, "material", '{');
     index_of(json, "material", f->material);
     json_text(json, "name", m->name);

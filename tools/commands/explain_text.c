@@ -400,6 +400,37 @@ static void print_values(const lam_explained_fragment *f)
     printf("\n");
 }
 
+// The corners and the point in each space on their way to the window.
+static void print_places(const lam_explained_fragment *f)
+{
+    static const char *const names[] = {"corner 0", "corner 1", "corner 2", "the point"};
+    if (!f->places)
+        return;
+    printf("\n");
+    label(2, "on the way to the window");
+    printf("%13s %13s %13s %13s\n", "x", "y", "z", "w");
+    for (int i = 0; i < 4; i++) {
+        const lam_explained_place *p = &f->places[i];
+        printf("  %s\n", names[i]);
+        vector(4, "object", p->mesh_position, "");
+        vector(4, "eye", p->eye_position, i ? "" : "model-view matrix · object");
+        label(4, "clip");
+        printf("%13.7g %13.7g %13.7g %13.7g%s\n", p->clip[0] + 0.0, p->clip[1] + 0.0, p->clip[2] + 0.0,
+               p->clip[3] + 0.0, i ? "" : "   projection · eye");
+        if (!(p->clip[3] > 0)) {
+            label(4, "NDC, window");
+            printf("%13s   behind the eye: w ≤ 0\n", "none");
+            continue;
+        }
+        three(4, "NDC", p->ndc[0], p->ndc[1], p->ndc[2], i ? "" : "clip ÷ w");
+        three(4, "window", p->window[0], p->window[1], p->window[2], i ? "" : "pixels from the lower left; depth 0…1");
+    }
+    if (f->winding - f->winding == 0)
+        number(2, "winding", f->winding,
+               f->winding > 0 ? "counter-clockwise; (x3−x2)(y1−y2) − (y3−y2)(x1−x2) in the window"
+                              : "clockwise; (x3−x2)(y1−y2) − (y3−y2)(x1−x2) in the window");
+}
+
 static void print_fragment(const lam_explanation *e, const lam_explained_fragment *f)
 {
     char name[32];
@@ -431,6 +462,7 @@ static void print_fragment(const lam_explanation *e, const lam_explained_fragmen
         printf("pixels from the top left: sample %d, since the centre is outside the triangle\n", f->lit_sample);
     three(2, "weights of the corners", (double)f->weights[0], (double)f->weights[1], (double)f->weights[2],
           "barycentric, perspective-correct");
+    print_places(f);
     print_material(e, f);
     print_values(f);
     for (int i = 0; i < f->point_count; i++)

@@ -32,9 +32,9 @@ def call(*command):
     return done.stdout
 
 
-# The page's scripts, each after those that it imports.
-PAGE = ["camera.js", "state.js", "explanation.js", "dropped.js", "inside.js", "panel.js", "start.js", "page.js"]
-WORKER = ["wasi.js", "lambent.js", "worker.js"]
+# The page's scripts begin here; what they import is found in them (modules_of).
+PAGE = "page.js"
+WORKER = "worker.js"
 
 # In place of start.js's openWorker: the worker and the module stand in the page itself.
 START_INSIDE = """function openWorker() {
@@ -63,12 +63,36 @@ def page_file(name):
     return open(path if os.path.exists(path) else os.path.join(HERE, name)).read()
 
 
-def plain_script(names):
-    """Modules as one script: their imports are of one another. Names at the top of two of them would collide: an error of the script."""
-    text = "\n".join(page_file(name) for name in names)
-    text = re.sub(r"^import .*\n", "", text, flags=re.M)
-    text = re.sub(r"^export \{.*\};\n", "", text, flags=re.M)
-    return re.sub(r"^export ", "", text, flags=re.M)
+IMPORT = re.compile(r"^import (?:(\{[^}]*\}) from )?'\./([\w.]+)';\n", re.M)
+
+
+def modules_of(name, above=()):
+    """A script and all that it imports, each after those that it imports."""
+    if name in above:
+        sys.exit("web: %s import one another" % " and ".join(above[above.index(name):]))
+    found = []
+    for _, other in IMPORT.findall(page_file(name)):
+        found += [module for module in modules_of(other, above + (name,)) if module not in found]
+    return found + [name]
+
+
+def plain_script(first):
+    """Modules as one script: each is a function that returns its exports, so that names at the top of two of them do not collide. Modules
+    import by name alone, and do not await at the top."""
+    out = []
+    for name in modules_of(first):
+        variable = "module_" + re.sub(r"\W", "_", name)
+        text = IMPORT.sub(lambda m: "const %s = module_%s;\n" % (m[1].replace(" as ", ": "), re.sub(r"\W", "_", m[2])) if m[1] else "",
+                          page_file(name))
+        listed = [word.strip() for group in re.findall(r"^export \{(.*)\};\n", text, flags=re.M) for word in group.split(",")]
+        text = re.sub(r"^export \{.*\};\n", "", text, flags=re.M)
+        declared = re.findall(r"^export (?:async )?(?:function|class|const|let) ([\w$]+|\{[^}]*\})", text, flags=re.M)
+        exports = sorted(set(listed + [word.strip() for one in declared for word in one.strip("{}").split(",")]))
+        text = re.sub(r"^export ", "", text, flags=re.M)
+        if re.search(r"^(import|export)\b", text, flags=re.M):
+            sys.exit("web: %s: an import or export in a form that the one-file page cannot have" % name)
+        out.append("const %s = (() => {\n%sreturn { %s };\n})();\n" % (variable, text, ", ".join(exports)))
+    return "".join(out)
 
 
 def source_hash(text):
@@ -95,7 +119,7 @@ def make_page(folder, wasm):
     """The page as files that a server serves, and as one file that works by itself."""
     served = os.path.join(folder, "page")
     os.makedirs(served, exist_ok=True)
-    for name in PAGE + WORKER + ["index.html", "page.css", "lambent.d.ts"]:
+    for name in modules_of(PAGE) + modules_of(WORKER) + ["index.html", "page.css", "lambent.d.ts"]:
         open(os.path.join(served, name), "w").write(page_file(name))
     shutil.copy(wasm, os.path.join(served, "lambent.wasm"))
     make_offline(served)

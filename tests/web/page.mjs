@@ -1,8 +1,9 @@
 // page.mjs ONE_FILE: the page's state, its camera and the page in one file, without a browser: lines of the Test Anything Protocol without
 // numbers.
 import { createHash } from 'node:crypto';
-import { readFileSync } from 'node:fs';
+import { readFileSync, readdirSync } from 'node:fs';
 import { around, cameraText, orbit, pan, zoom } from '../../web/page/camera.js';
+import { pseudo, stringKeys, text } from '../../web/page/strings.js';
 import { State, command, fromFragment, quoted, toFragment } from '../../web/page/state.js';
 
 const ok = (good, label) => console.log(`${good ? 'ok' : 'not ok'} ${label}`);
@@ -42,6 +43,17 @@ ok(near(pan(camera, 0, 0.5).target, [0, -5 * Math.tan(Math.PI / 12), 0]), 'half 
 ok(near(zoom(camera, 2).eye, [0, 0, 2.5]) && zoom({ ...camera, ortho: 3 }, 2).ortho === 1.5, 'zoom');
 ok(Math.abs(around(camera, { centre: [1, 2, 3], radius: 2 }, 1).eye[2] - 3 - 2 / Math.sin(Math.PI / 12)) < 1e-9, 'a ball fills the picture');
 ok(cameraText(orbit(camera, 1, 0.5, [0, 1, 0], [0, 0, 0])) === 'eye=3.6923/2.39713/2.3708,target=0/0/0,up=0/1/0,fovy=30', 'decimal text');
+
+// The strings: every key that a script or the page names is in the table, and each of the table is named; a pseudo-locale keeps {names}.
+const sources = readdirSync(new URL('../../web/page', import.meta.url)).filter((name) => /\.(js|html)$/.test(name))
+  .map((name) => [name, readFileSync(new URL(`../../web/page/${name}`, import.meta.url), 'utf8')]);
+const html = Object.fromEntries(sources)['index.html'], scripts = sources.filter(([name]) => name !== 'strings.js').map(([, source]) => source).join('\n');
+const named = [...html.matchAll(/data-(?:text|label|title|placeholder)="(\w+)"/g), ...scripts.matchAll(/\b(?:text\(|button\(|key: )'(\w+)'/g)].map((match) => match[1]);
+const unknown = named.filter((key) => !stringKeys().includes(key)), unused = stringKeys().filter((key) => !new RegExp(`['"]${key}['"]`).test(scripts + html));
+ok(named.length > 30 && !unknown.length && !unused.length, `strings: the table has all, and no more${[...unknown, ...unused].map((key) => ' ' + key).join('')}`);
+ok(pseudo('saved {file}') === '⟦šávéd {file}~~~~⟧' && text('saved', { file: 'a.png' }) === 'saved a.png', 'strings: values and the pseudo-locale');
+const bare = html.replace(/<(title|h1 translate="no")>[^<]*/g, '').replace(/<[^>]*>/g, '').trim();
+ok(bare === '', `strings: the page itself has none${bare && ': ' + bare}`);
 
 // The page in one file: its policy names its own script and style, and nothing is fetched.
 const page = readFileSync(process.argv[2], 'utf8');

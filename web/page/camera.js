@@ -63,3 +63,11 @@ export function zoom(camera, factor) {
   if (camera.ortho > 0) return { ...camera, ortho: camera.ortho / factor };
   return { ...camera, eye: add(camera.target, sub(camera.eye, camera.target), 1 / factor) };
 }
+
+// The numbers that a text of cameraText says.
+export function readCamera(text) {
+  const parts = Object.fromEntries(text.split(',').map((part) => part.split('=')));
+  const triple = (v) => v.split('/').map(Number);
+  return { eye: triple(parts.eye), target: triple(parts.target), up: triple(parts.up),
+    ortho: parts.ortho ? Number(parts.ortho) : 0, fovy_deg: parts.fovy ? Number(parts.fovy) : 30 };
+}

@@ -1,24 +1,21 @@
 // panel.js: a control for each option of the program's table, in the groups of its help, found by name, by other names that people
 // try, and by what it says of itself.
 
+import { element, ours } from './dom.js';
+import { text } from './strings.js';
+
 // They name files to write, which the page does by buttons.
 const LEFT_OUT = ['output', 'save-scene', 'durable', 'compress', 'quality'];
-
-function element(name, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(name), properties);
-  made.append(...children);
-  return made;
-}
 
 export class Panel {
   #rows = [];
 
-  constructor(place, search, options, change) {
+  constructor(place, search, none, options, change) {
     const groups = new Map();
     for (const option of options) {
       if (LEFT_OUT.includes(option.name)) continue;
       if (!groups.has(option.group)) {
-        const details = element('details', {}, element('summary', { textContent: option.group }));
+        const details = element('details', {}, ours('summary', option.group));
         details.open = groups.size < 1;
         groups.set(option.group, details);
         place.append(details);
@@ -27,16 +24,18 @@ export class Panel {
       this.#rows.push(row);
       groups.get(option.group).append(row.place);
     }
-    search.oninput = () => this.#find(search.value.trim().toLowerCase(), groups);
+    search.oninput = () => (none.hidden = this.#find(search.value.trim().toLowerCase(), groups));
   }
 
-  #find(text, groups) {
-    for (const row of this.#rows) row.place.hidden = !row.matches(text);
+  // Whether any option has the words.
+  #find(words, groups) {
+    for (const row of this.#rows) row.place.hidden = !row.matches(words);
     for (const details of groups.values()) {
       const any = [...details.querySelectorAll('.option')].some((row) => !row.hidden);
       details.hidden = !any;
-      if (text) details.open = any;
+      if (words) details.open = any;
     }
+    return this.#rows.some((row) => !row.place.hidden);
   }
 
   // Shows the values of the state.
@@ -49,20 +48,20 @@ class Row {
   constructor(option, change) {
     this.option = option;
     this.change = (values) => change(option.name, values);
-    this.label = element('label', { textContent: option.name, htmlFor: `option-${option.name}` });
-    this.reset = element('button', { type: 'button', textContent: '×', title: `Without --${option.name}`, hidden: true });
-    this.reset.setAttribute('aria-label', `Without --${option.name}`);
+    this.label = ours('label', option.name, { htmlFor: `option-${option.name}` });
+    this.reset = element('button', { type: 'button', className: 'reset', textContent: '×', title: text('without', { option: `--${option.name}` }), hidden: true,
+      attributes: { 'aria-label': text('without', { option: `--${option.name}` }) } });
     this.reset.onclick = () => this.change([]);
     this.inputs = element('div');
-    const standard = option.default ? ` Default: ${option.default}.` : '';
-    const about = element('p', { textContent: option.summary + standard, id: `about-${option.name}` });
+    const about = element('p', { id: `about-${option.name}` }, ours('span', option.summary));
+    if (option.default) about.append(' ', element('span', { textContent: text('standard', { value: option.default }) }));
     this.place = element('div', { className: 'option' }, this.label, this.inputs, this.reset, about);
     this.show([]);
   }
 
-  matches(text) {
+  matches(wanted) {
     const o = this.option, words = (o.words ?? []).map((word) => word.name).join(' ');
-    return text.split(/\s+/).every((part) => `${o.name} ${o.others ?? ''} ${o.summary} ${words}`.toLowerCase().includes(part));
+    return wanted.split(/\s+/).every((part) => `${o.name} ${o.others ?? ''} ${o.summary} ${words}`.toLowerCase().includes(part));
   }
 
   show(values) {
@@ -79,10 +78,10 @@ class Row {
 
   #control(value, i, values) {
     const o = this.option;
-    const take = (text) => {
+    const take = (value) => {
       const next = [...values];
-      if (text === null || text === '') next.splice(i, 1);
-      else next[o.repeats ? i : 0] = text;
+      if (value === '') next.splice(i, 1);
+      else next[o.repeats ? i : 0] = value;
       this.change(o.repeats ? next : next.slice(0, 1));
     };
     let control;
@@ -90,7 +89,7 @@ class Row {
       control = element('input', { type: 'checkbox', checked: value !== null });
       control.onchange = () => this.change(control.checked ? [''] : []);
     } else if (o.words && !o.repeats && o.kind === 'any' && !o.words.some((word) => /[A-Z]/.test(word.name)) && (value === null || o.words.some((word) => word.name === value))) {
-      control = element('select', {}, new Option('—', ''), ...o.words.map((word) => {
+      control = element('select', { translate: false }, new Option('—', ''), ...o.words.map((word) => {
         const choice = new Option(word.name, word.name);
         choice.title = word.summary ?? '';
         return choice;
@@ -98,7 +97,7 @@ class Row {
       control.value = value ?? '';
       control.onchange = () => take(control.value);
     } else {
-      control = element('input', { type: o.number && (value === null || isFinite(value)) ? 'number' : 'text', value: value ?? '', placeholder: o.value });
+      control = element('input', { type: o.number && (value === null || isFinite(value)) ? 'number' : 'text', value: value ?? '', placeholder: o.value, translate: false });
       if (control.type === 'number') {
         control.step = o.whole ? 1 : 'any';
         if (o.min !== undefined) Object.assign(control, { min: o.min, max: o.max });

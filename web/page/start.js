@@ -1,4 +1,5 @@
 // start.js: the worker, and calls to it. (The one-file page has a part of its own in place of this one: web/build.py.)
+import { text } from './strings.js';
 
 export function openWorker() {
   const worker = new Worker(new URL('worker.js', import.meta.url), { type: 'module' });
@@ -16,7 +17,7 @@ export function caller(worker, wasm) {
     else reject(new Error(data.error));
   };
   worker.onerror = (event) => {
-    for (const { reject } of waiting.values()) reject(new Error(event.message || 'the worker ended'));
+    for (const { reject } of waiting.values()) reject(new Error(event.message || text('workerEnded')));
     waiting.clear();
   };
   return {

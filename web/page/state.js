@@ -1,6 +1,9 @@
 // state.js: the state of the page: the words of a command line. Options stand in the order in which they were given; undo and redo
 // are lists of such states, a link is one in the address, and what is drawn, shown and copied is the same list.
 
+// The options that make the view; a camera takes the place of all of them.
+export const VIEW = ['view', 'azimuth', 'elevation', 'zoom', 'projection'];
+
 export class State {
   #past = [];
   #future = [];

@@ -1,0 +1,61 @@
+// bar.js: undo and redo, the command line with its copies, saving, and the address.
+import { call, on, refuse, state, view } from './app.js';
+import { $ } from './dom.js';
+import { command, fromFragment, toFragment } from './state.js';
+import { text } from './strings.js';
+
+on('words', () => {
+  $('command').textContent = command(state.words);
+  $('undo').disabled = !state.canUndo;
+  $('redo').disabled = !state.canRedo;
+  if (!view.moving) history.replaceState(null, '', toFragment(state.words));
+});
+
+$('undo').onclick = () => state.undo();
+$('redo').onclick = () => state.redo();
+addEventListener('keydown', (event) => {
+  if (!(event.ctrlKey || event.metaKey) || event.target.matches('input, textarea, [contenteditable]')) return;
+  if (event.key === 'z') (event.shiftKey ? state.redo() : state.undo(), event.preventDefault());
+  if (event.key === 'y') (state.redo(), event.preventDefault());
+});
+
+async function copy(copied, button) {
+  const label = button.textContent;
+  try {
+    await navigator.clipboard.writeText(copied);
+    button.textContent = text('copied');
+  } catch {
+    getSelection().selectAllChildren($('command'));
+    button.textContent = text('selected');
+  }
+  setTimeout(() => (button.textContent = label), 1500);
+}
+$('copy-command').onclick = (event) => copy(command(state.words), event.target);
+$('copy-link').onclick = (event) => copy(location.href.split('#')[0] + toFragment(state.words), event.target);
+
+// Offers bytes as a file of the model's name.
+export function download(bytes, ending, type) {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(new Blob([bytes], { type }));
+  link.download = state.model.replace(/^.*\//, '').replace(/\.\w+$/, '') + ending;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+  return link.download;
+}
+
+$('save').onclick = async () => {
+  try {
+    const bytes = await call('save', { words: state.words, ending: 'png' });
+    const digest = await crypto.subtle?.digest('SHA-256', bytes);
+    const hash = [...new Uint8Array(digest ?? [])].map((b) => b.toString(16).padStart(2, '0')).join('');
+    const file = download(bytes, '.png', 'image/png');
+    $('status').textContent = hash ? text('savedHash', { file, hash }) : text('saved', { file });
+  } catch (error) {
+    refuse(error.message);
+  }
+};
+
+addEventListener('hashchange', () => {
+  const words = fromFragment(location.hash);
+  if (words) state.set(words);
+});

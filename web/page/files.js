@@ -1,0 +1,61 @@
+// files.js: models come in by the menu, as files, as a folder, or dropped; nothing leaves the machine.
+import { call, emit, on, refuse, state, view } from './app.js';
+import { $ } from './dom.js';
+import { droppedFiles } from './dropped.js';
+import { text } from './strings.js';
+
+const MODELS = /\.(obj|stl|ply|gltf|glb|json)$/i;
+
+function showModels() {
+  const own = [...view.files.keys()].filter((path) => MODELS.test(path));
+  const names = [...own, ...view.shapes];
+  if (!names.includes(state.model)) names.unshift(state.model);
+  const key = names.join('\n');
+  if ($('model').dataset.names !== key) {
+    $('model').replaceChildren(...names.map((name) => new Option(name.replace(/^\//, ''), name)));
+    $('model').dataset.names = key;
+  }
+  $('model').value = state.model;
+}
+on('words', showModels);
+on('ready', showModels);
+
+// Another model is seen whole: its own view.
+function takeModel(name) {
+  state.set([name, ...state.words.slice(1).filter((word) => !word.startsWith('--camera'))]);
+}
+
+export async function takeFiles(list) {
+  const taken = new Map();
+  for (const [path, file] of list) taken.set('/' + path, new Uint8Array(await file.arrayBuffer()));
+  if (!taken.size) return;
+  view.files = taken;
+  await call('files', { files: [...taken] });
+  const names = [...taken.keys()];
+  const models = names.filter((path) => MODELS.test(path)).sort((a, b) => a.split('/').length - b.split('/').length || (a < b ? -1 : 1));
+  if (!models.length) refuse(text('noModel', { files: names.map((path) => path.slice(1)).join(', ') }));
+  else if (models[0] === state.model) emit('words'); // new contents under an old name
+  else takeModel(models[0]);
+}
+
+$('model').onchange = (event) => takeModel(event.target.value);
+$('open').onclick = () => $('files').click();
+$('open-folder').onclick = () => $('folder').click();
+for (const id of ['files', 'folder'])
+  $(id).onchange = (event) => {
+    takeFiles([...event.target.files].map((file) => [file.webkitRelativePath || file.name, file]));
+    event.target.value = '';
+  };
+
+addEventListener('dragover', (event) => {
+  event.preventDefault();
+  $('drop').hidden = false;
+});
+addEventListener('dragleave', (event) => {
+  if (!event.relatedTarget) $('drop').hidden = true;
+});
+addEventListener('drop', async (event) => {
+  event.preventDefault();
+  $('drop').hidden = true;
+  takeFiles(await droppedFiles(event.dataTransfer));
+});

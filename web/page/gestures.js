@@ -1,0 +1,83 @@
+// gestures.js: orbit, pan and zoom by mouse, touch and keys: each writes the words of --camera.
+import { beginGesture, endGesture, gestureKey, state, view } from './app.js';
+import { around, cameraText, orbit, pan, readCamera, zoom } from './camera.js';
+import { $ } from './dom.js';
+import { explainAt } from './explain.js';
+import { State, VIEW } from './state.js';
+
+const canvas = $('canvas');
+const pointers = new Map();
+
+// Every step starts from the numbers that the text says.
+function move(next) {
+  beginGesture();
+  const text = cameraText(next);
+  let words = state.words;
+  for (const name of VIEW) words = new State(words).withValues(name, []);
+  view.camera = { ...next, ...readCamera(text) };
+  state.set(new State(words).withValues('camera', [text]), gestureKey());
+}
+
+// The first turn of a view that the program has fitted begins with a fit for all angles.
+function turn(right, up) {
+  if (!state.values('camera').length) view.camera = around(view.camera, view.sphere, canvas.width / canvas.height);
+  move(orbit(view.camera, right, up, view.camera.pole, view.sphere.centre));
+}
+
+canvas.addEventListener('pointerdown', (event) => {
+  if (!view.camera) return;
+  canvas.setPointerCapture(event.pointerId);
+  pointers.set(event.pointerId, { x: event.clientX, y: event.clientY, from: [event.clientX, event.clientY] });
+});
+
+canvas.addEventListener('pointermove', (event) => {
+  const before = pointers.get(event.pointerId);
+  if (!before) return;
+  const x = event.clientX - before.x, y = event.clientY - before.y, size = canvas.clientHeight;
+  if (Math.hypot(event.clientX - before.from[0], event.clientY - before.from[1]) < 4 && !before.moved) return;
+  before.moved = true;
+  if (pointers.size === 2) {
+    const [a, b] = [...pointers.values()], other = a === before ? b : a;
+    const apart = (p, q) => Math.max(10, Math.hypot(p.x - q.x, p.y - q.y));
+    const factor = apart({ x: event.clientX, y: event.clientY }, other) / apart(before, other);
+    move(zoom(pan(view.camera, x / 2 / size, -y / 2 / size), factor));
+  } else if (event.shiftKey || event.buttons & 6) {
+    move(pan(view.camera, x / size, -y / size));
+  } else {
+    turn((-x / size) * Math.PI, (y / size) * Math.PI);
+  }
+  before.x = event.clientX;
+  before.y = event.clientY;
+});
+
+for (const name of ['pointerup', 'pointercancel'])
+  canvas.addEventListener(name, (event) => {
+    const pointer = pointers.get(event.pointerId);
+    pointers.delete(event.pointerId);
+    if (!pointer) return;
+    if (pointer.moved) endGesture();
+    else if (name === 'pointerup') explainAt(event.offsetX / canvas.clientWidth, event.offsetY / canvas.clientHeight);
+  });
+canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+
+canvas.addEventListener('wheel', (event) => {
+  event.preventDefault();
+  if (!view.camera) return;
+  move(zoom(view.camera, Math.exp(-Math.max(-100, Math.min(100, event.deltaY)) * 0.0015)));
+  endGesture();
+}, { passive: false });
+
+canvas.addEventListener('keydown', (event) => {
+  const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+  const arrow = arrows[event.key], step = Math.PI / 24;
+  if (!view.camera || event.ctrlKey || event.metaKey) return;
+  if (arrow && event.shiftKey) move(pan(view.camera, arrow[0] * 0.05, arrow[1] * 0.05));
+  else if (arrow) turn(arrow[0] * step, arrow[1] * step);
+  else if (event.key === '+' || event.key === '=') move(zoom(view.camera, 1.15));
+  else if (event.key === '-') move(zoom(view.camera, 1 / 1.15));
+  else if (event.key === 'Home') state.set(state.withValues('camera', []));
+  else if (event.key === 'Enter') explainAt(0.5, 0.5);
+  else return;
+  event.preventDefault();
+  if (view.moving) endGesture();
+});

@@ -1,0 +1,35 @@
+// tabs.js: the panels beside the picture. addTab(id, label) gives the place that a module fills: #panel-ID, with the tab #tab-ID.
+import { $, element } from './dom.js';
+
+const tabs = [];
+
+export function addTab(id, label) {
+  const tab = element('button', { type: 'button', id: `tab-${id}`, textContent: label, tabIndex: -1,
+    attributes: { role: 'tab', 'aria-selected': 'false', 'aria-controls': `panel-${id}` } });
+  const panel = element('section', { id: `panel-${id}`, hidden: true, attributes: { role: 'tabpanel', 'aria-labelledby': tab.id } });
+  tab.onclick = () => selectTab(id);
+  tabs.push({ id, tab, panel });
+  $('tabs').append(tab);
+  $('panels').append(panel);
+  if (tabs.length === 1) selectTab(id);
+  return panel;
+}
+
+// `focus`: of keys; a tab that opens by itself leaves the focus where it is.
+export function selectTab(id, focus = false) {
+  for (const one of tabs) {
+    const chosen = one.id === id;
+    one.tab.setAttribute('aria-selected', String(chosen));
+    one.tab.tabIndex = chosen ? 0 : -1;
+    one.panel.hidden = !chosen;
+    if (chosen && focus) one.tab.focus();
+  }
+}
+
+$('tabs').addEventListener('keydown', (event) => {
+  const at = tabs.findIndex(({ tab }) => tab === document.activeElement);
+  const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: tabs.length - 1 }[event.key];
+  if (at < 0 || to === undefined) return;
+  selectTab(tabs[(to + tabs.length) % tabs.length].id, true);
+  event.preventDefault();
+});

@@ -2,7 +2,8 @@
 // numbers.
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync } from 'node:fs';
-import { around, cameraText, orbit, pan, zoom } from '../../web/page/camera.js';
+import { around, cameraText, orbit, pan, project, shifted, zoom } from '../../web/page/camera.js';
+import { lightText, movedTo, newLight, parseLight, placeOf, withCone } from '../../web/page/lights.js';
 import { pseudo, stringKeys, text } from '../../web/page/strings.js';
 import { State, command, fromFragment, quoted, toFragment } from '../../web/page/state.js';
 
@@ -43,6 +44,30 @@ ok(near(pan(camera, 0, 0.5).target, [0, -5 * Math.tan(Math.PI / 12), 0]), 'half 
 ok(near(zoom(camera, 2).eye, [0, 0, 2.5]) && zoom({ ...camera, ortho: 3 }, 2).ortho === 1.5, 'zoom');
 ok(Math.abs(around(camera, { centre: [1, 2, 3], radius: 2 }, 1).eye[2] - 3 - 2 / Math.sin(Math.PI / 12)) < 1e-9, 'a ball fills the picture');
 ok(cameraText(orbit(camera, 1, 0.5, [0, 1, 0], [0, 0, 0])) === 'eye=3.6923/2.39713/2.3708,target=0/0/0,up=0/1/0,fovy=30', 'decimal text');
+
+// Handles of lights: each move of a handle by a part of the picture's height, and the words that it makes. The picture is 10 tan 15° = 2.679 high
+// at the model's middle.
+const ball = { centre: [0, 0, 0], radius: 2 };
+const MOVES = [
+  ['point:position=0/0/0', 'position', [0.5, 0, 0], 'point:position=1.3397/0/0'],
+  ['+point:color=red,position=0r/0r/0r', 'position', [0, 0.5, 0], '+point:color=red,position=0r/0.6699r/0r'],
+  ['point:position=0/0/0,frame=view', 'position', [0, 0.5, 0], 'point:position=0/1.3397/0,frame=view'],
+  ['point:frame=camera,position=0/0/-5', 'position', [0.5, 0, 0], 'point:frame=camera,position=1.3397/0/-5'],
+  ['point:position=0/0/0', 'position', [0, 0, 1], 'point:position=0/0/-2.6795'],
+  ['directional:direction=0/0/-1,intensity=2', 'position', [0, 10, 0], 'directional:direction=0/-0.9855/-0.1697,intensity=2'],
+  ['spot:position=0/2/0', 'aim', [0.5, 0, 0], 'spot:position=0/2/0,target=0.6699r/0r/0r'],
+  ['spot:position=0/2/0,direction=0/-1/0', 'aim', [0.5, 0, 0], 'spot:position=0/2/0,direction=0.5565/-0.8308/0'],
+];
+for (const [words, part, by, wanted] of MOVES) {
+  const light = parseLight(words), place = placeOf(light, camera, ball);
+  const found = lightText(movedTo(light, part, shifted(camera, place[part], ...by), camera, ball));
+  ok(found === wanted, `handle: ${words}, ${part} by ${by.join(' ')}${found === wanted ? '' : `: found ${found}, expected ${wanted}`}`);
+}
+ok(lightText(withCone(parseLight('spot:inner=10,outer=20'), 40)) === 'spot:inner=20,outer=40' && lightText(withCone(parseLight('spot'), 200)) === 'spot:cutoff=90', 'the cone keeps its softness and its limits');
+ok(placeOf(parseLight('hemisphere'), camera, ball) === null && placeOf(parseLight('point:frame=object:lid'), camera, ball) === null, 'lights without a place have no handle');
+ok(newLight('point', [], 0).startsWith('+point:') && newLight('spot', ['point'], 1).startsWith('spot:'), 'a new light stands beside the others');
+const seen = project(camera, [5 * Math.tan(Math.PI / 12), 0, 0], 2);
+ok(near([seen.x, seen.y], [0.75, 0.5]) && project(camera, [0, 0, 9], 1).behind, 'a point where the picture shows it');
 
 // The strings: every key that a script or the page names is in the table, and each of the table is named; a pseudo-locale keeps {names}.
 const sources = readdirSync(new URL('../../web/page', import.meta.url)).filter((name) => /\.(js|html)$/.test(name))

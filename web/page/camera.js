@@ -1,16 +1,16 @@
 // camera.js: orbit, pan and zoom of a camera that is held as the text of --camera. Every step starts from the numbers that the text
 // says, and ends with a text: what is drawn, copied and linked is the same decimal numbers.
 
-const sub = (a, b) => a.map((x, i) => x - b[i]);
-const add = (a, b, k = 1) => a.map((x, i) => x + k * b[i]);
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const scale = (a, k) => a.map((x) => x * k);
-const length = (a) => Math.sqrt(dot(a, a));
-const unit = (a) => scale(a, 1 / (length(a) || 1));
+export const sub = (a, b) => a.map((x, i) => x - b[i]);
+export const add = (a, b, k = 1) => a.map((x, i) => x + k * b[i]);
+export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+export const scale = (a, k) => a.map((x) => x * k);
+export const length = (a) => Math.sqrt(dot(a, a));
+export const unit = (a) => scale(a, 1 / (length(a) || 1));
 
 // Five digits below the size of the view, without zeros at the end.
-function decimal(x, digits) {
+export function decimal(x, digits) {
   const text = x.toFixed(digits);
   return text.includes('.') ? text.replace(/\.?0+$/, '').replace(/^-0$/, '0') : text;
 }
@@ -70,4 +70,27 @@ export function readCamera(text) {
   const triple = (v) => v.split('/').map(Number);
   return { eye: triple(parts.eye), target: triple(parts.target), up: triple(parts.up),
     ortho: parts.ortho ? Number(parts.ortho) : 0, fovy_deg: parts.fovy ? Number(parts.fovy) : 30 };
+}
+
+// The eye's axes in the world: to the right, up, and back towards the eye.
+export function cameraAxes(camera) {
+  const back = unit(sub(camera.eye, camera.target)), side = unit(cross(camera.up, back));
+  return { side, above: cross(back, side), back };
+}
+
+// Half the height of the picture at a depth before the eye, in model units.
+const halfHeight = (camera, depth) => (camera.ortho > 0 ? camera.ortho : depth * Math.tan((camera.fovy_deg * Math.PI) / 360));
+
+// Where the picture shows a point: parts of its width and height from the upper left corner. `behind`: the eye looks away from it.
+export function project(camera, point, aspect) {
+  const { side, above, back } = cameraAxes(camera), way = sub(point, camera.eye), depth = -dot(way, back);
+  const behind = camera.ortho <= 0 && depth < 1e-3 * length(way), half = halfHeight(camera, behind ? 0.02 * length(way) || 1 : depth);
+  return { x: 0.5 + dot(way, side) / (2 * half * aspect), y: 0.5 - dot(way, above) / (2 * half), depth, behind };
+}
+
+// The point moved in the plane of the picture, by parts of the picture's height, and away from the eye by a factor of its distance.
+export function shifted(camera, point, right, up, away = 0) {
+  const { side, above, back } = cameraAxes(camera), depth = Math.max(-dot(sub(point, camera.eye), back), 0.02 * length(sub(camera.eye, camera.target)));
+  const height = 2 * halfHeight(camera, depth);
+  return add(add(add(point, side, right * height), above, up * height), back, -away * height);
 }

@@ -6,6 +6,7 @@ import { takeInsideFiles } from './inside.js';
 import './drawing.js';
 import './files.js';
 import './options.js';
+import './handles.js';
 import './explain.js';
 import './gestures.js';
 import './bar.js';

@@ -1,0 +1,152 @@
+// handles.js: lights in the picture: a handle for the place of each light of --light, one for where a spot aims, one for its cone; and the tab that
+// adds and removes lights. A handle is a button: dragged, or moved by keys.
+import { beginGesture, endGesture, gestureKey, on, say, state, view } from './app.js';
+import { add, project, scale, shifted, sub, unit } from './camera.js';
+import { $, button, element, ours, svg } from './dom.js';
+import { coneEdge, lightText, movedTo, newLight, parseLight, placeOf, withCone } from './lights.js';
+import { text } from './strings.js';
+import { addTab } from './tabs.js';
+
+const canvas = $('canvas'), overlay = $('overlay'), lines = $('overlay-lines');
+const PARTS = { position: 'handlePosition', aim: 'handleAim', cone: 'handleCone' };
+const handles = new Map(); // "NUMBER PART" to its button
+let texts = [];
+
+const nameOf = (light, i) => light.keys.get('name') ?? `${light.type} ${i + 1}`;
+
+function rewrite(i, light) {
+  texts = texts.map((old, at) => (at === i ? lightText(light) : old));
+  beginGesture();
+  state.set(state.withValues('light', texts), gestureKey());
+  say(texts[i]);
+}
+
+// By parts of the picture's height. A directional light stays on its ball, on the side of it that faces the eye or turns away.
+function moveHandle(i, part, right, up, away = 0) {
+  const light = parseLight(texts[i]), place = placeOf(light, view.camera, view.sphere);
+  if (!place) return;
+  const from = part === 'cone' ? coneEdge(place, view.camera) : place[part];
+  let to = shifted(view.camera, from, right, up, away);
+  if (place.directional) to = add(view.sphere.centre, unit(sub(to, view.sphere.centre)), 1.2 * view.sphere.radius);
+  rewrite(i, movedTo(light, part, to, view.camera, view.sphere));
+}
+
+function makeHandle(i, part) {
+  const handle = element('button', { type: 'button', className: `handle ${part}` });
+  let last = null;
+  handle.onpointerdown = (event) => {
+    handle.setPointerCapture(event.pointerId);
+    last = { x: event.clientX, y: event.clientY };
+    handle.focus();
+    event.preventDefault();
+  };
+  handle.onpointermove = (event) => {
+    if (!last) return;
+    const x = (event.clientX - last.x) / canvas.clientHeight, y = (last.y - event.clientY) / canvas.clientHeight;
+    if (event.shiftKey) moveHandle(i, part, 0, 0, y);
+    else moveHandle(i, part, x, y);
+    last = { x: event.clientX, y: event.clientY };
+  };
+  handle.onpointerup = handle.onpointercancel = () => {
+    if (last && view.moving) endGesture();
+    last = null;
+  };
+  handle.onkeydown = (event) => {
+    const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1], PageUp: [0, 0, 1], PageDown: [0, 0, -1] }[event.key];
+    const step = event.shiftKey ? 0.005 : 0.03;
+    if (event.key === 'Delete') remove(i);
+    else if (arrow && part === 'cone') turnCone(i, (arrow[0] || arrow[1] || arrow[2]) * (event.shiftKey ? 0.25 : 2));
+    else if (arrow) moveHandle(i, part, ...arrow.map((part) => part * step));
+    else return;
+    event.preventDefault();
+    if (view.moving) endGesture();
+  };
+  return handle;
+}
+
+function turnCone(i, degrees) {
+  const light = parseLight(texts[i]), place = placeOf(light, view.camera, view.sphere);
+  rewrite(i, withCone(light, (place.cone ?? 90) + degrees));
+}
+
+function remove(i) {
+  state.set(state.withValues('light', state.values('light').filter((_, at) => at !== i)));
+}
+
+// --- in the picture
+
+// Inside of the stage: a light that stands beside the picture is shown at the edge.
+function inside(point, width, height) {
+  const at = project(view.camera, point, canvas.width / canvas.height), edge = 24;
+  const x = at.x * width, y = at.y * height;
+  const shown = { x: Math.max(edge, Math.min(width - edge, x)), y: Math.max(edge, Math.min(height - edge, y)) };
+  return { ...shown, out: at.behind || Math.hypot(shown.x - x, shown.y - y) > 1 };
+}
+
+function show() {
+  if (!view.camera || !view.sphere) return;
+  texts = state.values('light');
+  const width = canvas.clientWidth, height = canvas.clientHeight, wanted = new Map(), drawn = [];
+  for (const [name, value] of Object.entries({ left: canvas.offsetLeft, top: canvas.offsetTop, width, height })) overlay.style[name] = `${value}px`;
+  lines.setAttribute('viewBox', `0 0 ${width} ${height}`);
+  texts.forEach((one, i) => {
+    const light = parseLight(one), place = placeOf(light, view.camera, view.sphere);
+    if (!place) return;
+    const at = inside(place.position, width, height);
+    wanted.set(`${i} position`, at);
+    if (place.directional) drawn.push([at, inside(add(view.sphere.centre, place.direction, -0.6 * view.sphere.radius), width, height)]);
+    if (place.aim) {
+      wanted.set(`${i} aim`, inside(place.aim, width, height));
+      drawn.push([at, wanted.get(`${i} aim`)]);
+    }
+    if (place.aim && place.cone !== null) {
+      const edge = coneEdge(place, view.camera), other = add(scale(add(place.position, place.direction, dotAlong(edge, place)), 2), edge, -1);
+      wanted.set(`${i} cone`, inside(edge, width, height));
+      drawn.push([at, wanted.get(`${i} cone`)], [at, inside(other, width, height)]);
+    }
+  });
+  for (const [key, handle] of handles)
+    if (!wanted.has(key)) {
+      handle.remove();
+      handles.delete(key);
+    }
+  for (const [key, at] of wanted) {
+    const [number, part] = key.split(' '), i = Number(number);
+    if (!handles.has(key)) {
+      handles.set(key, makeHandle(i, part));
+      overlay.append(handles.get(key));
+    }
+    const handle = handles.get(key), label = text(PARTS[part], { light: nameOf(parseLight(texts[i]), i) });
+    handle.setAttribute('aria-label', label);
+    handle.title = label;
+    handle.classList.toggle('out', at.out);
+    handle.style.left = `${at.x}px`;
+    handle.style.top = `${at.y}px`;
+  }
+  lines.replaceChildren(...drawn.map(([a, b]) => svg('line', { x1: a.x, y1: a.y, x2: b.x, y2: b.y })));
+}
+
+const dotAlong = (point, { position, direction }) => sub(point, position).reduce((sum, x, i) => sum + x * direction[i], 0);
+
+on('picture', show);
+on('words', () => view.picture && show());
+new ResizeObserver(show).observe(canvas);
+
+// --- the tab
+
+const place = addTab('lights', text('tabLights')), list = element('ul', { className: 'lights' });
+const adders = ['point', 'spot', 'directional'].map((type) =>
+  button({ point: 'addPoint', spot: 'addSpot', directional: 'addDirectional' }[type], () => {
+    const values = state.values('light');
+    state.set(state.withValues('light', [...values, newLight(type, values, values.length)]));
+  }));
+place.append(element('p', { className: 'hint', textContent: text('lightsHint') }), element('div', { className: 'buttons' }, ...adders), list);
+
+on('words', () => {
+  if (view.moving) return;
+  list.replaceChildren(...state.values('light').map((one, i) => {
+    const remover = button('removeLight', () => remove(i));
+    remover.setAttribute('aria-label', text('removeNamed', { light: nameOf(parseLight(one), i) }));
+    return element('li', {}, ours('code', one), remover);
+  }));
+});

@@ -153,7 +153,8 @@ typedef struct lam_explained_values {
 typedef struct lam_explained_place {
     lam_vec3 mesh_position; // of the mesh's own space
     lam_vec3 eye_position;  // the eye at the origin, looking along −z
-    double clip[4];         // x, y, z, w: inside the picture where w > 0 and −w ≤ x, y, z ≤ w
+    // x, y, z, w: inside the picture where w > 0 and −w ≤ x, y, z ≤ w.
+    double clip[4];
     // x, y and z of `clip` divided by w: −1…1 inside the picture, y up. NaN where w ≤ 0: behind the eye.
     double ndc[3];
     // Pixels from the lower left corner, as OpenGL counts them: (ndc.x + 1) · width / 2, (ndc.y + 1) · height / 2; and the

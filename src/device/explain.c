@@ -156,7 +156,8 @@ static void complete_places(struct recorder *recorder, lam_explained_fragment *f
     const int width = recorder->out->width, height = recorder->out->height;
     lam_vec3 point = {0, 0, 0};
     for (size_t k = 0; k < 3; k++) {
-        const float *given = mesh->positions + 3 * (size_t)mesh->indices[3 * (size_t)fragment->triangle + k];
+        const size_t corner = 3 * (size_t)fragment->triangle + k;
+        const float *given = mesh->positions + 3 * (mesh->indices ? mesh->indices[corner] : corner);
         lam_vec3 p = v3((double)given[0], (double)given[1], (double)given[2]);
         places[k] = place_of(draw, origin, p, width, height);
         point = v3_add(point, v3_scale(p, (double)fragment->weights[k]));

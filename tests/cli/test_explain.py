@@ -60,6 +60,7 @@ class Explain(Case):
         scene = {"lambent": 1, "objects": [{"shape": "teapot", "transform": [["scale", -1, 1, 1]]}]}
         (self.folder / "mirrored.json").write_text(json.dumps(scene))
         for words in (["teapot", "30,30"], ["teapot", "30,30", "--shading", "gouraud"], ["mirrored.json", "30,30"],
+                      ["cube.stl", "32,24"],  # has no indices
                       ["teapot", "30,30", "--projection", "orthographic"]):
             told = self.told(*words, "-s", "64x48", "--samples", 1)
             for triangle in told["triangles"]:
@@ -84,6 +85,10 @@ class Explain(Case):
                 mirrored = words[0] == "mirrored.json"
                 self.assertEqual(triangle["winding"] > 0, (triangle["side"] == "front") != mirrored)
         (self.folder / "mirrored.json").unlink()
+        (self.folder / "line.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 0.001 0\nl 1 2\nl 1 3\n")
+        line = self.told("line.obj", "32,24", "-s", "64x48", "--view", "front")["triangles"][0]
+        self.assertEqual((line["places"], "line" in line), (None, True))
+        (self.folder / "line.obj").unlink()
         text = self.good("explain", "teapot", "30,30", "-s", 64).stdout.decode()
         for words in ("on the way to the window", "NDC", "clip ÷ w", "winding", "counter-clockwise"):
             self.assertIn(words, text)

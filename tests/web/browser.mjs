@@ -332,6 +332,9 @@ async function accessible() {
   ok(same(order.filter((id) => wanted.includes(id)).slice(0, wanted.length), wanted), 'the focus goes from the bar to the picture, the options, the command', order.join(' '));
   await page.setViewportSize({ width: 320, height: 640 });
   ok(await page.evaluate(() => document.documentElement.scrollWidth <= 320), '320 pixels wide: nothing is wider');
+  await page.locator('#canvas').press('Enter');
+  await until(page, () => document.getElementById('explain').textContent.length > 100);
+  ok(await page.evaluate(() => document.documentElement.scrollWidth <= 320), '320 pixels wide: an explanation is no wider either');
   await page.close();
 }
 

@@ -53,61 +53,86 @@ static struct rgb sky(lam_vec3 d)
     return mix(mix(near_ground, below, ramp(0, 0.7, down)), air, ramp(-0.015, 0.015, d.y));
 }
 
-// A lamp on a wall: 1 within half a width and half a height about a place, soft at its edges.
-static double soft_box(double x, double y, double half_width, double half_height)
+static void sky_row(int face, int t, float *texels)
 {
-    const double edge = 0.06;
-    x = x < 0 ? -x : x;
-    y = y < 0 ? -y : y;
-    return ramp(-half_width - edge, -half_width, -x) * ramp(-half_height - edge, -half_height, -y);
+    for (int s = 0; s < SIDE; s++) {
+        double d[3];
+        cube_direction(face, SIDE, 2 * s + 1 - SIDE, 2 * t + 1 - SIDE, d);
+        struct rgb c = sky(v3_unit(v3(d[0], d[1], d[2])));
+        for (int channel = 0; channel < 3; channel++)
+            *texels++ = (float)c.c[channel];
+    }
 }
 
 // A dark room, a cube about the origin: a broad lamp at the ceiling, a tall strip at the left, a wide dim one at the
-// right, a small one behind, a floor that returns some of it.
-static struct rgb studio(lam_vec3 d)
+// right, a small one behind, a floor that returns some of it. A face of the cube map is a wall of the room.
+struct lamp {
+    double intensity;
+    struct rgb color;
+    double center_s, center_t; // in the room's coordinates that run along the face's rows and columns
+    double half_width, half_height;
+};
+#define WHITE {{1.00, 0.97, 0.92}}
+#define COOL  {{0.82, 0.90, 1.00}}
+static const struct lamp lamps[LAM_FACE_COUNT] = {[LAM_FACE_PY] = {5.0, WHITE, 0, 0.15, 0.55, 0.4},
+                                                  [LAM_FACE_NX] = {3.5, WHITE, 0.25, 0.1, 0.2, 0.65},
+                                                  [LAM_FACE_PX] = {1.2, COOL, 0.1, 0.15, 0.6, 0.45},
+                                                  [LAM_FACE_NZ] = {2.0, COOL, 0.45, 0.35, 0.15, 0.3}};
+
+// 1 within half a width of 0, soft at its edges.
+static double soft_edge(double x, double half_width)
 {
-    double ax = d.x < 0 ? -d.x : d.x, ay = d.y < 0 ? -d.y : d.y, az = d.z < 0 ? -d.z : d.z;
-    double major = ax > ay ? (ax > az ? ax : az) : (ay > az ? ay : az);
-    lam_vec3 p = v3_scale(d, 1 / major); // on the walls
+    const double edge = 0.06;
+    return ramp(-half_width - edge, -half_width, x < 0 ? x : -x);
+}
+
+// Walls are evenly bright but for the lower part of the upright ones, which darken upwards, and the lamps: only there a
+// texel is computed for itself, from its direction on the unit sphere.
+static void studio_row(int face, int t, float *texels)
+{
     static const struct rgb floor_color = {{0.16, 0.155, 0.15}}, wall = {{0.05, 0.052, 0.058}};
-    struct rgb light = mix(floor_color, wall, ramp(-1, 0.2, p.y));
-    double white = 0, cool = 0;
-    if (ay == major && d.y > 0)
-        white += 5.0 * soft_box(p.x, p.z - 0.15, 0.55, 0.4);
-    else if (ax == major && d.x < 0)
-        white += 3.5 * soft_box(p.z - 0.25, p.y - 0.1, 0.2, 0.65);
-    else if (ax == major && d.x > 0)
-        cool += 1.2 * soft_box(p.z - 0.1, p.y - 0.15, 0.6, 0.45);
-    else if (az == major && d.z < 0)
-        cool += 2.0 * soft_box(p.x - 0.45, p.y - 0.35, 0.15, 0.3);
-    static const struct rgb white_color = {{1.00, 0.97, 0.92}}, cool_color = {{0.82, 0.90, 1.00}};
-    for (int i = 0; i < 3; i++)
-        light.c[i] += white * white_color.c[i] + cool * cool_color.c[i];
-    return light;
+    const struct lamp *lamp = &lamps[face];
+    double d[3], across[3], down[3];
+    cube_direction(face, 0, 1, 0, across);
+    cube_direction(face, 0, 0, 1, down);
+    int s_axis = across[0] != 0 ? 0 : 2, t_axis = down[1] != 0 ? 1 : 2;
+    cube_direction(face, SIDE, 0, 2 * t + 1 - SIDE, d);
+    bool darkens = t_axis == 1 && d[1] / SIDE < 0.21;
+    bool has_lamp = lamp->intensity > 0 && soft_edge(d[t_axis] / SIDE - lamp->center_t, lamp->half_height) > 0;
+    struct rgb even = mix(floor_color, wall, ramp(-1, 0.2, d[1] / SIDE));
+    for (int s = 0; s < SIDE; s++) {
+        struct rgb light = even;
+        d[s_axis] = across[s_axis] * (2 * s + 1 - SIDE);
+        bool lit = has_lamp && soft_edge(d[s_axis] / SIDE - lamp->center_s, lamp->half_width) > 0;
+        if (darkens || lit) {
+            double length = __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), onto_wall = 1 / (SIDE / length);
+            if (darkens)
+                light = mix(floor_color, wall, ramp(-1, 0.2, d[1] / length * onto_wall));
+            double x = d[s_axis] / length * onto_wall, y = d[t_axis] / length * onto_wall;
+            double share =
+                lit ? soft_edge(x - lamp->center_s, lamp->half_width) * soft_edge(y - lamp->center_t, lamp->half_height)
+                    : 0;
+            for (int channel = 0; channel < 3; channel++)
+                light.c[channel] += lamp->intensity * share * lamp->color.c[channel];
+        }
+        for (int channel = 0; channel < 3; channel++)
+            *texels++ = (float)light.c[channel];
+    }
 }
 
 static const struct {
     const char *name;
-    struct rgb (*light)(lam_vec3 direction);
-} table[] = {{"sky", sky}, {"studio", studio}};
+    void (*row)(int face, int t, float *texels); // the texels of row t of a face
+} table[] = {{"sky", sky_row}, {"studio", studio_row}};
 enum { COUNT = sizeof table / sizeof *table };
 
 const char *lam_environment_built_in_name(int index) { return index >= 0 && index < COUNT ? table[index].name : NULL; }
 
-static void fill(struct lam_environment *cube, struct rgb (*light)(lam_vec3 direction))
+static void fill(struct lam_environment *cube, void (*row)(int face, int t, float *texels))
 {
-    for (int face = 0; face < LAM_FACE_COUNT; face++) {
-        for (int t = 0; t < SIDE; t++) {
-            for (int s = 0; s < SIDE; s++) {
-                double d[3];
-                cube_direction(face, SIDE, 2 * s + 1 - SIDE, 2 * t + 1 - SIDE, d);
-                struct rgb c = light(v3_unit(v3(d[0], d[1], d[2])));
-                float *texel = cube_texel(cube, face, s, t);
-                for (int channel = 0; channel < 3; channel++)
-                    texel[channel] = (float)c.c[channel];
-            }
-        }
-    }
+    for (int face = 0; face < LAM_FACE_COUNT; face++)
+        for (int t = 0; t < SIDE; t++)
+            row(face, t, cube_texel(cube, face, 0, t));
     cube_close(cube);
 }
 
@@ -118,7 +143,7 @@ lam_environment *lam_environment_built_in(const char *name, lam_error *error)
             uint64_t state = float_state_enter();
             struct lam_environment *cube = cube_make(SIDE, error);
             if (cube)
-                fill(cube, table[i].light);
+                fill(cube, table[i].row);
             float_state_leave(state);
             return cube;
         }

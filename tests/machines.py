@@ -11,7 +11,7 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-ROOMS = ["base", "json", "image", "geometry", "environment", "texture", "scene", "shapes", "import", "scene_file", "load", "frame", "rays", "edges", "occlusion", "device", "cpu"]
+ROOMS = ["base", "json", "image", "geometry", "environment", "texture", "scene", "export", "shapes", "import", "scene_file", "load", "frame", "rays", "edges", "occlusion", "device", "cpu"]
 INCLUDES = ["include", "src/lighting"] + [os.path.relpath(path, ROOT) for room in ROOMS
                                          for path, _, _ in os.walk(os.path.join(ROOT, "src", room))]
 FLAGS = ["-std=gnu11", "-fsyntax-only", "-D_GNU_SOURCE", "-DNDEBUG", "-ffp-contract=off", "-fno-math-errno", "-Wall", "-Werror", "-Wno-psabi", '-DLAMBENT_LIBDIR="lib"']

@@ -146,6 +146,18 @@ typedef struct lam_parametric {
     LAM_RESERVED(8);
 } lam_parametric;
 
+// A surface that is written as text: "a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)". docs/shapes.md
+// describes the language. Normals are those of the symbolic derivatives. Ends of a range that meet are joined, and a line of
+// the grid along which the surface has a crease separates normals.
+typedef struct lam_formula {
+    const char *text; // at most 4096 bytes
+    // The ranges of u and v, each two constant expressions: "0..2pi", which NULL stands for.
+    const char *u, *v;
+    int u_segments, v_segments; // 1..16384; 0: 16..512, so that edges pass the surface by 1/4000 of its size at most
+    bool flip;                  // the front is where −(∂p/∂u × ∂p/∂v) points; false: ∂p/∂u × ∂p/∂v
+    LAM_RESERVED(8);
+} lam_formula;
+
 // A surface given by the zeros of a function that is negative inside.
 typedef struct lam_implicit {
     double (*value)(void *user, lam_vec3 p);      // the function

@@ -138,8 +138,17 @@ LAM_API int lam_scene_add_light(lam_scene *scene, const lam_light *light, lam_er
 LAM_API int lam_scene_add_shape(lam_scene *scene, const char *shape, const lam_shape_params *params, lam_error *error);
 LAM_API int lam_scene_add_parametric(lam_scene *scene, const lam_parametric *surface, const lam_control *control,
                                      lam_error *error);
+// Errors of a formula name the column of its text.
+LAM_API int lam_scene_add_formula(lam_scene *scene, const lam_formula *formula, const lam_control *control,
+                                  lam_error *error);
 LAM_API int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const lam_control *control,
                                    lam_error *error);
+
+// Writes a mesh of triangles as a model file, whole or not at all: by the name's ending .obj, .stl (binary) or .ply (binary),
+// with its normals and texture coordinates where the format has them, without materials and colours. `up` is the axis of the
+// mesh that is up (AUTO: y). It is y in OBJ and PLY and z in STL: the coordinates are turned, so that the file shows the same
+// picture. Errors: LAM_BAD_ARGUMENT (no triangles), LAM_UNSUPPORTED (another ending), LAM_CANNOT_WRITE, LAM_LIMIT.
+LAM_API bool lam_mesh_save(const lam_mesh *mesh, const char *path, lam_up up, lam_error *error);
 
 // The triangles that are left out by the side they show.
 typedef enum lam_cull {

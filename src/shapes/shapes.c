@@ -6,6 +6,7 @@
 
 #include "fail.h"
 #include "float_state.h"
+#include "formula.h"
 #include "linear.h"
 #include "scene_internal.h"
 #include "spelling.h"
@@ -527,5 +528,23 @@ int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const 
     uint64_t state = begin(scene, &call, control);
     lam_mesh mesh = {0};
     bool made = tessellate_implicit(surface, &scene->arena, &call, &mesh, error);
+    return end(scene, state, add_mesh(scene, made, &mesh, error));
+}
+
+int lam_scene_add_formula(lam_scene *scene, const lam_formula *formula, const lam_control *control, lam_error *error)
+{
+    if (!scene || !formula || !formula->text) {
+        fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_formula: %s is NULL",
+             !scene     ? "scene"
+             : !formula ? "formula"
+                        : "text");
+        return -1;
+    }
+    if (!check_reserved("lam_formula", formula, error))
+        return -1;
+    struct call_control call;
+    uint64_t state = begin(scene, &call, control);
+    lam_mesh mesh = {0};
+    bool made = tessellate_formula(formula, &scene->arena, &call, &mesh, error);
     return end(scene, state, add_mesh(scene, made, &mesh, error));
 }

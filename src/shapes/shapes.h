@@ -15,6 +15,10 @@ enum { SHAPE_VERTICES_MAX = 1 << 28 };
 bool tessellate_parametric(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
                            lam_mesh *mesh, lam_error *error);
 
+// The same, with a byte for each vertex, in `scratch`: 1 at a border of its surface.
+bool tessellate_bordered(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
+                         lam_mesh *mesh, struct arena *scratch, uint8_t **border, lam_error *error);
+
 // Tessellates an implicit surface: positions and normals.
 bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struct call_control *call, lam_mesh *mesh,
                          lam_error *error);

@@ -42,6 +42,7 @@ struct tessellation {
     uint32_t vertex, attribute_base;
     size_t corner;
     bool first_column_pole, last_column_pole;
+    uint8_t *border; // for each vertex; NULL: nobody asks
     lam_surface_point *row;
     uint32_t *ids[3]; // vertices of the previous row, of this row and of the first
 };
@@ -236,6 +237,8 @@ static bool add_vertices(struct tessellation *t, int j, bool pole, lam_error *er
             ids[i] = before[i];
         else if (!add_position(t, t->row[i].p, &ids[i], error))
             return false;
+        if (t->border && t->vertex && ids[i] == t->vertex - 1)
+            t->border[ids[i]] = i == 0 || i == count || j == 0 || j == s->v_segments;
     }
     if (j == 0)
         memcpy(first, ids, (size_t)(count + 1) * sizeof *ids);
@@ -350,8 +353,8 @@ static bool sample_box(const lam_parametric *surfaces, int count, double low[3],
     return true;
 }
 
-bool tessellate_parametric(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
-                           lam_mesh *mesh, lam_error *error)
+bool tessellate_bordered(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
+                         lam_mesh *mesh, struct arena *border_arena, uint8_t **border, lam_error *error)
 {
     uint64_t attributes = 0, triangles = 0;
     int widest = 0;
@@ -386,8 +389,10 @@ bool tessellate_parametric(const lam_parametric *surfaces, int count, struct are
     t.texcoords = arena_array(arena, attributes, 2 * sizeof(float));
     t.indices = arena_array(arena, 3 * triangles, sizeof(uint32_t));
     t.attributes = arena_array(arena, 3 * triangles, sizeof(uint32_t));
-    bool ok = t.row && t.ids[0] && t.ids[1] && t.ids[2] && t.positions && t.normals && t.tangents && t.texcoords &&
-              t.indices && t.attributes;
+    if (border)
+        t.border = *border = arena_alloc_zeroed(border_arena, attributes);
+    bool ok = (!border || t.border) && t.row && t.ids[0] && t.ids[1] && t.ids[2] && t.positions && t.normals &&
+              t.tangents && t.texcoords && t.indices && t.attributes;
     if (!ok)
         call_memory_error(call, attributes * 48 + triangles * 24, error);
     for (int k = 0; ok && k < count; k++) {
@@ -416,4 +421,10 @@ bool tessellate_parametric(const lam_parametric *surfaces, int count, struct are
         .tangent_indices = t.attributes,
     };
     return true;
+}
+
+bool tessellate_parametric(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
+                           lam_mesh *mesh, lam_error *error)
+{
+    return tessellate_bordered(surfaces, count, arena, call, mesh, NULL, NULL, error);
 }

@@ -8,7 +8,7 @@
 #define ALL                                                                                                            \
     (((1u << GROUP_COUNT) - 1) &                                                                                       \
      ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | 1u << GROUP_SHEET | 1u << GROUP_CHECK |            \
-       1u << GROUP_SHADER | 1u << GROUP_BATCH | 1u << GROUP_ANIMATION))
+       1u << GROUP_SHADER | 1u << GROUP_SHAPE | 1u << GROUP_BATCH | 1u << GROUP_ANIMATION))
 
 static const struct own_default compare_defaults[] = {
     {"output", "MODEL-SHEET.png"}, {"size", "480x400 each"}, {"background", SHEET_BACKGROUND}, {NULL, NULL}};
@@ -18,6 +18,7 @@ static const struct own_default explain_defaults[] = {{"output", NULL}, {NULL, N
 static const struct own_default check_defaults[] = {
     {"output", "no sheet"}, {"size", "128"}, {"tolerance", "2"}, {"memory-limit", "1Gi"}, {NULL, NULL}};
 static const struct own_default shader_defaults[] = {{"output", "standard output"}, {NULL, NULL}};
+static const struct own_default shape_defaults[] = {{"output", "NAME.png, or " FORMULA_MODEL ".png"}, {NULL, NULL}};
 static const struct own_default diff_defaults[] = {{"output", "no picture"}, {NULL, NULL}};
 static const struct own_default plot_defaults[] = {{"output", "KIND.png"}, {"size", "1600x1000"}, {NULL, NULL}};
 static const struct own_default materials_defaults[] = {
@@ -74,6 +75,11 @@ const struct command command_table[] = {
                         ABOUT | 1u << GROUP_MODEL | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING |
                             1u << GROUP_WORK | 1u << GROUP_LIMITS,
                         .min_operands = 1, .max_operands = 1},
+    [COMMAND_shape] =
+        {"shape", "[NAME]",
+         "Draw a built-in shape or a surface given by formulas (--parametric), or save it as OBJ, STL or PLY.",
+         ALL | 1u << GROUP_SHAPE | 1u << GROUP_ANIMATION, .min_operands = 0, .max_operands = 1,
+         .defaults = shape_defaults},
     [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, .min_operands = 0, .max_operands = 0},
     [COMMAND_formats] = {"formats", NULL, "List the formats of models and pictures.", ABOUT, .min_operands = 0,
                          .max_operands = 0},
@@ -123,7 +129,7 @@ unsigned find_groups(const char *name)
 const struct example examples[] = {
     {"lambent koala.obj", "writes koala.png, 1024x1024", true},
     {"lambent part.stl -o shot.png -b white", "another name, on white", true},
-    {"lambent scan.ply -s 640 --view front", "640x640, straight from the front", true},
+    {"lambent scan.ply -s 640 --view front", "640x640, straight from the front", false},
     {"lambent teapot --color '#ff8800'", "a built-in shape (`lambent shapes`)", true},
     {"lambent -q *.stl -o pictures/", "a picture of each model, in a folder", true},
     {"lambent batch models/ -o 'thumbs/{dir}/{stem}.png'", "all models of a folder and below it, with a journal",
@@ -147,6 +153,8 @@ const struct example examples[] = {
     {"lambent explain teapot 512,400", "the calculation of that pixel, number by number", false},
     {"lambent check phong.frag --vertex phong.vert -o check.png", "the mistakes of a shader's lighting", false},
     {"lambent shader teapot --glsl 120 --host c -o teapot", "its shaders, and C code that sets them", false},
+    {"lambent shape --parametric 'x=u*cos(v); y=u*sin(v); z=cos(3u)' --u 0..4 -o ripple.obj",
+     "a surface given by formulas, as a model or a picture", false},
     {"lambent diff old.png new.png -o where.png", "the difference of two pictures, as numbers and as a picture", false},
     {NULL, NULL, false},
 };

@@ -82,12 +82,20 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
     lam_object object = lam_object_default();
     object.name = name;
     lam_shape_params params = {.slices = o->slices, .stacks = o->stacks, .control = control};
-    object.mesh = lam_scene_add_shape(scene, name, &params, error);
+    lam_formula formula = {.text = o->parametric,
+                           .u = o->u_range,
+                           .v = o->v_range,
+                           .u_segments = o->slices,
+                           .v_segments = o->stacks ? o->stacks : o->slices,
+                           .flip = o->flip};
+    object.mesh = o->parametric ? lam_scene_add_formula(scene, &formula, control, error)
+                                : lam_scene_add_shape(scene, name, &params, error);
     bool ok = object.mesh >= 0 && lam_scene_add_object(scene, &object, error) >= 0;
     if (ok && (o->normals != LAM_NORMALS_FILE || o->crease_angle_deg >= 0))
         ok = lam_scene_make_normals(scene, (lam_normals)o->normals, crease_of(o), o->threads, control, error);
     if (ok) {
-        lam_scene_set_up(scene, (lam_up)o->up);
+        // Formulas are written for books' axes, where z is up.
+        lam_scene_set_up(scene, o->parametric && o->up == LAM_UP_AUTO ? LAM_UP_Z : (lam_up)o->up);
         return scene;
     }
     lam_scene_free(scene);
@@ -183,7 +191,7 @@ static bool make_scene(struct job *job, struct progress *progress, lam_error *er
     progress_phase(progress, 0, 0.5);
     if (!job_control(job, progress, &control, error))
         return false;
-    if (!job->model_bytes && lam_shape_find(job->model) >= 0) {
+    if (!job->model_bytes && (o->parametric || lam_shape_find(job->model) >= 0)) {
         job->scene = make_shape(job->model, o, &control, error);
         job->times.prepare = clock_ms() - job->times.start;
     } else {
@@ -231,7 +239,7 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     if (!find_background(job, error))
         return false;
     warn_maps(job);
-    if (o->slices && lam_shape_find(job->model) < 0)
+    if (o->slices && !o->parametric && lam_shape_find(job->model) < 0)
         lam_scene_add_warning(job->scene, "option '--segments' changes nothing: the model is a file");
     if ((o->model_scene || o->variant || o->animation || o->has_time || o->lenient) &&
         strcmp(lam_scene_format(job->scene), "gltf") != 0)

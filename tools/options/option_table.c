@@ -29,6 +29,7 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_SHEET] = "Sheets (compare)",
     [GROUP_CHECK] = "Checking shaders (check)",
     [GROUP_SHADER] = "Shaders (shader)",
+    [GROUP_SHAPE] = "Formulas (shape)",
 };
 
 static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4", 4, NULL},
@@ -630,7 +631,8 @@ const struct option option_table[] = {
      .min = 0, .max = 180, .loads = true},
     {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
      "Segments of a built-in shape: slices around and stacks along, such as 64x32.",
-     "N is 3 to 16384; `lambent shapes` describes the segments of each shape. The default of M depends on the "
+     "Of `--parametric`: along u and along v; N alone is for both. N is 3 to 16384; `lambent shapes` describes the "
+     "segments of each shape. The default of M depends on the "
      "shape. gyroid and metaballs have at most 1024 cells and take no M.",
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
     {"environment", 0, GROUP_SHADING, "IMAGE", "none",
@@ -912,6 +914,23 @@ const struct option option_table[] = {
      "None has a fixed maximum number of lights; OpenGL allows the fewest in an array and the most in a "
      "texture.",
      lights_in_words, .store = store_word, FIELD(lights_in)},
+    {"parametric", 0, GROUP_SHAPE, "FORMULAS", NULL,
+     "A surface over u and v: 'x = ...; y = ...; z = ...', with definitions before them.",
+     "`a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)` is a torus. Formulas have `+ - * / ^`, "
+     "parentheses, `pi`, `tau`, `e`, and the functions sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt "
+     "cbrt "
+     "abs sign floor mod min max hypot pow. Normals come from symbolic derivatives. z is up, as in books, unless "
+     "`--up` "
+     "says otherwise. `docs/shapes.md` describes the language and has examples.",
+     .store = store_text, .others = "formula formulas surface equation", FIELD(parametric), .loads = true},
+    {"u", 0, GROUP_SHAPE, "FROM..TO", "0..2pi", "The range of u, two constant expressions.", NULL, .store = store_text,
+     .others = "u-range", FIELD(u_range), .loads = true},
+    {"v", 0, GROUP_SHAPE, "FROM..TO", "0..2pi", "The range of v, two constant expressions.", NULL, .store = store_text,
+     .others = "v-range", FIELD(v_range), .loads = true},
+    {"flip", 0, GROUP_SHAPE, NULL, NULL, "Turn the surface's front and back round.",
+     "The front is the side to which the derivative by u, cross the derivative by v, points; with this option the "
+     "other one.",
+     .store = store_switch, .others = "flip-normals invert-normals", FIELD(flip), .loads = true},
     {"object", 0, GROUP_SHADER, "N", "all", "Only this object of the scene, counted from 0.",
      "One pair of shaders serves a whole scene, unless only some of its objects are two-sided, or only some "
      "have tangents for Kajiya-Kay.",

@@ -292,7 +292,8 @@ static bool read_long(int count, char **words, int *at, unsigned groups, struct 
 // "-q", "-qv", "-ofile" or "-o file".
 static bool read_letters(int count, char **words, int *at, unsigned groups, struct options *options, lam_error *error)
 {
-    const struct option *whole = find_long(words[*at] + 1, strcspn(words[*at] + 1, "="));
+    size_t length = strcspn(words[*at] + 1, "="); // -v is a letter, also where an option has the name --v
+    const struct option *whole = length > 1 ? find_long(words[*at] + 1, length) : NULL;
     if (whole)
         return complain(error, LAM_BAD_ARGUMENT, "unknown option '%s'; did you mean '--%s'?", words[*at], whole->name);
     for (const char *letter = words[*at] + 1; *letter; letter++) {

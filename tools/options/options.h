@@ -75,7 +75,11 @@ struct options {
     struct texts rotations; // as written, checked
     // Set by `compare`, not by an option: the turns of any picture on its sheet, which all have one camera.
     struct texts sheet_rotations;
-    int slices, stacks;      // of a built-in shape; 0: its own
+    int slices, stacks; // of a built-in shape or a formula; 0: its own
+    // Of the command `shape`, as written: formulas (the model has the name FORMULA_MODEL then), and the ranges of u and v.
+    // NULL: none.
+    const char *parametric, *u_range, *v_range;
+    bool flip;
     int normals;             // lam_normals
     double crease_angle_deg; // < 0: the library's default
     const char *environment; // as written; NULL: none
@@ -177,6 +181,9 @@ enum {
     TAKES_REPORT = 1u << 22,
 };
 
+// The name of a model that is made from formulas.
+#define FORMULA_MODEL "parametric"
+
 // The background of the sheets of `compare` and `materials`, unless the command line names another.
 #define SHEET_BACKGROUND "white"
 
@@ -219,6 +226,7 @@ enum option_group {
     GROUP_SHEET,
     GROUP_CHECK,
     GROUP_SHADER,
+    GROUP_SHAPE,
     GROUP_ABOUT, // accepted by every command
     GROUP_COUNT,
 };

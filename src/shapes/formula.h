@@ -1,0 +1,111 @@
+// formula.h: surfaces that are written as text, "x=…; y=…; z=…", and their derivatives. docs/shapes.md is the language.
+//
+// A text becomes a list of operations (formula_graph.c), in which equal ones are shared and constants are worked out, and
+// which holds the partial derivatives of x, y and z as well, made by the rules of calculus. Evaluating the surface is one
+// pass over the list.
+#ifndef FORMULA_H
+#define FORMULA_H
+
+#include "arena.h"
+
+#include <lambent/mesh.h>
+
+enum {
+    FORMULA_BYTES_MAX = 4096,  // of a text
+    FORMULA_DEPTH_MAX = 64,    // of parentheses, signs and powers within each other
+    FORMULA_NODES_MAX = 16384, // operations, derivatives included
+};
+
+// NUMBER and the parameters have no operand. LESS: 1 where a < b, ½ where they are equal, else 0. CHAIN: a · b, but 0 where
+// b is 0: a term of a derivative, whose outer factor may be infinite where the inner function does not change.
+enum formula_op {
+    OP_NUMBER,
+    OP_U,
+    OP_V,
+    OP_ADD,
+    OP_SUB,
+    OP_MUL,
+    OP_DIV,
+    OP_POW,
+    OP_CHAIN,
+    OP_LESS,
+    OP_ATAN2,
+    OP_MIN,
+    OP_MAX,
+    OP_MOD,
+    OP_HYPOT,
+    OP_FIRST_UNARY,
+    OP_NEG = OP_FIRST_UNARY,
+    OP_SIN,
+    OP_COS,
+    OP_TAN,
+    OP_ASIN,
+    OP_ACOS,
+    OP_ATAN,
+    OP_SINH,
+    OP_COSH,
+    OP_TANH,
+    OP_EXP,
+    OP_LOG,
+    OP_SQRT,
+    OP_CBRT,
+    OP_ABS,
+    OP_SIGN,
+    OP_FLOOR,
+};
+
+struct formula_node {
+    enum formula_op op;
+    int a, b;     // operands: earlier nodes
+    double value; // of a NUMBER; while evaluating, of every node
+};
+
+struct formula_graph {
+    struct formula_node *nodes; // FORMULA_NODES_MAX
+    int *slots;                 // hash table of nodes
+    int count;
+    bool full; // more nodes were asked for: results are meaningless
+};
+
+bool formula_graph_start(struct formula_graph *graph, struct arena *arena);
+
+// The node of an operation, which may be a known one or a simpler one.
+int formula_number(struct formula_graph *graph, double value);
+int formula_unary(struct formula_graph *graph, enum formula_op op, int a);
+int formula_binary(struct formula_graph *graph, enum formula_op op, int a, int b);
+
+// Appends the derivatives with respect to `parameter`, OP_U or OP_V, of the first `count` nodes; derivatives[i] is that of
+// node i.
+void formula_differentiate(struct formula_graph *graph, int count, enum formula_op parameter, int *derivatives);
+
+// A surface. Not for several threads at once: its nodes hold the values.
+struct formula {
+    struct formula_node *nodes;
+    int count;
+    int outputs[9]; // x, y, z and their derivatives by u and by v
+    int name_count; // the definitions
+    struct formula_name {
+        const char *text; // in the formula's text
+        size_t length;
+        int node;
+    } *names;
+    struct formula_graph graph;
+};
+
+// Parses a text, which must stay. Errors: LAM_BAD_ARGUMENT with the column, LAM_LIMIT.
+bool formula_parse(const char *text, struct arena *arena, struct formula *formula, lam_error *error);
+
+// Parses a range, "0..2pi", whose ends may use the names that the formula defines as constants. `name` is for errors.
+bool formula_range(struct formula *formula, const char *name, const char *text, double range[2], lam_error *error);
+
+// Makes the list of operations that formula_evaluate goes through; after this, formula_range does not apply any more.
+bool formula_finish(struct formula *formula, struct arena *arena, lam_error *error);
+
+void formula_evaluate(const struct formula *formula, double u, double v, lam_surface_point *out);
+
+// Tessellates a formula.
+struct call_control;
+bool tessellate_formula(const lam_formula *formula, struct arena *arena, struct call_control *call, lam_mesh *mesh,
+                        lam_error *error);
+
+#endif

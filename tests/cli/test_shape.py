@@ -1,0 +1,43 @@
+# test_shape.py: the command `shape`: built-in shapes and formulas, as pictures and as model files.
+from harness import Case, read_png
+
+RIPPLE = "x=u*cos(v); y=u*sin(v); z=cos(3u)"
+
+
+class Shape(Case):
+    def test_built_in_shapes_are_those_of_render(self):
+        self.good("shape", "torus", "-o", "a.png", "-s", "64")
+        self.good("torus", "-o", "b.png", "-s", "64")
+        self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+
+    def test_model_files_show_the_same_picture(self):
+        words = ["shape", "--parametric", RIPPLE, "--u", "0..4", "--segments", "40x60"]
+        self.good(*words, "-o", "drawn.png", "-s", "96")
+        for ending in ("obj", "ply"):
+            self.good(*words, "-o", "r." + ending)
+            self.good("r." + ending, "-o", "read.png", "-s", "96")
+            self.assertEqual((self.folder / "drawn.png").read_bytes(), (self.folder / "read.png").read_bytes(), ending)
+        self.good(*words, "-o", "r.stl")
+        self.assertEqual((self.folder / "r.stl").stat().st_size, 84 + 50 * (2 * 40 * 60 - 60))  # the centre is a pole
+
+    def test_up(self):
+        words = ["shape", "--parametric", "x=u; y=2+v; z=0", "--u", "0..1", "--v", "0..1", "--segments", "3x1"]
+        self.good(*words, "-o", "z.obj")
+        self.good(*words, "--up", "y", "-o", "y.obj")
+        self.assertEqual((self.folder / "z.obj").read_text().splitlines()[0], "v 0 0 -2")
+        self.assertEqual((self.folder / "y.obj").read_text().splitlines()[0], "v 0 2 0")
+
+    def test_default_name(self):
+        self.good("shape", "--parametric", RIPPLE, "-s", "32")
+        self.assertEqual(read_png((self.folder / "parametric.png").read_bytes())[:2], (32, 32))
+
+    def test_errors(self):
+        self.bad(1, "shape", says="--parametric")
+        self.bad(1, "shape", "torsu", says="torsu")
+        self.bad(1, "shape", "torus", "--parametric", RIPPLE, says="one of them")
+        self.bad(1, "shape", "torus", "--u", "0..1", says="belongs to --parametric")
+        self.bad(1, "shape", "--parametric", "x=cos(u;y=v;z=0", says="column 8: found ';'")
+        self.bad(1, "shape", "--parametric", RIPPLE, "--u", "0..w", says="range of u, column 4: found 'w'")
+        self.bad(1, "shape", "torus", "-o", "t.obj", "-s", "64", says="changes nothing in a model file")
+        self.bad(5, "shape", "torus", "-o", "nowhere/t.obj", says="nowhere")
+        self.bad(1, "cube.obj", "--parametric", RIPPLE, says="belongs to shape")

@@ -1,0 +1,77 @@
+// shape.c: the command `shape`: a built-in shape or a surface given by formulas, as a picture or as a model file.
+#include "command.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "console.h"
+#include "exit_codes.h"
+#include "job.h"
+#include "report.h"
+
+static bool is_model_file(const char *output)
+{
+    size_t length = output ? strlen(output) : 0;
+    const char *ending = length > 4 ? output + length - 4 : "";
+    return strcmp(ending, ".obj") == 0 || strcmp(ending, ".stl") == 0 || strcmp(ending, ".ply") == 0;
+}
+
+// A model file has no light, no view and no pixels: what would change only these is a mistake.
+static bool check_options(const struct options *o, lam_error *error)
+{
+    static const char *const others[] = {"output", "segments", "up", "normals", "crease-angle", "durable"};
+    for (int i = 0; option_table[i].name; i++) {
+        enum option_group group = option_table[i].group;
+        bool fits = group == GROUP_SHAPE || group == GROUP_ABOUT || group == GROUP_WORK || group == GROUP_LIMITS ||
+                    group == GROUP_REPORT;
+        for (size_t k = 0; k < sizeof others / sizeof *others; k++)
+            fits |= strcmp(option_table[i].name, others[k]) == 0;
+        if (o->given[i] && !fits)
+            return complain(error, LAM_BAD_ARGUMENT, "shape: option '--%s' changes nothing in a model file, %s",
+                            option_table[i].name, o->output);
+    }
+    return true;
+}
+
+static bool save(const char *model, const struct options *o, lam_error *error)
+{
+    struct job job = {.options = o, .model = model};
+    struct progress progress = {0};
+    job.times.start = clock_ms();
+    bool ok = check_options(o, error) && job_load(&job, &progress, error);
+    const lam_mesh *mesh = ok ? lam_scene_mesh(job.scene, 0) : NULL;
+    ok = ok && lam_mesh_save(mesh, o->output, lam_scene_up(job.scene), error);
+    if (ok && !o->quiet)
+        fprintf(stderr, "%s: %u triangles, %u vertices\n", o->output, (unsigned)mesh->triangle_count,
+                (unsigned)mesh->vertex_count);
+    job_free(&job);
+    return ok;
+}
+
+int run_shape(int operand_count, char **operands, const struct options *options)
+{
+    lam_error error = {0};
+    char word[] = FORMULA_MODEL, *formula[] = {word};
+    bool ok = true;
+    if (operand_count && options->parametric)
+        ok =
+            complain(&error, LAM_BAD_ARGUMENT, "shape: found '%s' and --parametric, expected one of them", operands[0]);
+    else if (!operand_count && !options->parametric)
+        ok = complain(&error, LAM_BAD_ARGUMENT,
+                      "shape: expected the name of a built-in shape (`lambent shapes` lists them) or --parametric "
+                      "'x=...; y=...; z=...'");
+    else if (!options->parametric && lam_shape_find(operands[0]) < 0)
+        ok = complain(&error, LAM_BAD_ARGUMENT,
+                      "shape: no built-in shape has the name '%s'; `lambent shapes` lists them", operands[0]);
+    else if (!options->parametric && (options->u_range || options->v_range || options->flip))
+        ok = complain(&error, LAM_BAD_ARGUMENT, "shape: option '--%s' belongs to --parametric",
+                      options->u_range   ? "u"
+                      : options->v_range ? "v"
+                                         : "flip");
+    char **models = options->parametric ? formula : operands;
+    if (ok && !is_model_file(options->output))
+        return run_render(1, models, options);
+    if (ok && save(models[0], options, &error))
+        return 0;
+    return report_failure(&error, options);
+}

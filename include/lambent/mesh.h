@@ -153,8 +153,10 @@ typedef struct lam_formula {
     const char *text; // at most 4096 bytes
     // The ranges of u and v, each two constant expressions: "0..2pi", which NULL stands for.
     const char *u, *v;
-    int u_segments, v_segments; // 1..16384; 0: 16..512, so that edges pass the surface by 1/4000 of its size at most
-    bool flip;                  // the front is where −(∂p/∂u × ∂p/∂v) points; false: ∂p/∂u × ∂p/∂v
+    // 1..16384; 0: 16..512, so that edges pass the surface by 1/4000 of its size at most.
+    int u_segments, v_segments;
+    // The front is where −(∂p/∂u × ∂p/∂v) points; false: ∂p/∂u × ∂p/∂v.
+    bool flip;
     LAM_RESERVED(8);
 } lam_formula;
 

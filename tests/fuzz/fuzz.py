@@ -35,9 +35,9 @@ WORDS = {
     "obj": ["src/import/obj"], "mtl": ["src/import/obj/mtl.c", "src/import/obj/mtl_maps.c"], "ply": ["src/import/ply"],
     "stl": ["src/import/stl"], "gltf": ["src/import/gltf"], "glb": ["src/import/gltf"],
     "scene": ["src/scene_file", "src/scene", "src/words"],
-    "render": ["src/import/obj", "src/import/ply", "src/import/gltf"], "job": ["tools/batch", "tools/options", "src/words"],
+    "render": ["src/import/obj", "src/import/ply", "src/import/gltf"], "job": ["tools/batch/jobs", "tools/options", "src/words"], "formula": ["src/shapes/formula_parse.c"],
 }
-NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "scene", "render", "job")
+NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "scene", "render", "job", "formula")
 
 # A slow input is a find too: SECONDS on a busy machine, under sanitizers, for an input of at most 16 KB.
 LIMITS = ["-timeout=10", "-rss_limit_mb=1200", "-malloc_limit_mb=600", "-max_len=%d" % SEED_BYTES, "-report_slow_units=5"]

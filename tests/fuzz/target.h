@@ -26,20 +26,14 @@ static inline void note_sentence(const char *text)
     sentences[hash % SENTENCES] = 1;
 }
 
-// Invariant for every input: a valid scene, or an error with a sentence. Memory and time are limited, so that inputs
-// with excessive cost are found.
-static inline void load_model(const uint8_t *data, size_t size, const char *name, lam_open_fn *open, void *user,
-                              const char *animation)
+// Invariant for every input: a valid scene, or an error with a sentence. Frees the scene.
+static inline void check_scene(lam_scene *scene, const lam_error *error)
 {
-    lam_load_params params = {.threads = 1, .open = open, .user = user, .animation = animation};
-    lam_control control = {.memory_limit_bytes = 256 << 20, .time_limit_s = 20};
-    lam_error error = {0};
-    lam_scene *scene = lam_scene_load_memory(data, size, name, &params, &control, &error);
-    note_sentence(scene ? "" : error.text);
+    note_sentence(scene ? "" : error->text);
     uint64_t shown = scene ? lam_scene_triangle_count(scene) : 0;
     for (int i = 0; scene && i < lam_scene_mesh_count(scene); i++)
         shown += lam_scene_mesh(scene, i)->line_count + (uint64_t)lam_scene_mesh(scene, i)->point_count;
-    if (scene ? shown == 0 : error.code == LAM_OK || !error.text[0])
+    if (scene ? shown == 0 : error->code == LAM_OK || !error->text[0])
         abort();
     for (int i = 0; scene && i < lam_scene_mesh_count(scene); i++) {
         const lam_mesh *mesh = lam_scene_mesh(scene, i);
@@ -55,6 +49,17 @@ static inline void load_model(const uint8_t *data, size_t size, const char *name
         }
     }
     lam_scene_free(scene);
+}
+
+// Reads a model. Memory and time are limited, so that inputs with excessive cost are found.
+static inline void load_model(const uint8_t *data, size_t size, const char *name, lam_open_fn *open, void *user,
+                              const char *animation)
+{
+    lam_load_params params = {.threads = 1, .open = open, .user = user, .animation = animation};
+    lam_control control = {.memory_limit_bytes = 256 << 20, .time_limit_s = 20};
+    lam_error error = {0};
+    lam_scene *scene = lam_scene_load_memory(data, size, name, &params, &control, &error);
+    check_scene(scene, &error);
 }
 
 #endif

@@ -1,0 +1,33 @@
+// target_formula.c: fuzz target for surfaces written as formulas (lam_formula, docs/shapes.md). An input is the text, and after a zero
+// the range of u, and after another one that of v.
+#include "target.h"
+
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    char *words[3] = {calloc(size + 3, 1)};
+    if (!words[0])
+        abort();
+    if (size)
+        memcpy(words[0], data, size);
+    for (int i = 1; i < 3; i++)
+        words[i] = words[i - 1] + strlen(words[i - 1]) + 1;
+    lam_formula formula = {.text = words[0], .u_segments = 9, .v_segments = 6};
+    formula.u = *words[1] ? words[1] : NULL;
+    formula.v = *words[1] && *words[2] ? words[2] : NULL;
+    lam_control control = {.memory_limit_bytes = 64 << 20, .time_limit_s = 20};
+    lam_error error = {0};
+    lam_scene *scene = lam_scene_make(NULL);
+    if (!scene)
+        abort();
+    lam_object object = lam_object_default();
+    object.mesh = lam_scene_add_formula(scene, &formula, &control, &error);
+    if (object.mesh < 0 || lam_scene_add_object(scene, &object, &error) < 0) {
+        lam_scene_free(scene);
+        scene = NULL;
+    }
+    check_scene(scene, &error);
+    free(words[0]);
+    return 0;
+}

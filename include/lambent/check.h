@@ -87,8 +87,127 @@ typedef enum lam_check_draw_status {
 typedef lam_check_draw_status lam_check_draw_fn(void *user, const lam_bytes *request, lam_bytes *result,
                                                 lam_error *error);
 
+// --- drawing for a check
+
+// A check draws the shaders under test, and its own shaders with known mistakes, by OpenGL that it finds at run time, or by a
+// painter of the caller: a page draws with WebGL 2 (web/check/painter.js). What is drawn, with which inputs, and what the
+// pictures prove is the check's alone, so that every painter gets the same verdict.
+
+// What compiles a pair of shaders.
+typedef enum lam_check_language {
+    LAM_CHECK_LANGUAGE_CORE = 0, // OpenGL 3.3 core
+    LAM_CHECK_LANGUAGE_ES,       // OpenGL ES 3.0, which is WebGL 2
+    // OpenGL with everything since 1.0, such as gl_Vertex and gl_NormalMatrix.
+    LAM_CHECK_LANGUAGE_COMPATIBILITY,
+} lam_check_language;
+
+// The type of an input.
+typedef enum lam_check_type {
+    LAM_CHECK_TYPE_OTHER = 0, // none of those below
+    LAM_CHECK_TYPE_FLOAT,     // float
+    LAM_CHECK_TYPE_INT,       // int
+    LAM_CHECK_TYPE_BOOL,      // bool
+    LAM_CHECK_TYPE_VEC2,      // vec2
+    LAM_CHECK_TYPE_VEC3,      // vec3
+    LAM_CHECK_TYPE_VEC4,      // vec4
+    LAM_CHECK_TYPE_MAT3,      // mat3
+    LAM_CHECK_TYPE_MAT4,      // mat4
+    LAM_CHECK_TYPE_SAMPLER2D, // sampler2D
+} lam_check_type;
+
+// An attribute or a uniform that a program reads, also one in a block.
+typedef struct lam_check_input {
+    // As OpenGL says it: "lights[0].position", "numbers[0]" for a whole list of numbers.
+    char name[128];
+    lam_check_type type; // of one element
+    int elements;        // of a list; 1: no list
+    bool attribute;      // false: a uniform
+    LAM_RESERVED(2);
+} lam_check_input;
+
+// A compiled program. Its members belong to the painter.
+typedef struct lam_check_program {
+    void *program;                         // NULL: it does not compile or link
+    lam_check_input *inputs;               // those that it reads
+    int input_count;                       // of `inputs`
+    bool refused_vertex, refused_fragment; // which of the texts do not compile
+    char vertex_log[4096];                 // the compiler's messages; ""
+    char fragment_log[4096];               // likewise
+    char link_log[4096];                   // the linker's
+    LAM_RESERVED(4);
+} lam_check_program;
+
+// Values of a uniform: `count` elements from `first` on, each with as many floats as its type has components, matrices by
+// columns. Of integers and flags, whole numbers; of a sampler, the RGBA of a texture that has this colour everywhere.
+typedef struct lam_check_value {
+    int input;            // index in `inputs`
+    int first;            // element
+    int count;            // of elements
+    const float *numbers; // belong to the check
+    LAM_RESERVED(1);
+} lam_check_value;
+
+// Triangles. Meshes with the same number are the same as long as a place is open, so a painter may keep them.
+typedef struct lam_check_mesh {
+    int number;              // from 0
+    int vertex_count;        // at most 65535
+    int index_count;         // three for each triangle
+    const float *positions;  // 3 floats for each vertex
+    const float *normals;    // 4 floats, the last of them 0
+    const float *tangents;   // 3 floats
+    const uint16_t *indices; // of vertices
+    LAM_RESERVED(4);
+} lam_check_mesh;
+
+// Triangles that are left out; the vertices of a front face go counter-clockwise.
+typedef enum lam_check_cull {
+    LAM_CHECK_CULL_NONE = 0, // all are drawn
+    LAM_CHECK_CULL_BACK,     // back faces
+    LAM_CHECK_CULL_FRONT,    // front faces
+} lam_check_cull;
+
+// One picture: a program draws a mesh on transparent black, with a depth buffer, without blending.
+typedef struct lam_check_drawing {
+    const lam_check_program *program; // that the painter compiled
+    const lam_check_mesh *mesh;       // to draw
+    // The attributes that get positions, normals and tangents, as indices in `inputs`; -1: none.
+    int position, normal, tangent;
+    const lam_check_value *values; // of uniforms
+    int value_count;               // of `values`
+    lam_check_cull cull;           // triangles that are left out
+    // For LAM_CHECK_LANGUAGE_COMPATIBILITY: gl_ModelViewMatrix and gl_ProjectionMatrix, by columns. There gl_Vertex and
+    // gl_Normal are the mesh's where `position` and `normal` are -1.
+    float model_view[16], projection[16];
+    LAM_RESERVED(4);
+} lam_check_drawing;
+
+// Draws for a check. All calls come from the thread of lam_check_run, and one place is open within another.
+typedef struct lam_check_painter {
+    void *user; // passed to `open`
+    // Makes a place for pictures of size² pixels and programs in a language. `renderer` gets the name of what draws.
+    // NULL: see `error`.
+    void *(*open)(void *user, lam_check_language language, int size, char renderer[128], lam_error *error);
+    void (*close)(void *place); // frees it; its programs are forgotten before
+    // A cache of the caller's keeps places: they come to rest after a check, and wake for another, perhaps on another thread.
+    void (*rest)(void *place);
+    // False: see `error`; the place is not closed then.
+    bool (*wake)(void *place, lam_error *error);
+    // Compiles both texts, so that the messages of both are known at once, and links them. A program that is refused is no
+    // error. False: `error`; nothing is kept then.
+    bool (*compile)(void *place, const char *vertex, const char *fragment, lam_check_program *program,
+                    lam_error *error);
+    void (*forget)(void *place, lam_check_program *program); // frees what compile made
+    // Draws to size² RGBA pixels, rows top-down: floats as the program wrote them, or bytes / 255 where the device has no
+    // targets of floats, in which case colours are clamped and NaN is not found.
+    bool (*draw)(void *place, const lam_check_drawing *drawing, float *pixels, lam_error *error);
+    // Compiles nothing but GLSL ES: texts in desktop GLSL are rewritten for it, on the same lines, as far as the two
+    // languages agree (docs/check.md).
+    bool es_only;
+    LAM_RESERVED(4);
+} lam_check_painter;
+
 // A cache of the pictures of known mistakes, shared by several checks: most of a check's time goes into drawing them.
-// It holds up to `max_bytes`; further pictures are drawn each time. For one OpenGL device; any number of threads may
+// It holds up to `max_bytes`; further pictures are drawn each time. For one OpenGL device or painter; any number of threads may
 // check with one cache at once. NULL: out of memory.
 typedef struct lam_check_cache lam_check_cache;
 
@@ -135,7 +254,10 @@ typedef struct lam_check_params {
     // The search for mistakes ends after so many pictures of sets of them; 0: 10000. The result is the same on every
     // machine, with a cache or without.
     uint64_t max_pictures;
-    LAM_RESERVED(14);
+    // Draws in place of OpenGL. NULL: OpenGL draws, on `gl_device`. With `draw`, the shaders under test are drawn by that.
+    // The caller keeps it, and what it points to, until the check and its cache are done.
+    const lam_check_painter *painter;
+    LAM_RESERVED(13);
 } lam_check_params;
 
 // The result of a check.

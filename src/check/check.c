@@ -1,7 +1,9 @@
 // check.c: runs a check: parses the shaders, draws, and has the pictures compared.
 #include "check_run.h"
+#include "check_draw.h"
 #include "compiler_hints.h"
 #include "default_vertex_shader.h"
+#include "gl_painter.h"
 #include "recognise.h"
 #include "shader_diagnostics.h"
 
@@ -163,7 +165,7 @@ static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
 
 static bool draw_here(struct run *r, const lam_bytes *request, lam_error *error)
 {
-    return lam_check_draw(request->data, request->size, r->params->gl_device, &r->bytes, error);
+    return check_draw(request->data, request->size, &r->painter, &r->bytes, error);
 }
 
 // False: no verdict is possible. A process that timed out or crashed sets the report's verdict.
@@ -258,6 +260,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
         return fail_memory(error, sizeof *r.arena);
     arena_start(r.arena, NULL);
     r.diagnostics.arena = r.arena;
+    r.painter = params->painter ? *params->painter : gl_painter(params->gl_device);
     unsigned scenes = 0;
     bool ok = prepare(&r, &scenes, error);
     for (unsigned left = scenes; ok && left; left &= left - 1)

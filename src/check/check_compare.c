@@ -236,7 +236,7 @@ static bool explain(struct run *r, bool writes, lam_error *error)
     struct fault_search s = {.interface = &r->interface,
                              .frame = r->frame,
                              .reflection = r->reflection,
-                             .gl_device = r->params->gl_device,
+                             .painter = &r->painter,
                              .cache = r->params->cache,
                              .scenes = r->scenes,
                              .scene_count = r->scene_count,

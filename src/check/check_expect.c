@@ -45,7 +45,7 @@ static bool draw_by_shader(struct run *r, struct scene_comparison *scene, lam_er
 {
     const lam_check_params *p = r->params;
     const fault_set none = {0};
-    if (!r->shader && !(r->shader = render_cache_take_shader(p->cache, p->gl_device, r->size, 1, error)))
+    if (!r->shader && !(r->shader = render_cache_take_shader(p->cache, &r->painter, r->size, 1, error)))
         return false;
     return fault_shader_draw(r->shader, &scene->reference_scene, &r->interface,
                              shader_interface_light_count(&r->interface), r->frame, r->reflection, &none,

@@ -13,6 +13,7 @@ struct run {
     lam_check_report *report;
     struct arena *arena;
     struct diagnostics diagnostics;
+    lam_check_painter painter;                  // that draws
     lam_check_contract *shipped[MAX_CONTRACTS]; // read where none is given
     int shipped_count;
     struct complete_texts texts;

@@ -82,7 +82,7 @@ void fault_measure_close(struct fault_measure *t)
 bool fault_measure_draw(struct fault_measure *t, int index, const fault_set *set, float *pixels, lam_error *error)
 {
     struct fault_search *s = t->s;
-    if (!t->shader && !(t->shader = render_cache_take_shader(s->cache, s->gl_device, s->size, t->stride, error)))
+    if (!t->shader && !(t->shader = render_cache_take_shader(s->cache, s->painter, s->size, t->stride, error)))
         return false;
     if (!fault_shader_draw(t->shader, &t->scenes[index].reference_scene, s->interface, s->light_capacity, s->frame,
                            s->reflection, set, pixels, error))

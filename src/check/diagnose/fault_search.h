@@ -18,7 +18,7 @@ struct found_fault {
 };
 
 struct fault_search {
-    const char *gl_device;
+    const lam_check_painter *painter;
     lam_check_cache *cache; // may be NULL
     const struct shader_interface *interface;
     lam_light_frame frame;

@@ -1,6 +1,6 @@
 // fault_shader.c: a program that computes the lighting with faults switched on or off (fault_light.glsl, fault_physical.glsl).
 #include "fault_shader.h"
-#include "offscreen.h"
+#include "place.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,17 +21,25 @@ struct specialization {
 
 struct program {
     struct specialization made_for;
-    GLuint name;
+    lam_check_program *built; // from malloc
 };
 enum { MAX_PROGRAMS = 32 };
 
+enum { MAX_VALUES = 64, MAX_NUMBERS = 512 };
+
 struct fault_shader {
-    struct offscreen offscreen;
+    struct place place;
     struct program programs[MAX_PROGRAMS]; // the last used first
     int program_count;
-    GLuint program; // the one in use
+    const lam_check_program *program; // the one in use
     int size, stride;
     bool rests; // its context is not current
+    // The values of its uniforms in the picture that is drawn.
+    lam_check_value values[MAX_VALUES];
+    int value_count;
+    float numbers[MAX_NUMBERS];
+    int number_count;
+    bool full; // a value found no room
 };
 
 static const char *const bit_names[FAULT_BIT_COUNT] = {"NONE",
@@ -55,7 +63,7 @@ static bool is_possible(const struct specialization *made_for, int bit)
     return false;
 }
 
-static size_t write_constants(const struct specialization *s, char *out, size_t capacity)
+static size_t write_constants(const struct specialization *s, bool es, char *out, size_t capacity)
 {
     const struct {
         const char *name;
@@ -72,7 +80,8 @@ static size_t write_constants(const struct specialization *s, char *out, size_t 
                    {"encoding", s->encoding},
                    {"lamp_count", s->lamps}};
     size_t at =
-        (size_t)snprintf(out, capacity, "#version 330 core\n%s#define FAULT_BITS %d\n#define LAMPS %d\n",
+        (size_t)snprintf(out, capacity, "#version %s\n%s#define FAULT_BITS %d\n#define LAMPS %d\n",
+                         es ? "300 es\nprecision highp float;\nprecision highp int;" : "330 core",
                          s->in_vertex ? "#define IN_VERTEX\n" : "", FAULT_BIT_COUNT, s->lamps > 0 ? s->lamps : 1);
     for (int i = 0; i < FAULT_BIT_COUNT; i++)
         at += (size_t)snprintf(out + at, capacity - at, "#define %s %d\n", bit_names[i], is_possible(s, i) ? i : -1);
@@ -84,27 +93,22 @@ static size_t write_constants(const struct specialization *s, char *out, size_t 
     return at;
 }
 
-static GLuint compile(struct fault_shader *m, GLenum kind, const struct specialization *made_for, const char *body,
-                      lam_error *error)
+// The text of a stage, from malloc.
+static char *write_text(const struct specialization *made_for, bool es, const char *body, lam_error *error)
 {
     size_t capacity =
-        strlen(text_fault_physical_glsl) + strlen(text_fault_light_glsl) + strlen(body) + 40 * FAULT_BIT_COUNT + 600;
-    char *text = malloc(capacity), log[1024] = "";
+        strlen(text_fault_physical_glsl) + strlen(text_fault_light_glsl) + strlen(body) + 40 * FAULT_BIT_COUNT + 700;
+    char *text = malloc(capacity);
     if (!text) {
         fail_memory(error, capacity);
-        return 0;
+        return NULL;
     }
-    size_t at = write_constants(made_for, text, capacity);
+    size_t at = write_constants(made_for, es, text, capacity);
     snprintf(text + at, capacity - at, "%s%s%s", text_fault_physical_glsl, text_fault_light_glsl, body);
-    GLuint shader = offscreen_compile(&m->offscreen, kind, text, log, sizeof log);
-    free(text);
-    if (!shader)
-        fail(error, LAM_UNSUPPORTED, "%s does not compile the check's own shader: %.300s",
-             m->offscreen.context.renderer, log);
-    return shader;
+    return text;
 }
 
-struct fault_shader *fault_shader_open(const char *gl_device, int size, int stride, lam_error *error)
+struct fault_shader *fault_shader_open(const lam_check_painter *painter, int size, int stride, lam_error *error)
 {
     struct fault_shader *m = calloc(1, sizeof *m);
     if (!m) {
@@ -113,7 +117,7 @@ struct fault_shader *fault_shader_open(const char *gl_device, int size, int stri
     }
     m->size = size;
     m->stride = stride;
-    if (!offscreen_open(&m->offscreen, GL_PROFILE_CORE, gl_device, fault_shader_size(size, stride), error)) {
+    if (!place_open(&m->place, painter, LAM_CHECK_LANGUAGE_CORE, fault_shader_size(size, stride), error)) {
         free(m);
         return NULL;
     }
@@ -129,19 +133,33 @@ static bool is_same(const struct specialization *a, const struct specialization 
            a->terms == b->terms;
 }
 
-static GLuint link_program(struct fault_shader *m, const struct specialization *made_for, lam_error *error)
+static void forget(struct fault_shader *m, lam_check_program *program)
 {
-    GLuint vertex = compile(m, GL_VERTEX_SHADER, made_for, text_fault_vertex_glsl, error),
-           fragment = vertex ? compile(m, GL_FRAGMENT_SHADER, made_for, text_fault_fragment_glsl, error) : 0;
-    char log[1024] = "";
-    GLuint program = fragment ? offscreen_link(&m->offscreen, vertex, fragment, log, sizeof log) : 0;
+    if (program)
+        m->place.painter.forget(m->place.place, program);
+    free(program);
+}
+
+static lam_check_program *make_program(struct fault_shader *m, const struct specialization *made_for, lam_error *error)
+{
+    bool es = m->place.painter.es_only;
+    char *vertex = write_text(made_for, es, text_fault_vertex_glsl, error),
+         *fragment = vertex ? write_text(made_for, es, text_fault_fragment_glsl, error) : NULL;
+    lam_check_program *program = fragment ? calloc(1, sizeof *program) : NULL;
     if (fragment && !program)
-        fail(error, LAM_UNSUPPORTED, "%s does not link the check's own shaders: %.300s", m->offscreen.context.renderer,
-             log);
-    const struct gl *gl = &m->offscreen.context.gl;
-    gl->DeleteShader(vertex);
-    gl->DeleteShader(fragment);
-    return program;
+        fail_memory(error, sizeof *program);
+    bool ok = program && m->place.painter.compile(m->place.place, vertex, fragment, program, error);
+    if (ok && !program->program)
+        ok = fail(error, LAM_UNSUPPORTED, "%s does not build the check's own shaders: %.300s", m->place.renderer,
+                  program->refused_vertex     ? program->vertex_log
+                  : program->refused_fragment ? program->fragment_log
+                                              : program->link_log);
+    free(vertex);
+    free(fragment);
+    if (ok)
+        return program;
+    free(program);
+    return NULL;
 }
 
 // Makes the program for these constants the one in use; of more than MAX_PROGRAMS the one that was not used longest goes.
@@ -154,17 +172,17 @@ static bool build(struct fault_shader *m, const struct specialization *made_for,
     if (at < m->program_count) {
         found = m->programs[at];
     } else {
-        found.name = link_program(m, made_for, error);
-        if (!found.name)
+        found.built = make_program(m, made_for, error);
+        if (!found.built)
             return false;
         if (m->program_count < MAX_PROGRAMS)
             m->program_count++;
         else
-            m->offscreen.context.gl.DeleteProgram(m->programs[--at].name);
+            forget(m, m->programs[--at].built);
     }
     memmove(&m->programs[1], &m->programs[0], (size_t)at * sizeof found);
     m->programs[0] = found;
-    m->program = found.name;
+    m->program = found.built;
     return true;
 }
 
@@ -175,13 +193,13 @@ bool fault_shader_draws(const struct fault_shader *m, int size, int stride)
 
 void fault_shader_rest(struct fault_shader *m)
 {
-    offscreen_rest(&m->offscreen);
+    m->place.painter.rest(m->place.place);
     m->rests = true;
 }
 
 bool fault_shader_wake(struct fault_shader *m, lam_error *error)
 {
-    bool ok = offscreen_wake(&m->offscreen, error);
+    bool ok = m->place.painter.wake(m->place.place, error);
     m->rests = m->rests && !ok;
     return ok;
 }
@@ -192,29 +210,41 @@ void fault_shader_close(struct fault_shader *m)
         return;
     if (!m->rests || fault_shader_wake(m, NULL)) {
         for (int i = 0; i < m->program_count; i++)
-            m->offscreen.context.gl.DeleteProgram(m->programs[i].name);
-        offscreen_close(&m->offscreen);
+            forget(m, m->programs[i].built);
+        place_close(&m->place);
     }
     free(m);
 }
 
-static GLint place(const struct fault_shader *m, const char *name)
+// Gives a uniform its values, `each` floats for each element, as far as the program reads it.
+static void set(struct fault_shader *m, const char *name, int count, int each, const float *numbers)
 {
-    return m->offscreen.context.gl.GetUniformLocation(m->program, name);
+    int input = place_input(m->program, name, false);
+    if (input < 0)
+        return;
+    if (count > m->program->inputs[input].elements) // a compiler may shorten a list
+        count = m->program->inputs[input].elements;
+    m->full = m->full || m->value_count == MAX_VALUES || m->number_count + count * each > MAX_NUMBERS;
+    if (m->full)
+        return;
+    float *own = m->numbers + m->number_count;
+    memcpy(own, numbers, (size_t)(count * each) * sizeof *own);
+    m->number_count += count * each;
+    m->values[m->value_count++] = (lam_check_value){.input = input, .count = count, .numbers = own};
 }
 
-static GLint lamp_place(const struct fault_shader *m, int i, const char *member)
+static void set_number(struct fault_shader *m, const char *name, float x) { set(m, name, 1, 1, &x); }
+
+static void set_lamp_member(struct fault_shader *m, int i, const char *member, int each, const float *numbers)
 {
     char name[64];
     snprintf(name, sizeof name, "lamps[%d].%s", i, member);
-    return place(m, name);
+    set(m, name, 1, each, numbers);
 }
 
-static void set_lamp(const struct fault_shader *m, int i, const struct shader_interface *interface,
-                     lam_light_frame frame, const struct reference_scene *reference_scene,
-                     const struct reference_matrices *matrices)
+static void set_lamp(struct fault_shader *m, int i, const struct shader_interface *interface, lam_light_frame frame,
+                     const struct reference_scene *reference_scene, const struct reference_matrices *matrices)
 {
-    const struct gl *gl = &m->offscreen.context.gl;
     const struct reference_light *light = &reference_scene->lights[i];
     lam_light_frame space = interface->space;
     // A direction comes with unit length, a position whose w is 0 does not.
@@ -229,31 +259,32 @@ static void set_lamp(const struct fault_shader *m, int i, const struct shader_in
                    {"given", position, frame},
                    {"axis", SEMANTIC_LIGHT_TRAVEL, space},
                    {"cone", SEMANTIC_CONE, frame}};
-    for (int k = 0; k < 4; k++)
-        gl->Uniform4fv(lamp_place(m, i, members[k].member), 1,
-                       uniform_semantic_value(members[k].semantic, i, members[k].frame, reference_scene, matrices).v);
-    gl->Uniform3fv(lamp_place(m, i, "attenuation"), 1, light->attenuation);
-    gl->Uniform3f(lamp_place(m, i, "diffuse"), light->color.r, light->color.g, light->color.b);
-    gl->Uniform3f(lamp_place(m, i, "specular"), light->specular.r, light->specular.g, light->specular.b);
+    for (int k = 0; k < 4; k++) {
+        struct uniform_value value =
+            uniform_semantic_value(members[k].semantic, i, members[k].frame, reference_scene, matrices);
+        set_lamp_member(m, i, members[k].member, 4, value.v);
+    }
     lam_rgb a = reference_scene->ambient;
     float ka = reference_scene->ka;
-    gl->Uniform3f(lamp_place(m, i, "ambient"), a.r * ka * light->ambient.r, a.g * ka * light->ambient.g,
-                  a.b * ka * light->ambient.b);
+    set_lamp_member(m, i, "attenuation", 3, light->attenuation);
+    set_lamp_member(m, i, "diffuse", 3, (float[]){light->color.r, light->color.g, light->color.b});
+    set_lamp_member(m, i, "specular", 3, (float[]){light->specular.r, light->specular.g, light->specular.b});
+    set_lamp_member(m, i, "ambient", 3,
+                    (float[]){a.r * ka * light->ambient.r, a.g * ka * light->ambient.g, a.b * ka * light->ambient.b});
 }
 
-static void set_color(const struct fault_shader *m, const char *name, lam_rgb c, float k)
+static void set_color(struct fault_shader *m, const char *name, lam_rgb c, float k)
 {
-    m->offscreen.context.gl.Uniform3f(place(m, name), c.r * k, c.g * k, c.b * k);
+    set(m, name, 1, 3, (float[]){c.r * k, c.g * k, c.b * k});
 }
 
 bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *reference_scene,
                        const struct shader_interface *interface, int light_capacity, lam_light_frame frame,
-                       lam_reflection reflection, const fault_set *set, float *pixels, lam_error *error)
+                       lam_reflection reflection, const fault_set *set_of_faults, float *pixels, lam_error *error)
 {
-    const struct gl *gl = &m->offscreen.context.gl;
     struct reference_matrices matrices;
     reference_matrices(reference_scene, &matrices);
-    bool smooth = fault_set_has(set, BIT_SMOOTH_FOR_FLAT);
+    bool smooth = fault_set_has(set_of_faults, BIT_SMOOTH_FOR_FLAT);
     const struct physical_convention *physical = &interface->contract->physical;
     struct specialization made_for = {.in_vertex = interface->vertex_lit || (reference_scene->flat && !smooth),
                                       .physical = interface->physical,
@@ -267,15 +298,16 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
                                       .tone = (int)physical->tone,
                                       .encoding = (int)physical->encoding,
                                       .lamps = reference_scene->light_count};
-    GLint bits[FAULT_BIT_COUNT];
+    float bits[FAULT_BIT_COUNT];
     for (int i = 0; i < FAULT_BIT_COUNT; i++) {
-        bits[i] = fault_set_has(set, (enum fault_bit)i);
-        *(is_of_vectors(i) ? &made_for.vectors : &made_for.terms) |= bits[i];
+        bool on = fault_set_has(set_of_faults, (enum fault_bit)i);
+        bits[i] = on ? 1 : 0;
+        *(is_of_vectors(i) ? &made_for.vectors : &made_for.terms) |= on;
     }
     if (!build(m, &made_for, error))
         return false;
-    gl->UseProgram(m->program);
-    gl->Uniform1iv(place(m, "fault_on"), FAULT_BIT_COUNT, bits);
+    m->value_count = m->number_count = 0;
+    set(m, "fault_on[0]", FAULT_BIT_COUNT, 1, bits);
     lam_light_frame space = interface->space;
     const struct {
         const char *name;
@@ -287,24 +319,22 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
         enum uniform_semantic semantic = space == LAM_FRAME_WORLD ? values[i].world : values[i].eye;
         if (semantic != SEMANTIC_NONE)
-            gl->UniformMatrix4fv(place(m, values[i].name), 1, GL_FALSE,
-                                 uniform_semantic_value(semantic, 0, space, reference_scene, &matrices).v);
+            set(m, values[i].name, 1, 16, uniform_semantic_value(semantic, 0, space, reference_scene, &matrices).v);
     }
-    gl->Uniform4fv(place(m, "eye_position"), 1,
-                   uniform_semantic_value(SEMANTIC_EYE_POSITION, 0, space, reference_scene, &matrices).v);
+    set(m, "eye_position", 1, 4, uniform_semantic_value(SEMANTIC_EYE_POSITION, 0, space, reference_scene, &matrices).v);
     // The third row of the view matrix is the eye's axis in world space.
     const lam_mat4 *view = &matrices.view;
     if (space == LAM_FRAME_WORLD)
-        gl->Uniform4f(place(m, "eye_axis"), (float)view->m[2][0], (float)view->m[2][1], (float)view->m[2][2], 0);
+        set(m, "eye_axis", 1, 4, (float[]){(float)view->m[2][0], (float)view->m[2][1], (float)view->m[2][2], 0});
     else
-        gl->Uniform4f(place(m, "eye_axis"), 0, 0, 1, 0);
-    float small = (float)(m->stride * m->offscreen.size), scale = (float)m->size / small;
+        set(m, "eye_axis", 1, 4, (float[]){0, 0, 1, 0});
+    float small = (float)(m->stride * m->place.size), scale = (float)m->size / small;
     float offset = scale + (float)(m->stride - 1) / small - 1;
-    gl->Uniform4f(place(m, "window"), scale, scale, offset, offset);
+    set(m, "window", 1, 4, (float[]){scale, scale, offset, offset});
     for (int i = 0; i < reference_scene->light_count; i++)
         set_lamp(m, i, interface, frame, reference_scene, &matrices);
-    gl->Uniform3fv(place(m, "ambient_light"), 1,
-                   uniform_semantic_value(SEMANTIC_AMBIENT_LIGHT, 0, frame, reference_scene, &matrices).v);
+    set(m, "ambient_light", 1, 3,
+        uniform_semantic_value(SEMANTIC_AMBIENT_LIGHT, 0, frame, reference_scene, &matrices).v);
     set_color(m, "ka", reference_scene->ambient, reference_scene->ka);
     set_color(m, "kd", reference_scene->diffuse, reference_scene->kd);
     set_color(m, "ks", reference_scene->specular, reference_scene->ks);
@@ -317,17 +347,27 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     set_color(m, "ks_with_kd", apart ? reference_scene->specular : reference_scene->diffuse, reference_scene->kd);
     set_color(m, "specular_as_diffuse", reference_scene->diffuse, apart ? reference_scene->ks : reference_scene->kd);
     set_color(m, "tint", reference_scene->diffuse, apart ? 1 : reference_scene->kd);
-    gl->Uniform1f(place(m, "light_capacity"), (float)light_capacity);
-    gl->Uniform1f(place(m, "opacity"), reference_scene->alpha);
-    gl->Uniform1f(place(m, "shininess"), reference_scene->shininess);
-    gl->Uniform1f(place(m, "exponent_factor"), set->factor);
-    gl->Uniform1f(place(m, "exponent_constant"), set->constant);
+    set_number(m, "light_capacity", (float)light_capacity);
+    set_number(m, "opacity", reference_scene->alpha);
+    set_number(m, "shininess", reference_scene->shininess);
+    set_number(m, "exponent_factor", set_of_faults->factor);
+    set_number(m, "exponent_constant", set_of_faults->constant);
     set_color(m, "base_color", reference_scene->diffuse, 1);
-    gl->Uniform1f(place(m, "metallic"), reference_scene->metallic);
-    gl->Uniform1f(place(m, "roughness"), reference_scene->roughness);
+    set_number(m, "metallic", reference_scene->metallic);
+    set_number(m, "roughness", reference_scene->roughness);
     // Nothing of a closed mesh's inside is seen; upside down, its front faces turn the other way.
     bool closed = reference_scene->mesh == MESH_SPHERE || reference_scene->mesh == MESH_COARSE;
-    (closed ? gl->Enable : gl->Disable)(GL_CULL_FACE);
-    gl->CullFace(fault_set_has(set, BIT_UPSIDE_DOWN) ? GL_FRONT : GL_BACK);
-    return offscreen_draw(&m->offscreen, reference_scene->mesh, (struct offscreen_places){0, 1, -1}, pixels, error);
+    if (m->full)
+        return fail(error, LAM_LIMIT, "check: more than %d values for its own shader", MAX_VALUES);
+    bool upside_down = fault_set_has(set_of_faults, BIT_UPSIDE_DOWN);
+    lam_check_drawing drawing = {.program = m->program,
+                                 .position = place_input(m->program, "position", true),
+                                 .normal = place_input(m->program, "normal", true),
+                                 .tangent = -1,
+                                 .values = m->values,
+                                 .value_count = m->value_count,
+                                 .cull = !closed       ? LAM_CHECK_CULL_NONE
+                                         : upside_down ? LAM_CHECK_CULL_FRONT
+                                                       : LAM_CHECK_CULL_BACK};
+    return place_draw(&m->place, reference_scene->mesh, &drawing, pixels, error);
 }

@@ -1,4 +1,4 @@
-// fault_shader.h: draws a reference scene with faults switched on, by OpenGL.
+// fault_shader.h: draws a reference scene with faults switched on, by a painter.
 #ifndef FAULT_SHADER_H
 #define FAULT_SHADER_H
 
@@ -8,7 +8,7 @@ struct fault_shader;
 
 // Draws every `stride`-th pixel of every `stride`-th row of pictures of size² pixels, from the lower left one, thus
 // pictures of fault_shader_size(size, stride)² pixels.
-struct fault_shader *fault_shader_open(const char *gl_device, int size, int stride, lam_error *error);
+struct fault_shader *fault_shader_open(const lam_check_painter *painter, int size, int stride, lam_error *error);
 void fault_shader_close(struct fault_shader *shader); // NULL is fine; it may be at rest
 
 // Whether it draws such pictures.

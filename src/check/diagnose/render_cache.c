@@ -126,8 +126,8 @@ void render_cache_add(lam_check_cache *cache, const struct render_key *key, cons
     pthread_mutex_unlock(&cache->lock);
 }
 
-struct fault_shader *render_cache_take_shader(lam_check_cache *cache, const char *gl_device, int size, int stride,
-                                              lam_error *error)
+struct fault_shader *render_cache_take_shader(lam_check_cache *cache, const lam_check_painter *painter, int size,
+                                              int stride, lam_error *error)
 {
     struct fault_shader *shader = NULL;
     if (cache) {
@@ -140,7 +140,7 @@ struct fault_shader *render_cache_take_shader(lam_check_cache *cache, const char
         pthread_mutex_unlock(&cache->lock);
     }
     if (!shader)
-        return fault_shader_open(gl_device, size, stride, error);
+        return fault_shader_open(painter, size, stride, error);
     if (fault_shader_wake(shader, error))
         return shader;
     fault_shader_close(shader);

@@ -26,8 +26,8 @@ void render_cache_add(lam_check_cache *cache, const struct render_key *key, cons
 
 // A fault shader for such pictures that is not in use, made current; else a new one. NULL: see `error`. `cache` may be
 // NULL in both.
-struct fault_shader *render_cache_take_shader(lam_check_cache *cache, const char *gl_device, int size, int stride,
-                                              lam_error *error);
+struct fault_shader *render_cache_take_shader(lam_check_cache *cache, const lam_check_painter *painter, int size,
+                                              int stride, lam_error *error);
 // Gives a shader back; NULL is fine.
 void render_cache_keep_shader(lam_check_cache *cache, struct fault_shader *shader);
 

@@ -36,14 +36,14 @@ static bool is_web(const struct shader_interface *r)
     return false;
 }
 
-enum gl_profile shader_dialect_profile(const struct shader_interface *r)
+lam_check_language shader_dialect_language(const struct shader_interface *r)
 {
     const struct declarations *d = r->vertex.version > r->fragment.version ? &r->vertex : &r->fragment;
     if (strcmp(d->profile, "es") == 0 || d->version == 100 || is_web(r))
-        return GL_PROFILE_ES;
+        return LAM_CHECK_LANGUAGE_ES;
     if (d->version < 150 || strcmp(d->profile, "compatibility") == 0)
-        return GL_PROFILE_COMPATIBILITY;
-    return GL_PROFILE_CORE;
+        return LAM_CHECK_LANGUAGE_COMPATIBILITY;
+    return LAM_CHECK_LANGUAGE_CORE;
 }
 
 // The next `mediump` or `lowp` that is a word of its own, and its length. NULL: none.

@@ -1,13 +1,12 @@
-// shader_dialect.h: which OpenGL context a pair of shaders is written for, and the text as it is compiled there.
+// shader_dialect.h: which language a pair of shaders is written in, and the text as it is compiled there.
 #ifndef SHADER_DIALECT_H
 #define SHADER_DIALECT_H
 
-#include "context.h"
 #include "shader_interface.h"
 
-// The context that compiles the shaders. Without a version line they are WebGL's, thus for OpenGL ES, if they have a
+// What compiles the shaders. Without a version line they are WebGL's, thus for OpenGL ES, if they have a
 // precision statement or qualifier and no name that only desktop OpenGL has built in.
-enum gl_profile shader_dialect_profile(const struct shader_interface *interface);
+lam_check_language shader_dialect_language(const struct shader_interface *interface);
 
 // Whether the text contains `mediump` or `lowp`.
 bool shader_dialect_lowers_precision(const char *text);
@@ -18,5 +17,16 @@ char *shader_dialect_highp(const char *text);
 
 // The text after a byte order mark, which some editors write and no compiler accepts.
 const char *shader_dialect_skip_mark(const char *text);
+
+// A copy of a text in desktop GLSL, from malloc, in GLSL ES 3.00 on the same lines: another version line, a precision, the
+// words that ES 3.00 has for those of older versions, and names of its own for OpenGL's built-in inputs. What the languages
+// do not share, such as numbers that become floats by themselves, is left for the compiler to refuse. NULL: see `error`.
+char *shader_dialect_es(const char *text, bool is_vertex, lam_error *error);
+
+// The built-in input that stands behind a name of such a text, a static row. NULL: none does.
+const struct contract_name *shader_dialect_built_in(const char *name);
+
+// Gives the names in messages about such a text back what the author wrote, in place.
+void shader_dialect_restore(char *log);
 
 #endif

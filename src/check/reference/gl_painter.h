@@ -1,0 +1,10 @@
+// gl_painter.h: the painter that draws with OpenGL, which it finds at run time.
+#ifndef GL_PAINTER_H
+#define GL_PAINTER_H
+
+#include <lambent/check.h>
+
+// `device`: as lam_gl_params.device, kept as long as places are opened; NULL: the first usable one.
+lam_check_painter gl_painter(const char *device);
+
+#endif

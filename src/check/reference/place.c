@@ -1,0 +1,93 @@
+// place.c: meshes for a painter, made when they are first drawn.
+#include "place.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "fail.h"
+
+struct type_shape type_shape(lam_check_type type)
+{
+    static const struct type_shape shapes[] = {
+        [LAM_CHECK_TYPE_OTHER] = {"another type", 0, 0},
+        [LAM_CHECK_TYPE_FLOAT] = {"float", 1, 1},
+        [LAM_CHECK_TYPE_INT] = {"int", 1, 1},
+        [LAM_CHECK_TYPE_BOOL] = {"bool", 1, 1},
+        [LAM_CHECK_TYPE_VEC2] = {"vec2", 1, 2},
+        [LAM_CHECK_TYPE_VEC3] = {"vec3", 1, 3},
+        [LAM_CHECK_TYPE_VEC4] = {"vec4", 1, 4},
+        [LAM_CHECK_TYPE_MAT3] = {"mat3", 3, 3},
+        [LAM_CHECK_TYPE_MAT4] = {"mat4", 4, 4},
+        [LAM_CHECK_TYPE_SAMPLER2D] = {"sampler2D", 1, 4},
+    };
+    return (size_t)type < sizeof shapes / sizeof *shapes ? shapes[type] : shapes[LAM_CHECK_TYPE_OTHER];
+}
+
+bool place_open(struct place *p, const lam_check_painter *painter, lam_check_language language, int size,
+                lam_error *error)
+{
+    *p = (struct place){.painter = *painter, .size = size};
+    if (!check_reserved("lam_check_painter", painter, error))
+        return false;
+    if (painter->es_only)
+        language = LAM_CHECK_LANGUAGE_ES;
+    p->place = painter->open(painter->user, language, size, p->renderer, error);
+    return p->place != NULL;
+}
+
+void place_close(struct place *p)
+{
+    if (p->place)
+        p->painter.close(p->place);
+    for (int i = 0; i < MESH_COUNT; i++) {
+        if (p->meshes[i].index_count)
+            reference_points_free(&p->points[i]);
+        free(p->normals[i]);
+    }
+    *p = (struct place){0};
+}
+
+static bool make_mesh(struct place *p, enum reference_mesh mesh, lam_error *error)
+{
+    struct reference_points *points = &p->points[mesh];
+    if (p->meshes[mesh].index_count)
+        return true;
+    if (!reference_points(mesh, points, error))
+        return false;
+    size_t count = (size_t)points->vertex_count;
+    float *four = p->normals[mesh] = malloc(count * 4 * sizeof *four);
+    if (!four) {
+        reference_points_free(points);
+        return fail_memory(error, count * 4 * sizeof *four);
+    }
+    for (size_t i = 0; i < count; i++) {
+        memcpy(four + 4 * i, points->normals + 3 * i, 3 * sizeof *four);
+        four[4 * i + 3] = 0;
+    }
+    p->meshes[mesh] = (lam_check_mesh){.number = (int)mesh,
+                                       .vertex_count = points->vertex_count,
+                                       .index_count = points->count,
+                                       .positions = points->positions,
+                                       .normals = four,
+                                       .tangents = points->tangents,
+                                       .indices = points->indices};
+    return true;
+}
+
+bool place_draw(struct place *p, enum reference_mesh mesh, const lam_check_drawing *drawing, float *pixels,
+                lam_error *error)
+{
+    if (!make_mesh(p, mesh, error))
+        return false;
+    lam_check_drawing whole = *drawing;
+    whole.mesh = &p->meshes[mesh];
+    return p->painter.draw(p->place, &whole, pixels, error);
+}
+
+int place_input(const lam_check_program *program, const char *name, bool attribute)
+{
+    for (int i = 0; i < program->input_count; i++)
+        if (program->inputs[i].attribute == attribute && strcmp(program->inputs[i].name, name) == 0)
+            return i;
+    return -1;
+}

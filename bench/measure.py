@@ -6,6 +6,7 @@ import os
 import signal
 import statistics
 import subprocess
+import sys
 import threading
 import time
 from typing import NamedTuple
@@ -35,7 +36,6 @@ class Taken(NamedTuple):
     """What a process took."""
     wall_ms: float
     cpu_ms: float  # of all its threads, in the program and in the system
-    peak_bytes: int
 
 
 def process(command, errors=os.devnull):
@@ -59,7 +59,15 @@ def process(command, errors=os.devnull):
             said = ""
         raise Failed("%s: %s: %s" % (" ".join(command[:3]), "did not end within %d s" % LONGEST_S if code == -signal.SIGKILL and
                                      wall > LONGEST_S * 1e3 else "exit %d" % code, said))
-    return Taken(wall, (used.ru_utime + used.ru_stime) * 1e3, used.ru_maxrss * 1024)
+    return Taken(wall, (used.ru_utime + used.ru_stime) * 1e3)
+
+
+def peak_bytes(command):
+    """The most memory that a process had. A fresh interpreter starts it: Linux counts what the process that calls posix_spawn has as
+    memory of the one that it starts."""
+    script = "import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL)\n" \
+             "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"
+    return int(output([sys.executable, "-c", script, *map(str, command)])) * 1024
 
 
 def whole_process(command, written):

@@ -3,7 +3,8 @@
 
 Writes bench/results/DATE.json, the tables and plots of docs/speed.md (report.py), and pictures to build-bench/pictures; the whole
 product DATE-full.json, row after row, and no page. `run.py WORD…` measures only the rows whose names have one of the words
-(`limits` and `growth` too), and writes build-bench/part.json instead."""
+(`limits` and `growth` too), and writes build-bench/part.json instead; with BENCH=again it puts them into the newest result and its page:
+for rows that something disturbed."""
 import datetime
 import json
 import math
@@ -145,6 +146,21 @@ def save(result, path):
         file.write("\n")
 
 
+def into_newest(part):
+    """Puts the rows of a part into the newest result, which must be of the same day and version."""
+    path = os.path.join(paths.RESULTS, part["date"] + ".json")
+    with open(path, encoding="utf-8") as file:
+        result = json.load(file)
+    if result["version"] != part["version"] or result["machine"]["processor"] != part["machine"]["processor"]:
+        sys.exit("run.py: %s is of another version or machine" % path)
+    rows = {row["name"]: row for row in part["rows"]}
+    result["rows"] = [rows.get(row["name"], row) for row in result["rows"]]
+    result["frames"] = geometric_mean(result["rows"], result["isas"])
+    result.update({key: part[key] for key in ("limits", "distance", "growth") if part.get(key)})
+    save(result, path)
+    report.write_files(result)
+
+
 def main():
     full, words = os.environ.get("BENCH") == "full", sys.argv[1:]
     begun, busy = time.monotonic(), measure.busy_s() - measure.own_s()
@@ -190,6 +206,8 @@ def main():
     save(result, path)
     if not words and not full:
         report.write_files(result)
+    if words and os.environ.get("BENCH") == "again":
+        into_newest(result)
     reached, aimed = (sum(1 for row in result["rows"] if row["target"] != NO_TARGET and (row["reached"] or every)) for every in (0, 1))
     print("%d of %d targets reached, in %.0f s, others took %.0f %% of the processors' time; written: %s" % (
         reached, aimed, took, 100 * facts["share_of_others"], os.path.relpath(path, paths.ROOT)))

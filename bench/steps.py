@@ -84,8 +84,8 @@ def memory_of_10m(isas):
     path = scenes.model(10000000)
     picture = os.path.join(paths.PICTURES, "memory.png")
     size = os.path.getsize(path)
-    peaks = {isa: measure.process([paths.LAMBENT, "-q", path, "--samples", "1", "--isa", isa, "-o", picture]).peak_bytes for isa in isas}
-    peaks["4 samples"] = measure.process([paths.LAMBENT, "-q", path, "-o", picture]).peak_bytes
+    peaks = {isa: measure.peak_bytes([paths.LAMBENT, "-q", path, "--samples", 1, "--isa", isa, "-o", picture]) for isa in isas}
+    peaks["4 samples"] = measure.peak_bytes([paths.LAMBENT, "-q", path, "-o", picture])
     return {"bytes": peaks, "file_bytes": size, "ratio": {key: measure.spread([p / size]) for key, p in peaks.items()}, "peer": "the file"}
 
 

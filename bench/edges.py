@@ -7,12 +7,14 @@
 The first frame builds the bounding volume hierarchy and lists the edges; the next only finds what is hidden and draws."""
 import json
 import os
-import re
 import subprocess
 import sys
 import tempfile
 
-PAGE = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "docs", "edges.md")
+import made_part
+import paths
+
+PAGE = os.path.join(paths.ROOT, "docs", "edges.md")
 MODEL = ["torus-knot", "--segments", "1024x488", "-s", "1024", "--isa", "avx2", "--threads", "2"]
 KINDS = [["--wireframe"], ["--edges", "all"], ["--edges", "silhouette"], ["--edges", "crease"]]
 RUNS = 3
@@ -44,12 +46,7 @@ def main():
         print(line, flush=True)
         lines.append(line)
     if "--write" in sys.argv:
-        begin, end = "<!-- cost: made by bench/edges.py -->\n", "<!-- end of cost -->"
-        with open(PAGE, encoding="utf-8") as file:
-            text = file.read()
-        text = re.sub(re.escape(begin) + ".*?" + end, lambda _: begin + "\n".join(lines) + "\n" + end, text, flags=re.S)
-        with open(PAGE, "w", encoding="utf-8") as file:
-            file.write(text)
+        made_part.write(PAGE, "cost", "edges.py", lines)
 
 
 if __name__ == "__main__":

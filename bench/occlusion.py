@@ -9,11 +9,11 @@ cells of two by two pixels. Bytes are the same everywhere, and so are these numb
 import array
 import concurrent.futures
 import os
-import re
 import subprocess
 import sys
 import tempfile
 
+import made_part
 import paths
 
 SIZES, RAYS = (256, 640), 64
@@ -81,12 +81,7 @@ def main():
         print(line, flush=True)
         lines.append(line)
     if write:
-        begin, end = "<!-- difference: made by bench/occlusion.py -->\n", "<!-- end of difference -->"
-        with open(PAGE, encoding="utf-8") as file:
-            text = file.read()
-        text = re.sub(re.escape(begin) + ".*?" + end, lambda _: begin + "\n".join(lines) + "\n" + end, text, flags=re.S)
-        with open(PAGE, "w", encoding="utf-8") as file:
-            file.write(text)
+        made_part.write(PAGE, "difference", "occlusion.py", lines)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ Inputs that reach something new are kept in build-fuzz/corpus/TARGET, so that th
 badly are written to build-fuzz/finds, and their names are printed. One line for each target: executions, coverage at the
 beginning and at the end, finds. Exit code 1: there is one.
 """
+import glob
 import os
 import re
 import shutil
@@ -70,8 +71,7 @@ def dictionary(target):
     lines = []
     for place in WORDS.get(target, []):
         path = os.path.join(ROOT, place)
-        sources = [path] if os.path.isfile(path) else [os.path.join(path, name) for name in sorted(os.listdir(path))
-                                                       if name.endswith(".c")]
+        sources = [path] if os.path.isfile(path) else sorted(glob.glob(os.path.join(path, "**", "*.c"), recursive=True))
         for source in sources:
             for line in open(source):
                 if not line.startswith(("#", "//")):

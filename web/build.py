@@ -32,7 +32,8 @@ def call(*command):
     return done.stdout
 
 
-# The page's scripts begin here; what they import is found in them (modules_of).
+# The page's scripts begin here; what they import is found in them (modules_of), and what they fetch when it is used, import('./NAME.js'), too
+# (later_modules_of).
 PAGE = "page.js"
 WORKER = "worker.js"
 
@@ -59,11 +60,14 @@ def with_files(page, files):
 
 
 def page_file(name):
+    """A file of the page, a script without the lines that are comments alone: the page loads sooner."""
     path = os.path.join(HERE, "page", name)
-    return open(path if os.path.exists(path) else os.path.join(HERE, name)).read()
+    text = open(path if os.path.exists(path) else os.path.join(HERE, name)).read()
+    return re.sub(r"^[ \t]*//.*\n", "", text, flags=re.M) if name.endswith(".js") else text
 
 
 IMPORT = re.compile(r"^import (?:(\{[^}]*\}) from )?'\./([\w.]+)';\n", re.M)
+LATER = re.compile(r"\bimport\('\./([\w.]+)'\)")
 
 
 def modules_of(name, above=()):
@@ -76,14 +80,30 @@ def modules_of(name, above=()):
     return found + [name]
 
 
+def later_modules_of(first):
+    """What a script fetches when it is used: the modules of its import('./NAME.js'), and what these import that it has not from its start."""
+    found = modules_of(first)
+    start = len(found)
+    for name in found: # which grows
+        for other in LATER.findall(page_file(name)):
+            found += [module for module in modules_of(other) if module not in found]
+    return found[start:]
+
+
 def plain_script(first):
-    """Modules as one script: each is a function that returns its exports, so that names at the top of two of them do not collide. Modules
-    import by name alone, and do not await at the top."""
+    """Modules as one script: each is a function that returns its exports, so that names at the top of two of them do not collide. Those of the
+    start are called where they stand, and those that are fetched when they are used, at their first use. Modules import by name alone, and do not
+    await at the top."""
     out = []
-    for name in modules_of(first):
+    later = later_modules_of(first)
+
+    def module(name):
+        return "module_" + re.sub(r"\W", "_", name) + ("()" if name in later else "")
+
+    for name in modules_of(first) + later:
         variable = "module_" + re.sub(r"\W", "_", name)
-        text = IMPORT.sub(lambda m: "const %s = module_%s;\n" % (m[1].replace(" as ", ": "), re.sub(r"\W", "_", m[2])) if m[1] else "",
-                          page_file(name))
+        text = IMPORT.sub(lambda m: "const %s = %s;\n" % (m[1].replace(" as ", ": "), module(m[2])) if m[1] else module(m[2]) + ";\n", page_file(name))
+        text = LATER.sub(lambda m: "Promise.resolve().then(() => %s)" % module(m[1]), text)
         listed = [word.strip() for group in re.findall(r"^export \{(.*)\};\n", text, flags=re.M) for word in group.split(",")]
         text = re.sub(r"^export \{.*\};\n", "", text, flags=re.M)
         declared = re.findall(r"^export (?:async )?(?:function|class|const|let) ([\w$]+|\{[^}]*\})", text, flags=re.M)
@@ -91,7 +111,8 @@ def plain_script(first):
         text = re.sub(r"^export ", "", text, flags=re.M)
         if re.search(r"^(import|export)\b", text, flags=re.M):
             sys.exit("web: %s: an import or export in a form that the one-file page cannot have" % name)
-        out.append("const %s = (() => {\n%sreturn { %s };\n})();\n" % (variable, text, ", ".join(exports)))
+        made = "(() => {\n%sreturn { %s };\n})()" % (text, ", ".join(exports))
+        out.append("function %s() { return %s.made ??= %s; }\n" % (variable, variable, made) if name in later else "const %s = %s;\n" % (variable, made))
     return "".join(out)
 
 
@@ -119,7 +140,7 @@ def make_page(folder, wasm):
     """The page as files that a server serves, and as one file that works by itself."""
     served = os.path.join(folder, "page")
     os.makedirs(served, exist_ok=True)
-    for name in modules_of(PAGE) + modules_of(WORKER) + ["index.html", "page.css", "lambent.d.ts"]:
+    for name in modules_of(PAGE) + later_modules_of(PAGE) + modules_of(WORKER) + ["index.html", "page.css", "lambent.d.ts"]:
         open(os.path.join(served, name), "w").write(page_file(name))
     shutil.copy(wasm, os.path.join(served, "lambent.wasm"))
     make_offline(served)

@@ -7,6 +7,9 @@ import os
 import re
 import sys
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import build  # noqa: E402
+
 # Parts of the module: title, and what the object of a symbol is called in the map. The first that fits.
 PARTS = [
     ("drawing: the kernels with SIMD", r"cpu-wasm\.a\.p"),
@@ -19,6 +22,8 @@ PARTS = [
     ("texts: option summaries, messages", r"<internal>.*rodata"),
     ("geometry, environments, shadows, edges, other pictures", r""),
 ]
+
+FIRST = "all that loads first"
 
 
 def parts_of(map_path):
@@ -47,16 +52,23 @@ def table(folder):
     rows = [(title, size, None) for title, size in parts_of(os.path.join(folder, "wasm", "web", "lambent.map")).items()]
     rows.append(("the module", os.path.getsize(module), packed(module)))
     page = os.path.join(folder, "page")
-    files = [os.path.join(page, name) for name in os.listdir(page) if name.endswith((".js", ".html", ".css"))]
-    rows.append(("scripts, page and style", sum(os.path.getsize(f) for f in files), sum(packed(f) for f in files)))
-    rows.append(("all that loads first", rows[-2][1] + rows[-1][1], rows[-2][2] + rows[-1][2]))
+    later = build.later_modules_of(build.PAGE)
+    files = [name for name in os.listdir(page) if name.endswith((".js", ".html", ".css"))]
+
+    def of(title, names):
+        paths = [os.path.join(page, name) for name in names]
+        return title, sum(os.path.getsize(path) for path in paths), sum(packed(path) for path in paths)
+
+    rows.append(of("scripts, page and style", [name for name in files if name not in later]))
+    rows.append((FIRST, rows[-2][1] + rows[-1][1], rows[-2][2] + rows[-1][2]))
+    rows.append(of("scripts that are fetched when they are used", [name for name in files if name in later]))
     return rows
 
 
 def main():
     print("| part | kB | kB after gzip |\n|---|---|---|")
     for title, size, small in table(sys.argv[1] if len(sys.argv) > 1 else "build-web"):
-        print("| %s | %d | %s |" % (title, round(size / 1000), round(small / 1000) if small else ""))
+        print("| %s | %d | %s |" % (title, round(size / 1000), "" if small is None else round(small / 1000)))
 
 
 if __name__ == "__main__":

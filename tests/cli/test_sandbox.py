@@ -42,7 +42,7 @@ class Sandbox(Case):
                       ["explain", "cube.obj", "8,8", "-s", 16], ["lights", "cube.obj"], ["shader", "cube.obj", "-o", "text"],
                       ["compare", "cube.obj", "--sheet", "stages", "-s", 40, "-o", "sheet.png"], ["compare", "cube.obj", "--sheet", "stages", "-s", 40],
                       ["diff", "cube.png", "cube.png", "-o", "difference.png"], ["cube.obj", "-s", 16, "--save-scene", "saved.json"], ["saved.json", "-s", 16],
-                      ["cube.obj", "teapot", "-s", 16, "-o", "two/"], ["cube.obj", "-o", "-", "-s", 8]):
+                      ["cube.obj", "teapot", "-s", 16, "-o", "two/"], ["torus", "cube.obj", "-s", 16, "-o", "three/"], ["cube.obj", "-o", "-", "-s", 8]):
             self.good(*words, *REQUIRE)
         self.assertTrue((self.folder / "new/below/cube.png").exists() and (self.folder / "sheet.png").exists() and (self.folder / "text.frag").exists())
         os.mkfifo(self.folder / "pipe")

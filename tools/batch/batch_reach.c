@@ -52,9 +52,11 @@ static void add_folder(struct sandbox_paths *paths, char *folder)
     free(folder);
 }
 
-// A model whose folder is that of the model before adds nothing, unless it is a link, which may lead elsewhere.
+// A model whose folder is that of the model before adds nothing, unless it is a link, which may lead elsewhere. A shape
+// has no folder.
 static bool is_within_reach(const char *model, const char *before)
 {
+    before = before && lam_shape_find(before) < 0 ? before : NULL;
     const char *slash = strrchr(model, '/'), *other = before ? strrchr(before, '/') : NULL, *dot = strrchr(model, '.');
     struct stat about;
     size_t length = slash ? (size_t)(slash - model) : 0;

@@ -12,6 +12,7 @@
 #include "json.h"
 #include "output.h"
 #include "report.h"
+#include "terminal.h"
 
 // With --jobs each job names its model and its picture, and there is no list to go on with.
 static bool check_jobs(int operands, const struct options *o, lam_error *error)
@@ -44,6 +45,8 @@ static bool check(int operands, const struct options *o, lam_error *error)
     if (o->output && strcmp(o->output, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT,
                         "batch: pictures are files; name a folder, -o pictures/, or a pattern");
+    if (o->term != TERM_AUTO && o->term != TERM_OFF)
+        return complain(error, LAM_BAD_ARGUMENT, "batch: option '--term' shows one picture, and batch draws many");
     if (o->save_scene)
         return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' goes only with a single model");
     return job_check_options(o, error);

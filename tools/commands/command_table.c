@@ -68,7 +68,7 @@ const struct command command_table[] = {
     [COMMAND_plot] = {"plot", "attenuation|spot|highlight [CURVE...]",
                       "Plot a law of light as curves (PNG or SVG), and print its numbers.",
                       ABOUT | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
-                          TAKES_QUIET | TAKES_FILES,
+                          TAKES_QUIET | TAKES_FILES | TAKES_TERM,
                       .min_operands = 1, .max_operands = -1, .defaults = plot_defaults},
     [COMMAND_lights] = {"lights", "MODEL",
                         "Print the lights of a model, or of the rig if it has none, in scene file form.",

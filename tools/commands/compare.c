@@ -14,6 +14,7 @@
 #include "json.h"
 #include "output.h"
 #include "report.h"
+#include "terminal.h"
 #include "sheet.h"
 #include "sheet_defaults.h"
 #include "sandbox_start.h"
@@ -389,9 +390,10 @@ static bool check(const struct options *o, const char *model, const char *path, 
     if (strcmp(model, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT,
                         "compare reads the model once for each picture, so it cannot read '-' (standard input)");
+    if (!terminal_start(o, true, error))
+        return false;
     if (strcmp(path, "-") == 0)
-        return !isatty(STDOUT_FILENO) ||
-               complain(error, LAM_BAD_ARGUMENT, "standard output is a terminal, and the picture is not text");
+        return !isatty(STDOUT_FILENO) || terminal_shows() || terminal_refuse("compare MODEL", error);
     if (!output_format(path, &format, error))
         return false;
     if (format != LAM_RGBA8)

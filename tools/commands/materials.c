@@ -3,12 +3,15 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "console.h"
 #include "interrupt.h"
 #include "json.h"
 #include "output.h"
 #include "report.h"
+#include "terminal.h"
 
 // Model units from a teapot's middle down to its caption's baseline.
 #define CAPTION_BELOW 0.83
@@ -236,17 +239,21 @@ int run_materials(int operand_count, char **operands, const struct options *opti
 {
     (void)operand_count, (void)operands;
     lam_error error = {0};
-    if (!options->output) {
+    if (!options->output && (options->term == TERM_AUTO || options->term == TERM_OFF)) {
         print_list(options);
         return 0;
     }
     interrupt_start();
-    char *path = output_path(options->output, "materials", ".png");
-    bool ok = path ? make_sheet(options, path, &error) : complain(&error, LAM_LIMIT, "out of memory");
+    const char *output = options->output ? options->output : "-"; // --term alone shows the sheet and writes no file
+    bool ok = terminal_start(options, true, &error);
+    if (ok && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO) && !terminal_shows())
+        ok = terminal_refuse("materials", &error);
+    char *path = ok ? output_path(output, "materials", ".png") : NULL;
+    ok = ok && (path ? make_sheet(options, path, &error) : complain(&error, LAM_LIMIT, "out of memory"));
     free(path);
     if (!ok)
         return report_failure(&error, options);
-    if (!output_is_stream(options->output))
+    if (!output_is_stream(output))
         print_list(options);
     return 0;
 }

@@ -12,6 +12,7 @@
 #include "limit_options.h"
 #include "output.h"
 #include "report.h"
+#include "terminal.h"
 #include "suggest.h"
 
 enum { TABLE_STEPS = 100 };
@@ -386,8 +387,10 @@ static bool draw_to(const struct plot *plot, const char *path, const struct opti
     const char *dot = strrchr(path, '.');
     bool svg = dot && strcmp(dot, ".svg") == 0, to_stdout = strcmp(path, "-") == 0;
     lam_pixel_format format;
-    if (to_stdout && isatty(STDOUT_FILENO))
-        return complain(error, LAM_BAD_ARGUMENT, "standard output is a terminal, and the picture is not text");
+    if (!terminal_start(o, true, error))
+        return false;
+    if (to_stdout && isatty(STDOUT_FILENO) && !terminal_shows())
+        return terminal_refuse("plot", error);
     if (!svg && !output_format(path, &format, error))
         return false;
     if (!svg && format != LAM_RGBA8)

@@ -4,12 +4,14 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "animate_frame.h"
 #include "batch_run.h"
 #include "batch_sources.h"
 #include "console.h"
 #include "job_check.h"
 #include "output.h"
 #include "report.h"
+#include "terminal.h"
 
 static bool check_together(int count, char **models, const struct options *o, lam_error *error)
 {
@@ -46,10 +48,11 @@ static bool check_together(int count, char **models, const struct options *o, la
             return complain(error, LAM_BAD_ARGUMENT,
                             "standard input is a terminal, expected a model: lambent - < FILE");
     }
-    if (o->output && strcmp(o->output, "-") == 0 && isatty(STDOUT_FILENO))
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "standard output is a terminal, and the picture is not text; "
-                        "redirect it: lambent MODEL -o - > FILE");
+    bool alone = count == 1 && !o->lists.count && o->view_count <= 1 && o->size_count <= 1 && !animation_wanted(o);
+    if (!terminal_start(o, alone, error))
+        return false;
+    if (o->output && strcmp(o->output, "-") == 0 && isatty(STDOUT_FILENO) && !terminal_shows())
+        return terminal_refuse("MODEL", error);
     return true;
 }
 

@@ -508,8 +508,10 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error)
         job->planned = job_load(job, progress, error) && job_arrange(job, progress, error);
         return job->planned;
     }
-    return job_draw(job, job->pixels, progress, error) && job_write(job, error) &&
-           (!job->options->save_scene || scene_settings_save(job, error));
+    bool ok = job_draw(job, job->pixels, progress, error);
+    if (ok && progress)
+        progress_end(progress); // the picture may go to the terminal
+    return ok && job_write(job, error) && (!job->options->save_scene || scene_settings_save(job, error));
 }
 
 bool job_run_view(struct job *job, int view, struct progress *progress, lam_error *error)

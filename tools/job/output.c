@@ -161,17 +161,37 @@ static bool write_stream(const char *path, const lam_bytes *bytes, lam_error *er
     return ok;
 }
 
+static output_show_fn *shows;
+
+void output_show_with(output_show_fn *show) { shows = show; }
+
+// Writes a picture whose PNG is known.
+static bool save_shown(const lam_image *image, const lam_bytes *png, const char *path, const lam_save_params *params,
+                       uint64_t *size, lam_error *error)
+{
+    const char *dot = strrchr(path, '.');
+    *size = 0;
+    if (output_is_stream(path) || (dot && strcmp(dot, ".png") == 0))
+        return strcmp(path, "-") == 0 || output_save_bytes(png, path, params->durable, size, error);
+    bool ok = output_make_folder(path, error) && lam_image_save(image, path, params, error);
+    *size = ok ? output_size(path) : 0;
+    return ok;
+}
+
 bool output_save(const lam_image *image, const char *path, const lam_save_params *params, uint64_t *size,
                  lam_error *error)
 {
-    if (!output_is_stream(path)) {
+    if (!output_is_stream(path) && !shows) {
         bool ok = output_make_folder(path, error) && lam_image_save(image, path, params, error);
         *size = ok ? output_size(path) : 0;
         return ok;
     }
     lam_bytes bytes = {0};
-    bool ok = lam_image_encode(image, "png", params, &bytes, error) &&
-              output_save_bytes(&bytes, path, params->durable, size, error);
+    bool ok = lam_image_encode(image, "png", params, &bytes, error);
+    if (ok && shows)
+        ok = save_shown(image, &bytes, path, params, size, error) && shows(&bytes, image, error);
+    else if (ok)
+        ok = output_save_bytes(&bytes, path, params->durable, size, error);
     lam_bytes_free(&bytes);
     return ok;
 }

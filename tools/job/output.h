@@ -41,6 +41,11 @@ bool output_format(const char *path, lam_pixel_format *format, lam_error *error)
 bool output_save(const lam_image *image, const char *path, const lam_save_params *params, uint64_t *size,
                  lam_error *error);
 
+// Shows each picture that output_save writes, as a PNG and as pixels (LAM_RGBA8); what goes to "-" is shown and not written.
+// NULL: none is shown.
+typedef bool output_show_fn(const lam_bytes *png, const lam_image *image, lam_error *error);
+void output_show_with(output_show_fn *show);
+
 // The same for encoded bytes; `durable` as in lam_save_params.
 bool output_save_bytes(const lam_bytes *bytes, const char *path, bool durable, uint64_t *size, lam_error *error);
 

@@ -7,6 +7,7 @@
 #include <lambent/check.h>
 
 #include "sandbox.h"
+#include "terminal.h"
 
 #define FIELD(name) .field = offsetof(struct options, name)
 
@@ -61,6 +62,15 @@ static const struct word term_words[] = {{"all", LAM_CHECK_TERM_ALL, NULL},
 static const struct word compress_words[] = {{"fast", LAM_COMPRESS_FAST, "some milliseconds for a million pixels"},
                                              {"best", LAM_COMPRESS_BEST, "the smallest file, in a second or two"},
                                              {NULL, 0, NULL}};
+
+static const struct word term_words_list[] = {
+    {"auto", TERM_AUTO, "where no file is named, and the terminal has one of the next three"},
+    {"kitty", TERM_KITTY, "the PNG itself: kitty, Ghostty, Konsole"},
+    {"iterm2", TERM_ITERM2, "the PNG itself: iTerm2, WezTerm"},
+    {"sixel", TERM_SIXEL, "256 colours: xterm, foot, mlterm; needs libchafa"},
+    {"blocks", TERM_BLOCKS, "characters in colour, on any terminal; needs libchafa"},
+    {"off", TERM_OFF, "never"},
+    {NULL, 0, NULL}};
 
 static const struct word color_mode_words[] = {
     {"srgb", LAM_COLOR_SRGB, "colours of files are decoded, lighting is linear, the picture is encoded"},
@@ -329,6 +339,17 @@ const struct option option_table[] = {
      "90 on, and those of every four below. WebP is lossless without the option and with 100. Other formats ignore "
      "it. The bytes depend on the version of the library that makes them, libjpeg-turbo or libwebp.",
      .store = store_integer, .others = "jpeg-quality webp-quality jpg lossy", FIELD(quality), .min = 1, .max = 100},
+    {"term", 0, GROUP_PICTURE, "HOW", "auto", "Show the picture in the terminal as well: how, or off.",
+     "A single picture without `-o` appears in a terminal that shows pictures, above the line that names its file, "
+     "which "
+     "is written as always; `-o -` shows it and writes no file. kitty, Ghostty, iTerm2 and WezTerm are known by the "
+     "environment; others are asked, for at most half a second. The picture becomes smaller where the window is. With "
+     "a word "
+     "other than `auto` the picture appears beside any `-o FILE` of 8 bits too. Nothing of this is sent where standard "
+     "output is not a terminal, with `--json` or `--quiet`, or for several models. Sixels and blocks need libchafa "
+     "(Debian's package `libchafa0`). `docs/terminal.md` says how a terminal is known.",
+     term_words_list, .store = store_word, .single = TAKES_TERM, .others = "terminal sixel kitty preview inline",
+     FIELD(term)},
     {"durable", 0, GROUP_PICTURE, NULL, NULL, "Go on only when a picture and its name are on the disk (fsync).",
      "After a loss of power the old picture is there or the new one, whole. Without the option the system writes them "
      "within seconds, and the same holds on most file systems.",

@@ -27,6 +27,7 @@ struct options {
     int compress;           // lam_compress
     int quality;            // 0: the format's own
     bool durable;
+    int term;          // enum term_kind (terminal.h)
     double exposure;   // stops, where the next is literal
     int exposure_kind; // enum exposure_kind
     const char *show;  // as written (show_option.h); NULL: the picture
@@ -179,6 +180,7 @@ enum {
     TAKES_MEMORY = 1u << 30,
     TAKES_PICTURE_LIMITS = 1u << 23,
     TAKES_REPORT = 1u << 22,
+    TAKES_TERM = 1u << 21,
 };
 
 // The name of a model that is made from formulas.

@@ -1,0 +1,169 @@
+// terminal.c: the option --term: a picture on standard output, in the protocol that the terminal has.
+//
+// kitty takes our PNG as it is, as base64 in pieces of at most 4096 characters (a=T: store and show; f=100: PNG; q=2: no answers
+// to read; m=1: more follows): https://sw.kovidgoyal.net/kitty/graphics-protocol/
+// iTerm2 takes it too, in one piece: https://iterm2.com/documentation-images.html
+#include "terminal.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base64.h"
+#include "console.h"
+#include "output.h"
+
+enum {
+    PIECE = 4096,
+    SIXEL = 6 // pixels, the height of a row of sixels
+};
+
+static struct terminal terminal = {.kind = TERM_OFF};
+static bool missing_chafa; // the terminal has sixels, and the library is not installed
+
+bool terminal_shows(void) { return terminal.kind != TERM_OFF; }
+
+static bool show(const lam_bytes *png, const lam_image *image, lam_error *error);
+
+// The name of a --term word.
+static const char *word_of(enum term_kind kind)
+{
+    static const char *const words[] = {[TERM_AUTO] = "auto",   [TERM_KITTY] = "kitty",   [TERM_ITERM2] = "iterm2",
+                                        [TERM_SIXEL] = "sixel", [TERM_BLOCKS] = "blocks", [TERM_OFF] = "off"};
+    return words[kind];
+}
+
+// What --term KIND needs of the command line and of the terminal.
+static bool check_asked(const struct options *o, bool alone, lam_error *error)
+{
+    const char *word = word_of((enum term_kind)o->term);
+    lam_pixel_format format = LAM_RGBA8;
+    if (!alone)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--term %s' shows one picture, expected one model and no animation", word);
+    if (o->json)
+        return complain(error, LAM_BAD_ARGUMENT, "options '--term %s' and '--json' both write to standard output",
+                        word);
+    if (output_is_named(o->output) && strcmp(o->output, "-") != 0 &&
+        (!lam_image_format_for(o->output, &format, NULL) || format != LAM_RGBA8))
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--term %s' shows pictures of 8 bits, found -o %.200s, expected .png, .jpg, .webp or "
+                        ".ppm",
+                        word, o->output);
+    return true;
+}
+
+bool terminal_start(const struct options *o, bool alone, lam_error *error)
+{
+    bool asked = o->term != TERM_AUTO && o->term != TERM_OFF;
+    if (o->term == TERM_OFF || o->dry_run)
+        return true;
+    if (asked && !isatty(STDOUT_FILENO)) {
+        if (!o->quiet)
+            say_warning("option '--term' shows nothing: standard output is not a terminal");
+        return true;
+    }
+    if (asked && !check_asked(o, alone, error))
+        return false;
+    bool to_stdout = o->output && strcmp(o->output, "-") == 0;
+    if (!asked && (!alone || o->json || o->quiet || (o->output && !to_stdout) || !isatty(STDOUT_FILENO)))
+        return true;
+    struct terminal found = terminal_probe(!asked || o->term == TERM_SIXEL);
+    if (asked)
+        found.kind = (enum term_kind)o->term;
+    if (found.kind == TERM_SIXEL || found.kind == TERM_BLOCKS) {
+        missing_chafa = !chafa_open(error);
+        if (missing_chafa && asked)
+            return false;
+        if (missing_chafa) {
+            if (o->verbose)
+                say_warning(error->text);
+            *error = (lam_error){0};
+            return true;
+        }
+    }
+    terminal = found;
+    output_show_with(terminal_shows() ? show : NULL);
+    return true;
+}
+
+bool terminal_refuse(const char *command, lam_error *error)
+{
+    if (missing_chafa)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "standard output is a terminal, and the picture is not text; the terminal has sixel graphics, "
+                        "for which libchafa is missing (Debian's package libchafa0)");
+    return complain(error, LAM_BAD_ARGUMENT,
+                    "standard output is a terminal, and the picture is not text; --term blocks draws it with "
+                    "characters, or redirect it: lambent %s -o - > FILE",
+                    command);
+}
+
+// The picture's size in the terminal: its own where it fits, and a line is left for the prompt.
+static struct chafa_size fit(const lam_image *image)
+{
+    const struct terminal *t = &terminal;
+    int rows = t->rows > 2 ? t->rows - 2 : 1;
+    double width = image->width, height = image->height;
+    double across = t->columns * (double)t->cell_width / width, down = rows * (double)t->cell_height / height;
+    double scale = across < down ? across : down;
+    scale = scale > 1 && t->kind != TERM_BLOCKS ? 1 : scale;
+    double cells[2] = {width * scale / t->cell_width, height * scale / t->cell_height};
+    struct chafa_size size = {.columns = (int)(cells[0] + 0.5),
+                              .rows = (int)(cells[1] + 0.5),
+                              .height = (int)(height * scale / SIXEL) * SIXEL};
+    size.columns = size.columns < 1 ? 1 : size.columns;
+    size.rows = size.rows < 1 ? 1 : size.rows;
+    size.height = size.height < SIXEL ? SIXEL : size.height;
+    size.width = (int)(width * size.height / height + 0.5);
+    size.width = size.width < 1 ? 1 : size.width;
+    return size;
+}
+
+// Whether the picture has to become smaller, and if so, whether its height is what is too much.
+static bool is_too_large(const lam_image *image, bool *tall)
+{
+    int rows = terminal.rows > 2 ? terminal.rows - 2 : 1;
+    double across = image->width / (terminal.columns * (double)terminal.cell_width);
+    double down = image->height / (rows * (double)terminal.cell_height);
+    *tall = down > across;
+    return across > 1 || down > 1;
+}
+
+static bool show_png(const lam_bytes *png, const lam_image *image, lam_error *error)
+{
+    size_t length;
+    char *text = base64_encode(png->data, png->size, &length), place[32] = "";
+    if (!text)
+        return complain(error, LAM_LIMIT, "out of memory");
+    // The terminal scales it, and finds the other side from the picture's.
+    bool tall, kitty = terminal.kind == TERM_KITTY;
+    struct chafa_size size = fit(image);
+    if (is_too_large(image, &tall))
+        snprintf(place, sizeof place, "%s=%d", kitty ? (tall ? ",r" : ",c") : (tall ? ";height" : ";width"),
+                 tall ? size.rows : size.columns);
+    if (!kitty)
+        printf("\033]1337;File=inline=1;size=%zu%s:%s\a", png->size, place, text);
+    for (size_t at = 0; kitty && at < length; at += PIECE) {
+        bool more = length - at > PIECE;
+        printf("\033_G");
+        if (at == 0)
+            printf("a=T,f=100,q=2%s,", place);
+        printf("m=%d;%.*s\033\\", more, (int)(more ? PIECE : length - at), text + at);
+    }
+    free(text);
+    return true;
+}
+
+static bool show(const lam_bytes *png, const lam_image *image, lam_error *error)
+{
+    struct chafa_size size = fit(image);
+    bool ok = terminal.kind == TERM_KITTY || terminal.kind == TERM_ITERM2
+                  ? show_png(png, image, error)
+                  : chafa_print(&terminal, image, &size, stdout, error);
+    if (ok && (putchar('\n') == EOF || fflush(stdout) != 0))
+        return complain(error, LAM_CANNOT_WRITE, "standard output: cannot write: %s", strerror(errno));
+    return ok;
+}

@@ -43,7 +43,8 @@ NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "scene", "render", "job", 
 # A slow input is a find too: SECONDS on a busy machine, under sanitizers, for an input of at most 16 KB.
 LIMITS = ["-timeout=10", "-rss_limit_mb=1200", "-malloc_limit_mb=600", "-max_len=%d" % SEED_BYTES, "-report_slow_units=5"]
 ENVIRONMENT = {
-    "ASAN_OPTIONS": "detect_leaks=1:allocator_may_return_null=1:intercept_tls_get_addr=0:max_allocation_size_mb=2000",
+    "ASAN_OPTIONS": "detect_leaks=1:allocator_may_return_null=1:intercept_tls_get_addr=0:max_allocation_size_mb=2000"
+                    ":quarantine_size_mb=16",  # as much as some inputs take: more would only be new pages to clear
     "LSAN_OPTIONS": "suppressions=%s:print_suppressions=0" % os.path.join(ROOT, "tests", "leaks.supp"),
     "UBSAN_OPTIONS": "halt_on_error=1:print_stacktrace=1",
 }

@@ -1,13 +1,15 @@
-// target_picture.c: fuzz target for drawing: triangles with any coordinates, pictures of any size. Every instruction set
-// must draw the same bytes; a sanitizer sees what overflows.
+// target_picture.c: fuzz target for drawing: triangles with any coordinates, pictures of at most 48×48 pixels. Two instruction
+// sets must draw the same bytes; a sanitizer sees what overflows.
 //
 // The first bytes of an input are the picture's width and height less one, and flags; then follow numbers of 16 bits
-// each, little-endian, the upper halves of floats: three for the camera's eye, then nine for each triangle.
+// each, little-endian, the upper halves of floats: three for the camera's eye, then nine for each triangle. How often the
+// largest side goes into a byte of the size chooses an instruction set; where both bytes choose the same one, it is
+// drawn beside C without vectors, and C without vectors beside the next one.
 #include "target.h"
 
 #include <string.h>
 
-enum { SIDE_MAX = 80, TRIANGLES_MAX = 64, HEAD = 3 + 6 };
+enum { SIDE_MAX = 48, TRIANGLES_MAX = 64, HEAD = 3 + 6 };
 enum flag { ORTHOGRAPHIC = 1, OWN_EYE = 2, TRANSLUCENT = 4, SHARED_CORNERS = 8, SAMPLES_SHIFT = 4, MIRRORED = 128 };
 
 // Always finite.
@@ -48,29 +50,41 @@ static lam_scene *scene_of(const uint8_t *data, size_t size, int flags)
     return NULL;
 }
 
-static void draw_everywhere(const lam_scene *scene, const lam_camera *camera, int width, int height, int samples)
+// The instruction sets that run here, in turn.
+static lam_isa isa_of(int number)
+{
+    lam_isa usable[LAM_ISA_COUNT];
+    int count = 0;
+    for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++)
+        if (lam_isa_usable((lam_isa)isa))
+            usable[count++] = (lam_isa)isa;
+    return usable[number % count];
+}
+
+static bool draw(lam_isa isa, const lam_scene *scene, const lam_camera *camera, int samples, lam_image *image)
 {
     static lam_device *devices[LAM_ISA_COUNT];
+    const lam_draw_params params = {.samples = samples, .rig = LAM_RIG_STUDIO};
+    lam_error error = {0};
+    if (!devices[isa] && !(devices[isa] = lam_device_cpu(&(lam_cpu_params){.threads = 1, .isa = isa}, &error)))
+        abort();
+    bool ok = lam_draw(devices[isa], scene, camera, &params, image, NULL, &error);
+    if (!ok && (error.code == LAM_OK || !error.text[0]))
+        abort();
+    return ok;
+}
+
+static void draw_twice(const lam_isa isa[2], const lam_scene *scene, const lam_camera *camera, int width, int height,
+                       int samples)
+{
     static uint8_t pixels[2][SIDE_MAX * SIDE_MAX * 4];
-    lam_draw_params params = {.samples = samples, .rig = LAM_RIG_STUDIO};
-    bool first = true, first_ok = false;
-    for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++) {
-        if (!lam_isa_usable((lam_isa)isa))
-            continue;
-        lam_error error = {0};
-        if (!devices[isa] &&
-            !(devices[isa] = lam_device_cpu(&(lam_cpu_params){.threads = 1, .isa = (lam_isa)isa}, &error)))
-            abort();
-        lam_image image = {.width = width, .height = height, .format = LAM_RGBA8, .pixels = pixels[!first]};
-        bool ok = lam_draw(devices[isa], scene, camera, &params, &image, NULL, &error);
-        if (!ok && (error.code == LAM_OK || !error.text[0]))
-            abort();
-        if (first)
-            first_ok = ok;
-        else if (ok != first_ok || (ok && memcmp(pixels[0], pixels[1], (size_t)width * (size_t)height * 4) != 0))
-            abort();
-        first = false;
+    bool ok[2];
+    for (int i = 0; i < 2; i++) {
+        lam_image image = {.width = width, .height = height, .format = LAM_RGBA8, .pixels = pixels[i]};
+        ok[i] = draw(isa[i], scene, camera, samples, &image);
     }
+    if (ok[0] != ok[1] || (ok[0] && memcmp(pixels[0], pixels[1], (size_t)width * (size_t)height * 4) != 0))
+        abort();
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -85,7 +99,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     lam_camera camera = lam_camera_fit(scene, width, height, &view);
     if (flags & OWN_EYE)
         camera.eye = (lam_vec3){(double)number(data + 3), (double)number(data + 5), (double)number(data + 7)};
-    draw_everywhere(scene, &camera, width, height, 1 << (flags >> SAMPLES_SHIFT & 7) % 5);
+    lam_isa isa[2] = {isa_of(data[0] / SIDE_MAX), isa_of(data[1] / SIDE_MAX)};
+    if (isa[0] == isa[1])
+        isa[0] = isa_of(0);
+    if (isa[0] == isa[1])
+        isa[1] = isa_of(1);
+    draw_twice(isa, scene, &camera, width, height, 1 << (flags >> SAMPLES_SHIFT & 7) % 5);
     lam_scene_free(scene);
     return 0;
 }

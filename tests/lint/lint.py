@@ -25,7 +25,7 @@ def commands(build):
 
 
 def cppcheck(files):
-    done = subprocess.run(["cppcheck", "-q", "-j", str(os.cpu_count()), "--enable=warning,portability,performance", "--inline-suppr", "--std=c11",
+    done = subprocess.run(["cppcheck", "-q", "-j", str(len(os.sched_getaffinity(0))), "--enable=warning,portability,performance", "--inline-suppr", "--std=c11",
                            "--language=c", "--suppressions-list=tests/lint/cppcheck.txt", "--suppress=missingIncludeSystem", "--suppress=unmatchedSuppression",
                            "-Iinclude", "-Isrc/base", "-Isrc/base/math", "-Isrc/lighting", "--template={file}:{line}: {id}: {message}", *files],
                           cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -42,7 +42,7 @@ def clang_tidy(found, build):
         done = subprocess.run(["clang-tidy", "-p", folder, "--quiet", path], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         return [line for line in done.stdout.splitlines() if re.search(r": (warning|error): ", line)]
 
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+    with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
         lines = [line for lines in pool.map(one, found) for line in lines]
     return sorted(set(lines))  # a header's finding once
 

@@ -38,7 +38,7 @@ bool batch_begin_pass(struct batch *b, int pass)
     size_t count = 0;
     if (interrupted() || b->failed)
         return false;
-    b->next = 0;
+    b->next = b->read_from = 0;
     for (size_t i = 0; i < b->plan->count; i++) {
         if (pass > 0)
             b->taken[i] = !reopen(b, i);
@@ -58,7 +58,8 @@ bool batch_take(struct batch *b, struct batch_task *task, bool waits)
     if (found) {
         *task = (struct batch_task){.plan = b->plan, .model = b->next++, .options_text = b->options_text};
         b->taken[task->model] = true;
-        pthread_cond_broadcast(&b->changed);
+        if (b->next >= b->read_from)
+            pthread_cond_signal(&b->moved);
     }
     pthread_mutex_unlock(&b->lock);
     return found;

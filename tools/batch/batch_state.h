@@ -48,12 +48,14 @@ struct batch {
     int workers, threads;                   // threads of each worker
     struct environment_cache *environments; // of all models; NULL: each process has its own
 
-    pthread_mutex_t lock; // of what follows
-    pthread_cond_t changed;
+    pthread_mutex_t lock;           // of what follows
+    pthread_cond_t changed;         // a worker is done
+    pthread_cond_t moved;           // `next` is at `read_from`, or a worker is done
     struct batch_picture *pictures; // of each model one after the other
     json_t **records;               // the same, for the page; NULL: it is not wanted
     bool *taken;                    // for each model: this pass has given it to a worker
     size_t next;                    // model that this pass looks at next
+    size_t read_from;               // where the thread that reads ahead goes on
     int drawing;                    // workers that are not done
     struct batch_tally tally;
     struct batch_texts texts;

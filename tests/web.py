@@ -47,6 +47,13 @@ PICTURES = [
 # Sentences: those of the program, but for its name before them.
 REFUSED = [["missing.obj"], ["teapot", "--sice", "4"], ["teapot", "--view", "frint"], ["broken.obj"], ["teapot", "--size", "0"],
            ["teapot", "--camera", "eye=1/2/3", "--view", "top"]]
+# Curves of a light of the picture, and what `lambent plot` is asked for instead: kind, curve, which of its curves, farthest.
+LAMP = "spot:position=1/2/3,attenuation=0.5/0.25/0.125,range=6,inner=10,outer=25"
+CURVES = [(["sphere", "--light", LAMP], {"light": 0, "farthest": 8, "shininess": 20, "reflection": "phong"},
+           [("attenuation", "attenuation", "0.5/0.25/0.125/6", 0, 8), ("spot", "spot", "inner=10,outer=25", 0, 90), ("highlight", "highlight", "20", 0, 90)]),
+          (["teapot", "--light", "point:position=1/2/3", "--light", "spot:position=0/0/3,cutoff=30,exponent=8"],
+           {"light": 1, "farthest": 4, "shininess": 50, "reflection": "blinn-phong"},
+           [("attenuation", "attenuation", "1/0/0", 0, 4), ("spot", "spot", "cutoff=30,exponent=8", 0, 90), ("highlight", "highlight", "50", 1, 90)])]
 EXPLAINED = [["cube.obj", "--size", "96"], ["torus-knot", "--size", "96", "--reflection", "phong"]]
 
 
@@ -116,7 +123,8 @@ def check_module(results, program):
     with tempfile.TemporaryDirectory() as folder:
         make_models(folder)
         tasks = [{"words": words, "ending": ending} for words, ending in PICTURES] + [{"words": words, "ending": "png"} for words in REFUSED]
-        tasks += [{"explain": words, "at": [48, 48]} for words in EXPLAINED] + [{"options": True}]
+        tasks += [{"explain": words, "at": [48, 48]} for words in EXPLAINED]
+        tasks += [{"curves": words, "of": of} for words, of, _ in CURVES] + [{"options": True}]
         done = subprocess.run(["node", os.path.join(ROOT, "tests/web/pictures.mjs"), module, folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               text=True, input="".join(json.dumps(task) + "\n" for task in tasks))
         lines = done.stdout.splitlines()
@@ -137,6 +145,12 @@ def check_module(results, program):
             run = native(program, folder, ["explain", words[0], "48,48", *words[1:], "--json"])
             got = json.loads(lines.pop(0))
             results.ok(got == json.loads(run.stdout), "module: explains " + " ".join(words), "found %s" % str(got)[:300])
+        for words, _, plots in CURVES:
+            curves = json.loads(lines.pop(0))
+            for name, kind, curve, which, farthest in plots:
+                run = native(program, folder, ["plot", kind, curve, "--to", str(farthest), "--json", "-o", os.path.join(folder, "plot.svg")])
+                wanted = [y for _, y in json.loads(run.stdout)["curves"][which]["points"]] if run.returncode == 0 else run.stderr
+                results.ok(curves.get(name) == wanted, "module: the curve of %s, %s" % (kind, curve), "found %s, plot has %s" % (str(curves)[:200], str(wanted)[:200]))
         options = {o["name"]: o for o in json.loads(lines.pop(0))["options"]}
         help_text = native(program, folder, ["--help"]).stdout
         listed = set(re.findall(r"^ +(?:-\w, )?--([\w-]+)", help_text, re.M))

@@ -80,6 +80,10 @@ export class Lambent {
   scene(words: string[]): Uint8Array;
   /** One pixel, in the form of `lambent explain --json`. */
   explain(words: string[], x: number, y: number): any;
+  /** A light's laws: 101 values each, from 0 to `farthest`, and from 0 to 90 degrees. */
+  curves(words: string[], of: { light: number; farthest: number; shininess: number; reflection: string }): { type: string; attenuation: number[]; spot: number[]; highlight: number[] };
+  /** The picture's lights in the form of a scene file, as `lambent lights` prints them. */
+  lights(words: string[]): any;
   options(): Options;
   /** The files have changed: the model is read anew. */
   forget(): void;

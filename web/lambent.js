@@ -69,6 +69,17 @@ export class Lambent {
     return this.#call('web_explain', this.#words(words), x, y);
   }
 
+  // The curves of a light of the picture: 101 values each of its attenuation up to a distance, its cone, and the highlight by degrees up to 90.
+  // `light`: its place in the explanation's list; `reflection`: the word of a model.
+  curves(words, { light, farthest, shininess, reflection }) {
+    return this.#call('web_curves', this.#words([...words, reflection]), light, farthest, shininess);
+  }
+
+  // The picture's lights in the form of a scene file, as `lambent lights` prints them.
+  lights(words) {
+    return this.#call('web_lights', this.#words(words));
+  }
+
   // The options of a picture, in the groups of the help; the names of shapes; the version.
   options() {
     return this.#call('web_options');

@@ -39,6 +39,16 @@ class Explain(Case):
         for c in range(4):
             self.assertAlmostEqual(total[c], told["sum"][c], 5)
 
+    def test_formulas_of_the_model(self):
+        for model, highlight, gated in (("phong", "max(r·v, 0)", True), ("blinn-phong", "max(n·h, 0)", True), ("lambert", None, True), ("kajiya-kay-lecture", None, False)):
+            triangle = self.told("sphere", "48,48", "--size", "96", "--reflection", model)["triangles"][0]
+            formulas = triangle["formulas"]
+            self.assertEqual(triangle["model"], model)
+            self.assertEqual((formulas["gated"], formulas["microfacet"]), (gated, False))
+            self.assertEqual(formulas["D"], "max(n·l, 0)" if gated else "sin(t,l)")
+            if highlight or gated:
+                self.assertEqual(formulas["base"], highlight)
+
     def test_methods(self):
         for shading in ("flat", "gouraud", "phong"):
             self.same_as_picture("torus-knot", "-s", "90x70", "--shading", shading)

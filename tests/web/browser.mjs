@@ -45,6 +45,12 @@ const fragment = (words) => '#' + words.map(encodeURIComponent).join('&');
 const commandOf = (page) => page.locator('#command').textContent();
 const undoIn = (page) => page.locator('#undo').click();
 
+// The tab of all options, with those that a text finds.
+async function find(page, words) {
+  await page.locator('#tab-options').click();
+  await page.locator('#search').fill(words);
+}
+
 // Waits until `f` is true in the page. (Playwright's own way evaluates a string there, which the policy refuses, as it should.)
 async function until(page, f, argument) {
   for (const end = Date.now() + 60000; Date.now() < end; await new Promise((done) => setTimeout(done, 20))) if (await page.evaluate(f, argument)) return;
@@ -175,17 +181,17 @@ async function touch() {
 async function controls() {
   const page = await start(START);
   const option = (name) => page.locator(`#option-${name}`);
-  await page.locator('#search').fill('shading');
+  await find(page, 'shading');
   await option('shading').selectOption('flat');
   await settled(page, 'shading');
   ok((await commandOf(page)).endsWith(' --shading=flat'), 'control: a choice', await commandOf(page));
-  await page.locator('#search').fill('wireframe');
+  await find(page, 'wireframe');
   await option('wireframe').check();
   await settled(page, 'wireframe');
   ok((await commandOf(page)).endsWith(' --shading=flat --wireframe'), 'control: a switch', await commandOf(page));
   await option('wireframe').uncheck();
   await settled(page, 'no wireframe');
-  await page.locator('#search').fill('wireframe-width');
+  await find(page, 'wireframe-width');
   await option('wireframe-width').fill('-1');
   await option('wireframe-width').press('Enter');
   await until(page, () => !document.getElementById('message').hidden);
@@ -208,14 +214,14 @@ async function controls() {
   await page.close();
 }
 
-async function pixels(page) {
-  const colors = await page.evaluate(() => {
-    const canvas = document.getElementById('canvas'), { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+async function pixels(page, id = 'canvas') {
+  const colors = await page.evaluate((name) => {
+    const canvas = document.getElementById(name), { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
     const bytes = data.filter((_, i) => i % 4 !== 3);
     let text = '';
     for (let i = 0; i < bytes.length; i += 8192) text += String.fromCharCode(...bytes.subarray(i, i + 8192));
     return btoa(text);
-  });
+  }, id);
   return createHash('sha256').update(Buffer.from(colors, 'base64')).digest('hex');
 }
 
@@ -223,7 +229,7 @@ async function pixels(page) {
 
 async function explained() {
   const page = await start(['sphere', '--size=200x200', '--background=#203040', '--samples=1']), at = await middle(page);
-  await page.mouse.click(at.x + at.width * 0.1, at.y - at.height * 0.1);
+  await page.mouse.click(at.x + at.width * 0.1025, at.y - at.height * 0.0975);
   await until(page, () => document.getElementById('explain').textContent.length > 100);
   const bytes = await page.evaluate(() => [...document.getElementById('canvas').getContext('2d').getImageData(120, 80, 1, 1).data]);
   const text = await page.locator('#explain').textContent();
@@ -232,6 +238,129 @@ async function explained() {
   await until(page, (before) => document.getElementById('explain').textContent !== before, text);
   ok(/100, 100/.test(await page.locator('#explain').textContent()), 'explain: Enter explains the middle');
   await page.close();
+}
+
+const explainedText = (page) => page.locator('#explain').textContent();
+const arrowsIn = (page) => page.evaluate(() => [...document.querySelectorAll('#overlay-arrows .arrow')].map((arrow) => ({ name: arrow.dataset.name, tip: arrow.dataset.tip.split(' ').map(Number), ring: Boolean(arrow.querySelector('.core > circle')) })));
+
+// Arrows where plane geometry has them: a ball of radius 1, seen from 5 away, half of the picture's height is 5 tan 15° there.
+async function arrows() {
+  const page = await start(['sphere', '--size=121x121', CAMERA, '--light=point:position=0/3/0']), at = await middle(page), before = await commandOf(page);
+  await page.locator('#tab-explain').click();
+  await until(page, () => document.querySelector('#pinned'));
+  const hover = async (right, up) => {
+    const text = await explainedText(page);
+    await page.mouse.move(at.x + right * at.height, at.y - up * at.height);
+    await until(page, (old) => document.getElementById('explain').textContent !== old && document.querySelector('#overlay-arrows .arrow'), text);
+  };
+  await hover(0, 0);
+  const middleArrows = await arrowsIn(page);
+  ok(same(middleArrows.map(({ name }) => name), ['n', 'v', 'l', 'r', 'h']), 'arrows: pointing at the picture shows n, v, l, r, h', JSON.stringify(middleArrows));
+  ok(middleArrows.filter(({ ring }) => ring).map(({ name }) => name).join('') === 'nv', 'arrows: what points to the eye is a ring', JSON.stringify(middleArrows));
+  await hover(30 / 121, 0);
+  const half = Math.tan(Math.PI / 12), slope = (30 / 121) * 2 * half, angle = Math.atan(slope);
+  // Where the ray meets the ball: 5 − t in depth.
+  const t = 5 * Math.cos(angle) - Math.sqrt(1 - (5 * Math.sin(angle)) ** 2), n = [t * Math.sin(angle), 5 - t * Math.cos(angle)], away = 5 - n[1];
+  const length = 0.2 * 2 * away * half, tip = 0.5 + (n[0] + length * n[0]) / (2 * (away - length * n[1]) * half);
+  const found = (await arrowsIn(page)).find(({ name }) => name === 'n');
+  ok(found && Math.abs(found.tip[0] / at.height - tip) < 0.004 && Math.abs(found.tip[1] / at.height - 0.5) < 0.004, 'arrows: the normal ends where geometry has it', `${found?.tip.map((x) => x / at.height)}, expected ${tip}`);
+  await page.mouse.move(at.x, at.y + at.height);
+  await until(page, () => !document.querySelector('#overlay-arrows .arrow'));
+  ok((await commandOf(page)) === before, 'arrows: pointing changes no command line');
+
+  // Pinned: numbers change with the picture, the point stays on the surface, Escape lets it go.
+  await page.mouse.click(at.x + 0.1 * at.height, at.y - 0.1 * at.height);
+  await until(page, () => !document.getElementById('pinned').hidden && document.querySelector('#overlay-arrows .arrow'));
+  await page.locator('#tab-lights').click();
+  const slider = page.locator('#panel-lights .lights .slider input').first(), old = await explainedText(page);
+  await slider.focus();
+  for (let i = 0; i < 4; i++) await slider.press('ArrowRight');
+  await settled(page, 'intensity');
+  await until(page, (text) => document.getElementById('explain').textContent !== text, old);
+  ok((await commandOf(page)) === `${before},intensity=1.2`, 'gesture: the slider of a light', await commandOf(page));
+  ok(/Pinned/.test(await page.locator('#pinned').textContent()) && !(await page.locator('#panel-lights').isHidden()), 'pinned: its numbers change with a slider');
+  const marked = await page.locator('#panel-lights .curve').first().getAttribute('aria-label'), said = /attenuation = .*? = ([\d.]+)D/.exec(await explainedText(page));
+  ok(/: at [\d.]+ it is 1$/.test(marked) && said?.[1] === '1', 'curves: the pinned point is marked', `${marked}; ${said}`);
+  const pixel = /Pixel (\d+), (\d+)/.exec(await explainedText(page)).slice(1).map(Number);
+  await page.locator('#canvas').press('ArrowRight');
+  await settled(page, 'turned');
+  await until(page, (x) => !document.getElementById('explain').textContent.includes(`Pixel ${x},`), pixel[0]);
+  const turned = /Pixel (\d+), (\d+)/.exec(await explainedText(page)).slice(1).map(Number);
+  // The point (x, y, z) of the ball, seen from 7.5° further around.
+  const across = (pixel[0] + 0.5) / 121 - 0.5, up = 0.5 - (pixel[1] + 0.5) / 121, ray = [across * 2 * half, up * 2 * half, -1], size = Math.hypot(...ray), u = ray.map((x) => x / size);
+  const meets = -5 * u[2] - Math.sqrt((5 * u[2]) ** 2 - 24), point = [meets * u[0], meets * u[1], 5 + meets * u[2]], a = Math.PI / 24;
+  const seen = [point[0] * Math.cos(a) - point[2] * Math.sin(a), point[1], point[0] * Math.sin(a) + point[2] * Math.cos(a)], wanted = (0.5 + seen[0] / (2 * (5 - seen[2]) * half)) * 121;
+  ok(Math.abs(turned[0] + 0.5 - wanted) < 1.5, 'pinned: the point stays on the surface when the camera turns', `${turned}, expected ${wanted}`);
+  await page.locator('#canvas').press('Alt+ArrowRight');
+  await until(page, (x) => !document.getElementById('explain').textContent.includes(`Pixel ${x},`), turned[0]);
+  ok(Number(/Pixel (\d+)/.exec(await explainedText(page))[1]) === turned[0] + 12, 'pinned: Alt and an arrow move the point by 12 pixels', await explainedText(page));
+  ok((await page.locator('#spoken').textContent()).length > 40, 'pinned: it is said as a sentence', await page.locator('#spoken').textContent());
+  await page.keyboard.press('Escape');
+  ok((await arrowsIn(page)).length === 0 && (await page.locator('#pinned').isHidden()), 'pinned: Escape lets it go');
+  await page.close();
+}
+
+// --- before and now, the lights of the program, the scene file
+
+async function compared() {
+  const page = await start(['torus-knot', '--size=96x96', '--background=white']);
+  const beforePixels = async (words) => {
+    await until(page, (wanted) => document.getElementById('before')?.dataset.drawn === wanted, JSON.stringify(words));
+    return pixels(page, 'before');
+  };
+  await page.locator('#compare').click();
+  await until(page, () => document.getElementById('divider'));
+  await page.locator('#tab-quick').click();
+  await page.locator('#quick-shading').selectOption('flat');
+  await settled(page, 'flat');
+  await page.locator('#canvas').press('ArrowRight');
+  await settled(page, 'turned');
+  const camera = /--camera=\S+/.exec(await commandOf(page))[0], words = ['torus-knot', '--size=96x96', '--background=white', camera];
+  console.log(`pixels ${JSON.stringify({ command: ['lambent', ...words].join(' '), hash: await beforePixels(words) })}`);
+  console.log(`pixels ${JSON.stringify({ command: await commandOf(page), hash: await pixels(page) })}`);
+  const divider = page.locator('#divider');
+  await divider.press('Shift+ArrowRight');
+  await divider.press('ArrowLeft');
+  ok((await divider.getAttribute('aria-valuenow')) === '58', 'before and now: keys move the line', await divider.getAttribute('aria-valuenow'));
+  const box = await divider.boundingBox(), at = await middle(page);
+  await drag(page, [box.x + box.width / 2, at.y], [at.x - at.width / 4 - box.x - box.width / 2, 0]);
+  ok((await divider.getAttribute('aria-valuenow')) === '25', 'before and now: a drag moves the line', await divider.getAttribute('aria-valuenow'));
+  await page.getByRole('button', { name: 'Swap' }).click();
+  await settled(page, 'swapped');
+  ok(!(await commandOf(page)).includes('flat'), 'before and now: swapped', await commandOf(page));
+  await page.locator('#compare').click();
+  ok((await page.locator('#before').count()) === 0, 'before and now: it ends');
+  await page.close();
+}
+
+async function lights() {
+  for (const words of [['teapot', '--size=96x96', '--background=white'], ['cube', '--size=96x96', '--background=white', '--rig=lecture', '--shadows']]) {
+    const page = await start(words), hash = await pixels(page);
+    await page.locator('#tab-lights').click();
+    await page.getByRole('button', { name: 'Write out the lights' }).click();
+    await until(page, () => /--light/.test(document.getElementById('command').textContent));
+    await settled(page, 'lights written out');
+    ok((await pixels(page)) === hash, `lights are written out: the same picture of ${words.join(' ')}`, await commandOf(page));
+    console.log(`pixels ${JSON.stringify({ command: await commandOf(page), hash })}`);
+    const [download] = await Promise.all([page.waitForEvent('download'), page.locator('#save-scene').click()]), scene = JSON.parse(readFileSync(await download.path(), 'utf8'));
+    ok(scene.lambent === 1 && scene.lights.length > 0 && download.suggestedFilename() === `${words[0]}.json`, 'the scene file is saved', JSON.stringify(scene).slice(0, 300));
+    await page.close();
+  }
+}
+
+// The picture fills a large window, and the first one has the window's size.
+async function sizes() {
+  const large = await browser.newContext({ viewport: { width: 2200, height: 1200 } });
+  const page = await start(['sphere', '--size=64x48'], large), room = await page.locator('#view').boundingBox(), box = await page.locator('#canvas').boundingBox();
+  ok(Math.abs(box.height - room.height) < 2 || Math.abs(box.width - room.width) < 2, 'the picture fills the stage', JSON.stringify([box, room]));
+  ok(Math.abs(box.width / box.height - 4 / 3) < 0.01, 'the picture keeps its shape');
+  const first = await openPage(origin, large);
+  await drawn(first, 'first picture');
+  const [, width, height] = /--size=(\d+)x(\d+)/.exec(await commandOf(first)).map(Number);
+  ok(width * height > 1.2e6 && width * height <= 1.6e6, 'the first picture has a size for the window', await commandOf(first));
+  await until(first, () => document.querySelector('.handle'));
+  ok(!(await first.evaluate(() => document.querySelector('.handle').classList.contains('out'))), 'the handle of its light is in the picture');
+  await large.close();
 }
 
 // --- files and folders, as the system drops them
@@ -319,7 +448,7 @@ async function accessible() {
   const unnamed = nodes.filter((node) => !node.ignored && property(node, 'focusable') && !node.name?.value && node.role.value !== 'RootWebArea' && node.role.value !== 'scrollable');
   ok(nodes.length > 100 && !unnamed.length, 'whatever has the focus has a name', JSON.stringify(unnamed.map((node) => [node.role.value, node.properties])).slice(0, 500));
   const roleOf = (name) => nodes.find((node) => node.name?.value?.includes(name))?.role.value;
-  ok(roleOf('The model') === 'application' && nodes.some((node) => node.role.value === 'searchbox') && nodes.some((node) => node.role.value === 'combobox'), 'roles: the picture, the search, the choice of a model');
+  ok(roleOf('The model') === 'application' && nodes.some((node) => node.role.value === 'tab') && nodes.some((node) => node.role.value === 'combobox'), 'roles: the picture, the tabs, the choice of a model');
   ok(nodes.some((node) => node.role.value === 'main') && nodes.some((node) => node.role.value === 'contentinfo') && nodes.some((node) => node.role.value === 'complementary'), 'roles: main, the options, the footer');
   const order = [];
   for (let i = 0; i < 400; i++) {
@@ -328,7 +457,7 @@ async function accessible() {
     if (at === 'BODY') break;
     order.push(at);
   }
-  const wanted = ['model', 'open', 'open-folder', 'save', 'canvas', 'search', 'command', 'copy-command', 'copy-link'];
+  const wanted = ['model', 'open', 'open-folder', 'save', 'canvas', 'tab-quick', 'quick-shading', 'command', 'copy-command', 'copy-link'];
   ok(same(order.filter((id) => wanted.includes(id)).slice(0, wanted.length), wanted), 'the focus goes from the bar to the picture, the options, the command', order.join(' '));
   await page.setViewportSize({ width: 320, height: 640 });
   ok(await page.evaluate(() => document.documentElement.scrollWidth <= 320), '320 pixels wide: nothing is wider');
@@ -343,6 +472,11 @@ async function accessible() {
 async function pseudo() {
   const page = await openPage(`${origin}?locale=pseudo${fragment(START)}`);
   await drawn(page, 'pseudo-locale');
+  await page.locator('#tab-options').click();
+  await page.locator('#tab-lights').click();
+  await page.locator('#compare').click();
+  await until(page, () => document.getElementById('divider') && document.querySelector('#panel-lights button') && document.querySelector('#options details'));
+  await page.locator('#tab-explain').click();
   await page.locator('#canvas').press('Enter');
   await until(page, () => document.getElementById('explain').textContent.length > 100);
   const escaped = await page.evaluate(() => {
@@ -385,7 +519,7 @@ async function sequence(page, seed) {
     else if (act === 5) await page.locator('#model').selectOption(shapes[pick(3)]);
     else if (act < 8) {
       const [name, words] = CHOICES[pick(CHOICES.length)], control = page.locator(`#option-${name}`);
-      await page.locator('#search').fill(name);
+      await find(page, name);
       const there = await control.locator('option').evaluateAll((list) => list.map((o) => o.value));
       const offered = words.filter((word) => there.includes(word));
       if (offered.length) await control.selectOption(offered[pick(offered.length)]);
@@ -405,7 +539,7 @@ async function sequencesOf(count) {
   await page.close();
 }
 
-const parts = { gestures, touch, controls, explained, files, oneFile, offline, accessible, ...(await hasTable() ? { pseudo } : {}), random: () => sequencesOf(Number(sequences)) };
+const parts = { gestures, touch, controls, explained, arrows, compared, lights, sizes, files, oneFile, offline, accessible, ...(await hasTable() ? { pseudo } : {}), random: () => sequencesOf(Number(sequences)) };
 
 async function hasTable() {
   try {

@@ -3,7 +3,10 @@
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync } from 'node:fs';
 import { around, cameraText, orbit, pan, project, shifted, zoom } from '../../web/page/camera.js';
-import { lightText, movedTo, newLight, parseLight, placeOf, withCone } from '../../web/page/lights.js';
+import { dirname, join } from 'node:path';
+import { open } from '../../web/lambent.js';
+import { lightEquations, sumEquation } from '../../web/page/equations.js';
+import { lightText, lightWords, movedTo, newLight, parseLight, placeOf, withCone } from '../../web/page/lights.js';
 import { pseudo, stringKeys, text } from '../../web/page/strings.js';
 import { State, command, fromFragment, quoted, toFragment } from '../../web/page/state.js';
 
@@ -68,6 +71,40 @@ ok(placeOf(parseLight('hemisphere'), camera, ball) === null && placeOf(parseLigh
 ok(newLight('point', [], 0).startsWith('+point:') && newLight('spot', ['point'], 1).startsWith('spot:'), 'a new light stands beside the others');
 const seen = project(camera, [5 * Math.tan(Math.PI / 12), 0, 0], 2);
 ok(near([seen.x, seen.y], [0.75, 0.5]) && project(camera, [0, 0, 9], 1).behind, 'a point where the picture shows it');
+
+// Equations: the right side, computed, is the number that the program gives. A triple counts as its red, green, blue.
+const lambent = await open(readFileSync(join(dirname(process.argv[2]), 'wasm', 'web', 'lambent.wasm')));
+function computed(values, channel) {
+  const one = values.replace(/\((-?[\d.e+-]+), (-?[\d.e+-]+), (-?[\d.e+-]+)\)/g, (...parts) => `(${parts[1 + channel]})`);
+  const script = one.replaceAll('·', '*').replaceAll('−', '-').replaceAll('^', '**').replace(/\b(min|max)\(/g, 'Math.$1(');
+  if (!/^[-\d.e+*/() ,Mathminax]*$/.test(script)) throw new Error(values);
+  return Function(`return ${script}`)();
+}
+const EQUATIONS = [['teapot'], ['teapot', '--reflection=phong', '--material=brass'], ['sphere', '--light=spot:position=0/0/4,cutoff=40,exponent=3,attenuation=0.5/0.1/0.05,range=6', '--ambient=0.2'],
+  ['torus-knot', '--material=metallic=0.4,roughness=0.5,color=#c9a227', '--light=directional:direction=-1/-1/-1'], ['teapot', '--reflection=oren-nayar'], ['teapot', '--shadows', '--shading=gouraud'],
+  ['sphere', '--reflection=lambert', '--rig=lecture'], ['sphere', '--light=point:position=0/0/-4']];
+let checked = 0;
+for (const words of EQUATIONS) {
+  const pixel = lambent.explain([...words, '--size=96'], 46, 44), triangle = pixel.triangles[0], wrong = [];
+  for (const point of triangle.points)
+    for (const { name, values, result } of [sumEquation(point), ...point.lights.flatMap((light) => lightEquations(triangle, point, light))]) {
+      if (!values) continue;
+      checked++;
+      for (const channel of [0, 1, 2]) {
+        const wanted = Array.isArray(result) ? result[channel] : result, found = computed(values, channel);
+        // Four digits to a power of up to 128.
+        if (!(Math.abs(found - wanted) <= 0.03 * Math.abs(wanted) + 1e-9)) wrong.push(`${name}: ${values} is ${found}, the program has ${wanted}`);
+      }
+    }
+  ok(!wrong.length, `equations: ${words.join(' ')}${wrong.map((one) => `: ${one}`).join('')}`);
+}
+ok(checked > 50, `equations: ${checked} were computed`);
+
+// The lights of a picture as words draw the same picture.
+for (const words of [['teapot'], ['torus-knot', '--rig=three-point', '--shadows'], ['cube', '--rig=headlight']]) {
+  const all = [...words, '--size=64'], { lights } = lambent.lights(all), own = [...all.filter((word) => !word.startsWith('--rig')), ...lights.map((light) => `--light=${lightWords(light)}`)];
+  ok(lights.length > 0 && Buffer.compare(lambent.save(all, 'png'), lambent.save(own, 'png')) === 0, `the lights as words: ${words.join(' ')}`);
+}
 
 // The strings: every key that a script or the page names is in the table, and each of the table is named; a pseudo-locale keeps {names}.
 const sources = readdirSync(new URL('../../web/page', import.meta.url)).filter((name) => /\.(js|html)$/.test(name))

@@ -1,6 +1,6 @@
 // pictures.mjs MODULE FOLDER: reads command lines from standard input, one JSON list of words on a line, whose files are those of
 // FOLDER by their names; writes one line for each: the file's SHA-256, or the sentence of the error. A line {"explain": [words], "at": [x, y]}
-// gives the explanation, and {"options": true} the options.
+// gives the explanation, {"curves": [words], "of": {...}} the curves of a light, and {"options": true} the options.
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync, statSync } from 'node:fs';
 import { join } from 'node:path';
@@ -15,6 +15,7 @@ for (const line of readFileSync(0, 'utf8').split('\n').filter(Boolean)) {
   const task = JSON.parse(line);
   try {
     if (task.options) console.log(JSON.stringify(lambent.options()));
+    else if (task.curves) console.log(JSON.stringify(lambent.curves(task.curves, task.of)));
     else if (task.explain) console.log(JSON.stringify(lambent.explain(task.explain, ...task.at)));
     else console.log(createHash('sha256').update(lambent.save(task.words, task.ending)).digest('hex'));
   } catch (error) {

@@ -282,6 +282,102 @@ int web_explain(int count, int x, int y)
     return code;
 }
 
+enum { CURVE_STEPS = 100 };
+
+static void curve_json(struct json *json, const char *key, double farthest, const lam_light *light,
+                       double value(const lam_light *light, double x))
+{
+    json_open(json, key, '[');
+    for (int k = 0; k <= CURVE_STEPS; k++)
+        json_number(json, NULL, value(light, (double)(float)(farthest * k / CURVE_STEPS)));
+    json_close(json, ']');
+}
+
+static double attenuation_value(const lam_light *light, double x)
+{
+    return (double)lam_attenuation_at(light, (float)x);
+}
+static double spot_value(const lam_light *light, double x) { return (double)lam_spot_at(light, radians(x)); }
+
+// Of the picture's lights that an explanation lists, the one with this number; none: a type that it does not list.
+static lam_light light_of(const struct job *job, int number)
+{
+    int count = lam_draw_lights(job->scene, job->rig, NULL, 0);
+    lam_light *lights = calloc((size_t)count + 1, sizeof *lights), found = lam_light_default(LAM_LIGHT_AMBIENT);
+    if (lights)
+        lam_draw_lights(job->scene, job->rig, lights, count);
+    for (int i = 0; lights && i < count; i++)
+        if (lights[i].type != LAM_LIGHT_AMBIENT && lights[i].type != LAM_LIGHT_HEMISPHERE && number-- == 0)
+            found = lights[i];
+    free(lights);
+    return found;
+}
+
+static lam_reflection reflection_named(const char *word)
+{
+    int i = 0;
+    while (i < LAM_REFLECTION_COUNT - 1 && strcmp(lam_reflection_describe((lam_reflection)i)->word, word) != 0)
+        i++;
+    return (lam_reflection)i;
+}
+
+int web_curves(int count, int light, double farthest, double shininess)
+{
+    struct options options;
+    struct job job = {0};
+    lam_error error = {0};
+    bool ok =
+        start(count - 1, &options, &job, &error) && job_load(&job, NULL, &error) && job_arrange(&job, NULL, &error);
+    lam_light one = ok ? light_of(&job, light) : lam_light_default(LAM_LIGHT_AMBIENT);
+    if (ok && one.type == LAM_LIGHT_AMBIENT)
+        ok = complain(&error, LAM_BAD_ARGUMENT, "the picture has no light %d with a place or a direction", light);
+    if (ok) {
+        const char *word = session.text;
+        for (int i = 1; i < count; i++)
+            word += strlen(word) + 1;
+        lam_reflection reflection = reflection_named(word);
+        struct json json = {.file = stdout};
+        json_open(&json, NULL, '{');
+        json_text(&json, "type", lam_light_type_describe(one.type)->word);
+        curve_json(&json, "attenuation", farthest, &one, attenuation_value);
+        curve_json(&json, "spot", 90, &one, spot_value);
+        json_open(&json, "highlight", '[');
+        for (int k = 0; k <= CURVE_STEPS; k++)
+            json_number(&json, NULL,
+                        (double)lam_highlight_at(reflection, (float)shininess,
+                                                 radians((double)(float)(90.0 * k / CURVE_STEPS))));
+        json_close(&json, ']');
+        json_close(&json, '}');
+        putc('\n', stdout);
+        fflush(stdout);
+        job.scene = NULL;
+        job_free(&job);
+    }
+    int code = ok ? 0 : answer(&job, false, &error);
+    options_free(&options);
+    return code;
+}
+
+int web_lights(int count)
+{
+    struct options options;
+    struct job job = {0};
+    lam_error error = {0};
+    lam_bytes text = {0};
+    bool ok = start(count, &options, &job, &error) && job_load(&job, NULL, &error) && job_arrange(&job, NULL, &error) &&
+              lam_lights_encode(job.scene, job.rig, &text, &error);
+    if (ok) {
+        fwrite(text.data, 1, text.size, stdout);
+        fflush(stdout);
+        job.scene = NULL;
+        job_free(&job);
+    }
+    lam_bytes_free(&text);
+    int code = ok ? 0 : answer(&job, false, &error);
+    options_free(&options);
+    return code;
+}
+
 static void option_json(struct json *json, const struct option *o)
 {
     json_open(json, NULL, '{');

@@ -22,6 +22,14 @@ int web_save(int count) WEB_EXPORT(web_save);
 // Explains a pixel of that picture, as `lambent explain --json` does.
 int web_explain(int count, int x, int y) WEB_EXPORT(web_explain);
 
+// The curves of one of that picture's lights: `light` counts its point, spot and directional ones, as an explanation lists them. Attenuation
+// from distance 0 to `farthest`, the cone from 0 to 90 degrees, and the highlight of a reflection model, whose word follows the command line's as
+// another one, from 0 to 90 degrees, in the steps of `lambent plot`.
+int web_curves(int count, int light, double farthest, double shininess) WEB_EXPORT(web_curves);
+
+// Prints that picture's lights, as `lambent lights` does.
+int web_lights(int count) WEB_EXPORT(web_lights);
+
 // Lists the options of a picture with all that the help says of them, in its groups, and the names of shapes.
 void web_options(void) WEB_EXPORT(web_options);
 

@@ -5,18 +5,30 @@
 //   on('picture', f)  a picture is shown (view.picture); quick ones while something moves too
 //   on('still', f)    the picture of the command line is shown, with all of its samples
 //   on('ready', f)    the module has started: view.options, view.shapes
+//   on('fit', f)      the picture stands elsewhere in the page, or has another size there
+//   on('explained', f)  another point is explained, or the same one with other numbers: view.explained
 import { $ } from './dom.js';
 import { insideWords } from './inside.js';
 import { openWorker } from './start.js';
 import { State, fromFragment } from './state.js';
 
-const START = ['teapot', '--size=960x720'];
+// The first picture: one light, and a material with a highlight, so that each term of the sum is seen.
+export const START = ['teapot', '--material=ambient=#12657a,diffuse=#1688a5,specular=0.7,shininess=80', '--light=point:position=0.3r/0.5r/1r', '--ambient=0.3'];
 
-export const state = new State(fromFragment(location.hash) ?? insideWords() ?? START);
+// The size that fills the stage, at most 1.6 million pixels.
+export function stageSize() {
+  const { clientWidth, clientHeight } = $('view'), ratio = devicePixelRatio || 1;
+  const width = Math.max(320, clientWidth * ratio), height = Math.max(240, clientHeight * ratio), k = Math.min(1, Math.sqrt(1.6e6 / (width * height)));
+  return `${Math.floor((k * width) / 8) * 8}x${Math.floor((k * height) / 8) * 8}`;
+}
+
+export const state = new State(fromFragment(location.hash) ?? insideWords() ?? [START[0], `--size=${stageSize()}`, ...START.slice(1)]);
 export const { call } = openWorker();
 
 export const view = {
   picture: null, // of the last drawing, without its pixels
+  size: null, // width and height of the command line's picture, which a quick one is smaller than
+  explained: null, // the pixel that is explained, as the program answers
   camera: null, // the one in use, ahead of the picture while something moves
   sphere: null,
   moving: false, // a gesture goes on

@@ -1,46 +1,109 @@
-// explanation.js: one pixel's calculation as tables: each light with its vectors, cosines and terms, then the sum.
-
+// explanation.js: one pixel's calculation: the sum, then each light with its equations and their values. Of lights one is open: its arrows are shown.
+import { state } from './app.js';
+import { curvesOf } from './curves.js';
+import { element, ours } from './dom.js';
+import { lightEquations, number, sumEquation, triple } from './equations.js';
 import { text } from './strings.js';
 
-const number = (x) => (x === null || x === undefined ? '' : Math.abs(x) >= 1e-4 || x === 0 ? String(+x.toFixed(4)) : x.toExponential(2));
-const triple = (v) => (v ? v.map(number).join(' ') : '');
+const strength = (light) => light.diffuse_term.concat(light.specular_term).reduce((sum, x) => sum + x, 0);
+const greatest = (values) => values.reduce((best, value, i) => (value > values[best] ? i : best), 0);
+const degrees = (x) => `${number(x)}°`;
+const sentence = (content) => element('p', { textContent: content });
 
-// Cells are keys of strings.js, {key}, or symbols, numbers and names.
-function row(kind, cells) {
-  const tr = document.createElement('tr');
-  cells.forEach((content, i) => {
-    const cell = document.createElement(kind === 'head' || i === 0 ? 'th' : 'td');
-    cell.textContent = content.key ? text(content.key) : content;
-    cell.translate = Boolean(content.key);
-    tr.append(cell);
-  });
-  return tr;
+// name = formula = values = result, on as many lines as it needs.
+function equation({ name, formula, values, result }) {
+  const parts = [formula, values].filter(Boolean).map((part) => element('span', { textContent: ` = ${part}` }));
+  return element('p', { className: 'equation', translate: false }, element('b', { textContent: name }), ...parts,
+    element('span', { className: 'result', textContent: ` = ${Array.isArray(result) ? triple(result) : number(result)}` }));
 }
 
-function paragraph(content) {
-  const p = document.createElement('p');
-  p.textContent = content;
-  return p;
+function vector(name, value, about) {
+  return element('p', { className: 'equation' }, element('b', { className: `chip arrow-${name}`, textContent: name, translate: false }),
+    element('span', { textContent: ` = (${value.map(number).join(', ')}) `, translate: false }), element('small', { textContent: text(about) }));
 }
 
-export function explanation(pixel) {
-  const place = document.createDocumentFragment();
-  place.append(paragraph(text('pixel', { ...pixel, bytes: pixel.bytes.join(' ') })));
-  if (!pixel.triangles.length) {
-    place.append(paragraph(text('background')));
-    return place;
+export class Explanation {
+  // `choose`: called with { point, light } when a corner or a light is chosen.
+  constructor(place, choose) {
+    this.place = place;
+    this.choose = choose;
+    this.chosen = { point: 0, light: 0 };
+    this.picked = { point: null, light: null }; // by a person; null: the program picks what counts most
   }
-  const triangle = pixel.triangles[0], point = triangle.points[0];
-  place.append(paragraph(text('surface', { object: triangle.object_name ?? text('unnamedObject', { number: triangle.object }), triangle: triangle.triangle,
-    side: triangle.side, n: triple(point.n), v: triple(point.v), ambient: triple(point.ambient_term) })));
-  const table = document.createElement('table');
-  const head = document.createElement('thead'), body = document.createElement('tbody');
-  head.append(row('head', [{ key: 'light' }, 'l', 'h', 'n·l', { key: 'attenuation' }, { key: 'spot' }, 'D', 'S', { key: 'diffuse' }, { key: 'specular' }]));
-  for (const light of point.lights)
-    body.append(row('body', [light.name ?? light.type, triple(light.l), triple(light.h), number(light.n_dot_l), number(light.attenuation), number(light.spot),
-      number(light.D), number(light.S), triple(light.diffuse_term), triple(light.specular_term)]));
-  table.append(head, body);
-  place.append(table);
-  place.append(paragraph(text('sum', { sum: triple(pixel.sum) })));
-  return place;
+
+  show(pixel) {
+    const triangle = pixel.triangles[0];
+    this.pixel = pixel;
+    if (triangle) {
+      const corner = this.picked.point ?? greatest(triangle.weights);
+      this.chosen.point = triangle.points.length > 1 ? corner : 0;
+      const { lights } = triangle.points[this.chosen.point];
+      this.chosen.light = Math.min(this.picked.light ?? greatest(lights.map(strength)), Math.max(0, lights.length - 1));
+    }
+    const color = element('span', { className: 'color', attributes: { 'aria-hidden': 'true' } });
+    color.style.background = `rgb(${pixel.bytes.slice(0, 3).join(' ')})`;
+    const first = sentence(text('pixel', { ...pixel, bytes: pixel.bytes.join(' ') }));
+    first.prepend(color, ' ');
+    this.place.replaceChildren(first, ...(triangle ? this.#surface(triangle) : [sentence(text('background'))]));
+  }
+
+  #surface(triangle) {
+    const point = triangle.points[this.chosen.point], parts = [];
+    parts.push(sentence(text('surface', { object: triangle.object_name ?? text('unnamedObject', { number: triangle.object }), triangle: triangle.triangle, side: triangle.side })));
+    if (triangle.points.length > 1) parts.push(this.#corners(triangle));
+    parts.push(vector('n', point.n, triangle.lit_normal === '-n' ? 'aboutNormalBack' : 'aboutNormal'), vector('v', point.v, 'aboutView'));
+    parts.push(element('h3', { textContent: text('sumTitle') }), equation(sumEquation(point)), sentence(text('bytes', { bytes: this.pixel.bytes.join(' ') })));
+    if (this.pixel.triangles.length > 1) parts.push(sentence(text('moreTriangles', { count: this.pixel.triangles.length - 1 })));
+    if (point.lights.length) parts.push(element('h3', { textContent: text('lightsTitle') }));
+    point.lights.forEach((light, i) => parts.push(this.#light(triangle, point, light, i)));
+    return parts;
+  }
+
+  #corners(triangle) {
+    const group = element('div', { className: 'buttons', attributes: { role: 'group', 'aria-label': text('corners') } });
+    triangle.points.forEach((point, i) => {
+      const one = element('button', { type: 'button', textContent: text('corner', { number: i, weight: number(triangle.weights[i]) }), attributes: { 'aria-pressed': String(i === this.chosen.point) } });
+      one.onclick = () => {
+        this.picked.point = i;
+        this.show(this.pixel);
+        this.choose(this.chosen);
+      };
+      group.append(one);
+    });
+    return group;
+  }
+
+  #light(triangle, point, light, i) {
+    const open = i === this.chosen.light;
+    const details = element('details', { open, className: 'light' });
+    const added = light.diffuse_term.map((x, k) => x + light.specular_term[k]);
+    const title = element('summary', {}, ours('span', `${light.name ?? light.type}`), ours('small', ` +${triple(added)}`));
+    details.append(title);
+    // Filled when it is open, and chosen by opening it: the arrows are of one light.
+    if (open) details.append(...this.#inside(triangle, point, light, i));
+    title.onclick = (event) => {
+      event.preventDefault();
+      if (open) return;
+      this.picked.light = i;
+      this.show(this.pixel);
+      this.choose(this.chosen);
+      this.place.querySelectorAll('details.light > summary')[i].focus();
+    };
+    return details;
+  }
+
+  #inside(triangle, point, light, i) {
+    const parts = [vector('l', light.l, 'aboutLight'), vector('r', light.r, 'aboutMirrored'), vector('h', light.h, 'aboutHalf')];
+    parts.push(element('p', { className: 'equation', translate: false, textContent: `θ(n,l) ${degrees(light.theta_deg)} · φ(r,v) ${degrees(light.phi_deg)} · ψ(n,h) ${degrees(light.psi_deg)}` }));
+    if (light.left_out) parts.push(sentence(text('leftOut')));
+    parts.push(...lightEquations(triangle, point, light).map(equation));
+    // The last curves stand there until the new ones have come.
+    const holder = element('div', {}, ...(this.curves ? [this.curves] : []));
+    curvesOf({ words: state.words, light: i, explained: light, triangle }).then((curves) => {
+      this.curves = curves;
+      holder.replaceChildren(curves);
+    }, () => {});
+    parts.push(holder);
+    return parts;
+  }
 }

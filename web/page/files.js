@@ -1,5 +1,5 @@
 // files.js: models come in by the menu, as files, as a folder, or dropped; nothing leaves the machine.
-import { call, emit, on, refuse, state, view } from './app.js';
+import { START, call, emit, on, refuse, state, view } from './app.js';
 import { $ } from './dom.js';
 import { droppedFiles } from './dropped.js';
 import { text } from './strings.js';
@@ -20,14 +20,26 @@ function showModels() {
 on('words', showModels);
 on('ready', showModels);
 
-// Another model is seen whole: its own view.
+// Another model is seen whole: its own view. A file's materials are its own, not those of the first picture.
 function takeModel(name) {
-  state.set([name, ...state.words.slice(1).filter((word) => !word.startsWith('--camera'))]);
+  const own = view.files.has(name) ? START : [];
+  state.set([name, ...state.words.slice(1).filter((word) => !word.startsWith('--camera') && !own.includes(word))]);
 }
+
+// What a tab can hold: the files are there three times while they are read, in an address space of 4 GB.
+const MOST = 1.2e9;
 
 export async function takeFiles(list) {
   const taken = new Map();
-  for (const [path, file] of list) taken.set('/' + path, new Uint8Array(await file.arrayBuffer()));
+  const size = list.reduce((sum, [, file]) => sum + file.size, 0), large = list.reduce((a, b) => (a && a[1].size >= b[1].size ? a : b), null);
+  const megabytes = (bytes) => Math.round(bytes / 1e6).toLocaleString('en');
+  if (size > MOST) return refuse(text('tooLarge', { file: large[0], size: megabytes(size), most: megabytes(MOST) }));
+  let read = 0;
+  for (const [path, file] of list) {
+    $('status').textContent = text('loading', { name: path, amount: `${Math.round((100 * read) / (size || 1))} %` });
+    taken.set('/' + path, new Uint8Array(await file.arrayBuffer()));
+    read += file.size;
+  }
   if (!taken.size) return;
   view.files = taken;
   await call('files', { files: [...taken] });

@@ -2,7 +2,7 @@
 import { beginGesture, endGesture, gestureKey, state, view } from './app.js';
 import { around, cameraText, orbit, pan, readCamera, zoom } from './camera.js';
 import { $ } from './dom.js';
-import { explainAt } from './explain.js';
+import { explainAt } from './later.js';
 import { State, VIEW } from './state.js';
 
 const canvas = $('canvas');
@@ -70,7 +70,7 @@ canvas.addEventListener('wheel', (event) => {
 canvas.addEventListener('keydown', (event) => {
   const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
   const arrow = arrows[event.key], step = Math.PI / 24;
-  if (!view.camera || event.ctrlKey || event.metaKey) return;
+  if (!view.camera || event.ctrlKey || event.metaKey || event.altKey) return;
   if (arrow && event.shiftKey) move(pan(view.camera, arrow[0] * 0.05, arrow[1] * 0.05));
   else if (arrow) turn(arrow[0] * step, arrow[1] * step);
   else if (event.key === '+' || event.key === '=') move(zoom(view.camera, 1.15));

@@ -1,18 +1,15 @@
-// handles.js: lights in the picture: a handle for the place of each light of --light, one for where a spot aims, one for its cone; and the tab that
-// adds and removes lights. A handle is a button: dragged, or moved by keys.
+// handles.js: lights in the picture: a handle for the place of each light of --light, one for where a spot aims, one for its cone. A handle is a
+// button: dragged, or moved by keys.
 import { beginGesture, endGesture, gestureKey, on, say, state, view } from './app.js';
 import { add, project, scale, shifted, sub, unit } from './camera.js';
-import { $, button, element, ours, svg } from './dom.js';
-import { coneEdge, lightText, movedTo, newLight, parseLight, placeOf, withCone } from './lights.js';
+import { $, element, svg } from './dom.js';
+import { coneEdge, lightText, movedTo, nameOf, parseLight, placeOf, withCone } from './lights.js';
 import { text } from './strings.js';
-import { addTab } from './tabs.js';
 
 const canvas = $('canvas'), overlay = $('overlay'), lines = $('overlay-lines');
 const PARTS = { position: 'handlePosition', aim: 'handleAim', cone: 'handleCone' };
 const handles = new Map(); // "NUMBER PART" to its button
 let texts = [];
-
-const nameOf = (light, i) => light.keys.get('name') ?? `${light.type} ${i + 1}`;
 
 function rewrite(i, light) {
   texts = texts.map((old, at) => (at === i ? lightText(light) : old));
@@ -75,19 +72,18 @@ function remove(i) {
 
 // --- in the picture
 
-// Inside of the stage: a light that stands beside the picture is shown at the edge.
+// Inside of the stage: a light that stands beside the picture is shown at the rim, on the way to it from the middle; `turn` is the way's angle.
 function inside(point, width, height) {
   const at = project(view.camera, point, canvas.width / canvas.height), edge = 24;
-  const x = at.x * width, y = at.y * height;
-  const shown = { x: Math.max(edge, Math.min(width - edge, x)), y: Math.max(edge, Math.min(height - edge, y)) };
-  return { ...shown, out: at.behind || Math.hypot(shown.x - x, shown.y - y) > 1 };
+  const x = (at.x - 0.5) * width, y = (at.y - 0.5) * height, right = width / 2 - edge, below = height / 2 - edge;
+  const rim = Math.min(right / Math.abs(x || 1e-9), below / Math.abs(y || 1e-9)), scale = at.behind ? rim : Math.min(1, rim);
+  return { x: width / 2 + scale * x, y: height / 2 + scale * y, out: at.behind || scale < 0.999, turn: Math.atan2(y, x), end: at.behind ? null : { x: width / 2 + x, y: height / 2 + y } };
 }
 
 function show() {
   if (!view.camera || !view.sphere) return;
   texts = state.values('light');
   const width = canvas.clientWidth, height = canvas.clientHeight, wanted = new Map(), drawn = [];
-  for (const [name, value] of Object.entries({ left: canvas.offsetLeft, top: canvas.offsetTop, width, height })) overlay.style[name] = `${value}px`;
   lines.setAttribute('viewBox', `0 0 ${width} ${height}`);
   texts.forEach((one, i) => {
     const light = parseLight(one), place = placeOf(light, view.camera, view.sphere);
@@ -123,30 +119,16 @@ function show() {
     handle.style.left = `${at.x}px`;
     handle.style.top = `${at.y}px`;
   }
-  lines.replaceChildren(...drawn.map(([a, b]) => svg('line', { x1: a.x, y1: a.y, x2: b.x, y2: b.y })));
+  // A line goes to where its end is, past the rim; the overlay cuts it off there.
+  const ends = ({ out, end, ...at }) => (end && Math.hypot(end.x, end.y) < 1e5 ? end : at);
+  lines.replaceChildren(...drawn.map(([a, b]) => svg('line', { x1: ends(a).x, y1: ends(a).y, x2: ends(b).x, y2: ends(b).y })),
+    ...[...wanted.values()].filter(({ out }) => out).map(({ x, y, turn }) =>
+      svg('path', { class: 'rim', d: 'M12 -7L22 0L12 7Z', transform: `translate(${x} ${y}) rotate(${(turn * 180) / Math.PI})` })));
 }
 
 const dotAlong = (point, { position, direction }) => sub(point, position).reduce((sum, x, i) => sum + x * direction[i], 0);
 
 on('picture', show);
 on('words', () => view.picture && show());
-new ResizeObserver(show).observe(canvas);
-
-// --- the tab
-
-const place = addTab('lights', text('tabLights')), list = element('ul', { className: 'lights' });
-const adders = ['point', 'spot', 'directional'].map((type) =>
-  button({ point: 'addPoint', spot: 'addSpot', directional: 'addDirectional' }[type], () => {
-    const values = state.values('light');
-    state.set(state.withValues('light', [...values, newLight(type, values, values.length)]));
-  }));
-place.append(element('p', { className: 'hint', textContent: text('lightsHint') }), element('div', { className: 'buttons' }, ...adders), list);
-
-on('words', () => {
-  if (view.moving) return;
-  list.replaceChildren(...state.values('light').map((one, i) => {
-    const remover = button('removeLight', () => remove(i));
-    remover.setAttribute('aria-label', text('removeNamed', { light: nameOf(parseLight(one), i) }));
-    return element('li', {}, ours('code', one), remover);
-  }));
-});
+on('fit', show);
+show();

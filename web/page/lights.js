@@ -117,3 +117,13 @@ export function newLight(type, texts, number) {
   const keys = { point: `position=${sign}r/1r/1.2r`, spot: `position=${0.6 * sign}r/1.4r/1.2r,cutoff=25`, directional: `direction=${-sign}/-1/-0.5` };
   return `${others}${type}:${keys[type]}`;
 }
+
+export const nameOf = (light, i) => light.keys.get('name') ?? `${light.type} ${i + 1}`;
+
+// A light of a scene file in the words of --light.
+export function lightWords({ type, name, ...fields }) {
+  const keys = new Map(Object.entries(fields).map(([key, value]) => [key, Array.isArray(value) ? value.join('/') : value === true ? 'yes' : value === false ? 'no' : String(value)]));
+  // What a name of the words cannot have is left out.
+  if (name) keys.set('name', name.replace(/[,=\s]+/g, '-'));
+  return lightText({ plus: '', type, keys });
+}

@@ -5,9 +5,8 @@ import { call, emit, refuse, view } from './app.js';
 import { takeInsideFiles } from './inside.js';
 import './drawing.js';
 import './files.js';
-import './options.js';
-import './handles.js';
-import './explain.js';
+import './quick.js';
+import './later.js';
 import './gestures.js';
 import './bar.js';
 

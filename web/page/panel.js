@@ -1,16 +1,16 @@
-// panel.js: a control for each option of the program's table, in the groups of its help, found by name, by other names that people
-// try, and by what it says of itself.
-
-import { element, ours } from './dom.js';
-import { text } from './strings.js';
+// panel.js: the tab of all options: a control for each one of the program's table, in the groups of its help, found by name, by other names that
+// people try, and by what it says of itself.
+import { on, state, view } from './app.js';
+import { $, element, ours } from './dom.js';
+import { Row, setOption } from './row.js';
 
 // They name files to write, which the page does by buttons.
 const LEFT_OUT = ['output', 'save-scene', 'durable', 'compress', 'quality'];
 
-export class Panel {
+class Panel {
   #rows = [];
 
-  constructor(place, search, none, options, change) {
+  constructor(place, search, none, options) {
     const groups = new Map();
     for (const option of options) {
       if (LEFT_OUT.includes(option.name)) continue;
@@ -20,7 +20,7 @@ export class Panel {
         groups.set(option.group, details);
         place.append(details);
       }
-      const row = new Row(option, change);
+      const row = new Row(option, 'option');
       this.#rows.push(row);
       groups.get(option.group).append(row.place);
     }
@@ -44,69 +44,16 @@ export class Panel {
   }
 }
 
-class Row {
-  constructor(option, change) {
-    this.option = option;
-    this.change = (values) => change(option.name, values);
-    this.label = ours('label', option.name, { htmlFor: `option-${option.name}` });
-    this.reset = element('button', { type: 'button', className: 'reset', textContent: '×', title: text('without', { option: `--${option.name}` }), hidden: true,
-      attributes: { 'aria-label': text('without', { option: `--${option.name}` }) } });
-    this.reset.onclick = () => this.change([]);
-    this.inputs = element('div');
-    const about = element('p', { id: `about-${option.name}` }, ours('span', option.summary));
-    if (option.default) about.append(' ', element('span', { textContent: text('standard', { value: option.default }) }));
-    this.place = element('div', { className: 'option' }, this.label, this.inputs, this.reset, about);
-    this.show([]);
-  }
+$('panel-options').append($('search'), $('options'), $('no-option'));
 
-  matches(wanted) {
-    const o = this.option, words = (o.words ?? []).map((word) => word.name).join(' ');
-    return wanted.split(/\s+/).every((part) => `${o.name} ${o.others ?? ''} ${o.summary} ${words}`.toLowerCase().includes(part));
-  }
-
-  show(values) {
-    const key = values.join('\n');
-    if (this.shown === key) return;
-    this.shown = key;
-    this.reset.hidden = !values.length;
-    this.label.classList.toggle('given', values.length > 0);
-    const focused = this.inputs.contains(document.activeElement);
-    const shown = this.option.repeats ? [...values, null] : [values.length ? values.at(-1) : null];
-    this.inputs.replaceChildren(...shown.map((value, i) => this.#control(value, i, values)));
-    if (focused) this.inputs.firstChild.focus();
-  }
-
-  #control(value, i, values) {
-    const o = this.option;
-    const take = (value) => {
-      const next = [...values];
-      if (value === '') next.splice(i, 1);
-      else next[o.repeats ? i : 0] = value;
-      this.change(o.repeats ? next : next.slice(0, 1));
-    };
-    let control;
-    if (!o.value) {
-      control = element('input', { type: 'checkbox', checked: value !== null });
-      control.onchange = () => this.change(control.checked ? [''] : []);
-    } else if (o.words && !o.repeats && o.kind === 'any' && !o.words.some((word) => /[A-Z]/.test(word.name)) && (value === null || o.words.some((word) => word.name === value))) {
-      control = element('select', { translate: false }, new Option('—', ''), ...o.words.map((word) => {
-        const choice = new Option(word.name, word.name);
-        choice.title = word.summary ?? '';
-        return choice;
-      }));
-      control.value = value ?? '';
-      control.onchange = () => take(control.value);
-    } else {
-      control = element('input', { type: o.number && (value === null || isFinite(value)) ? 'number' : 'text', value: value ?? '', placeholder: o.value, translate: false });
-      if (control.type === 'number') {
-        control.step = o.whole ? 1 : 'any';
-        if (o.min !== undefined) Object.assign(control, { min: o.min, max: o.max });
-      }
-      control.onchange = () => take(control.value.trim());
-    }
-    if (i === 0) control.id = `option-${o.name}`;
-    else control.setAttribute('aria-label', o.name);
-    control.setAttribute('aria-describedby', `about-${o.name}`);
-    return control;
-  }
+// The table comes with the module, which may still start.
+let panel = null;
+function fill() {
+  panel = new Panel($('options'), $('search'), $('no-option'), view.options);
+  panel.show(state);
 }
+if (view.options.length) fill();
+else on('ready', fill);
+on('words', () => {
+  if (!view.moving) panel?.show(state);
+});

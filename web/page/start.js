@@ -3,8 +3,20 @@ import { text } from './strings.js';
 
 export function openWorker() {
   const worker = new Worker(new URL('worker.js', import.meta.url), { type: 'module' });
-  const wasm = fetch(new URL('lambent.wasm', import.meta.url)).then((answer) => answer.arrayBuffer());
-  return caller(worker, wasm);
+  // Fetches the module, and says how much of it is there.
+  const load = async (address) => {
+    const answer = await fetch(address), whole = Number(answer.headers.get('content-length')), packed = answer.headers.get('content-encoding');
+    if (!answer.ok) throw new Error(text('notLoaded', { name: 'lambent.wasm', code: answer.status }));
+    const parts = [], reader = answer.body.getReader();
+    for (let size = 0, part; !(part = await reader.read()).done; ) {
+      parts.push(part.value);
+      size += part.value.length;
+      const amount = whole && !packed ? `${Math.min(100, Math.round((100 * size) / whole))} %` : `${Math.round(size / 1000)} kB`;
+      document.getElementById('status').textContent = text('loading', { name: 'lambent.wasm', amount });
+    }
+    return new Blob(parts).arrayBuffer();
+  };
+  return caller(worker, load(new URL('lambent.wasm', import.meta.url)));
 }
 
 export function caller(worker, wasm) {

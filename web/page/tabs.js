@@ -1,14 +1,15 @@
-// tabs.js: the panels beside the picture. addTab(id, label) gives the place that a module fills: #panel-ID, with the tab #tab-ID.
+// tabs.js: the panels beside the picture. addTab(id, label) gives the place that a module fills: #panel-ID, with the tab #tab-ID. What fills it
+// when it is first seen is `opened`, which gets the place.
 import { $, element } from './dom.js';
 
 const tabs = [];
 
-export function addTab(id, label) {
+export function addTab(id, label, opened = null) {
   const tab = element('button', { type: 'button', id: `tab-${id}`, textContent: label, tabIndex: -1,
     attributes: { role: 'tab', 'aria-selected': 'false', 'aria-controls': `panel-${id}` } });
   const panel = element('section', { id: `panel-${id}`, hidden: true, attributes: { role: 'tabpanel', 'aria-labelledby': tab.id } });
   tab.onclick = () => selectTab(id);
-  tabs.push({ id, tab, panel });
+  tabs.push({ id, tab, panel, opened });
   $('tabs').append(tab);
   $('panels').append(panel);
   if (tabs.length === 1) selectTab(id);
@@ -23,6 +24,9 @@ export function selectTab(id, focus = false) {
     one.tab.tabIndex = chosen ? 0 : -1;
     one.panel.hidden = !chosen;
     if (chosen && focus) one.tab.focus();
+    if (!chosen || !one.opened) continue;
+    one.opened(one.panel);
+    one.opened = null;
   }
 }
 

@@ -18,6 +18,9 @@ const calls = {
   draw: ({ words }) => lambent.draw(words),
   save: ({ words, ending }) => lambent.save(words, ending),
   explain: ({ words, x, y }) => lambent.explain(words, x, y),
+  curves: ({ words, of }) => lambent.curves(words, of),
+  lights: ({ words }) => lambent.lights(words),
+  scene: ({ words }) => lambent.scene(words),
 };
 
 self.onmessage = async ({ data }) => {

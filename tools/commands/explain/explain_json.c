@@ -274,6 +274,19 @@ static void write_places(struct json *json, const lam_explained_fragment *f)
     json_number(json, "winding", f->winding);
 }
 
+// The reflection model and its formulas. `gated`: nothing of it where n·l is not over 0.
+static void write_formulas(struct json *json, const lam_explained_fragment *f)
+{
+    const lam_reflection_info *model = lam_reflection_describe(f->reflection);
+    json_text(json, "model", model->word);
+    json_open(json, "formulas", '{');
+    json_text(json, "D", model->diffuse);
+    json_text(json, "base", model->base);
+    json_flag(json, "gated", !model->backlit && !(model->backlit_fibre && f->surface.fibre));
+    json_flag(json, "microfacet", model->microfacet);
+    json_close(json, '}');
+}
+
 static void write_fragment(struct json *json, const lam_explained_fragment *f)
 {
     const lam_material *m = &f->surface;
@@ -285,7 +298,7 @@ static void write_fragment(struct json *json, const lam_explained_fragment *f)
     index_of(json, "part", f->part);
     json_text(json, "part_name", f->part_name);
     json_count(json, f->corners == 3 ? "triangle" : f->corners == 2 ? "line" : "point", f->triangle);
-    json_text(json, "model", lam_reflection_describe(f->reflection)->word);
+    write_formulas(json, f);
     json_text(json, "side", f->back ? "back" : "front");
     json_text(json, "lit_normal", f->flipped ? "-n" : "n");
     json_count(json, "samples", (uint64_t)f->samples);

@@ -1,0 +1,60 @@
+// arrows.js: n, v, l, r and h of an explained point as arrows over the picture, by the camera that has drawn it. They have one length in space, a fifth
+// of the picture's height there, so that an arrow that points to the eye is a ring and the others show how far they lean.
+import { view } from './app.js';
+import { project } from './camera.js';
+import { $, svg } from './dom.js';
+
+const LENGTH = 0.2, place = $('overlay-arrows');
+
+// Which arrows: name, vector, whether the reflection model uses it.
+function vectorsOf(triangle, point, light) {
+  const list = [['n', point.n, true], ['v', point.v, true]];
+  if (!light) return list;
+  const base = triangle.formulas.base ?? '';
+  const uses = (name) => base.includes(`·${name}`) || base.includes(`${name}·`) || (triangle.formulas.microfacet && name === 'h');
+  return [...list, ['l', light.l, true], ['r', light.r, uses('r')], ['h', light.h, uses('h')]];
+}
+
+export function clearArrows() {
+  place.replaceChildren();
+}
+
+// `chosen`: the numbers of the point (a corner, of Gouraud shading) and of the light.
+export function showArrows(pixel, chosen) {
+  clearArrows();
+  const triangle = pixel?.triangles[0], point = triangle?.points[chosen.point];
+  if (!point || !view.picture) return;
+  const canvas = $('canvas'), width = canvas.clientWidth, height = canvas.clientHeight;
+  const { fovy_deg, ortho } = view.picture.camera, aspect = pixel.width / pixel.height;
+  const eye = { eye: [0, 0, 0], target: [0, 0, -1], up: [0, 1, 0], fovy_deg, ortho };
+  const onScreen = (v) => {
+    const at = project(eye, v, aspect);
+    return [at.x * width, at.y * height];
+  };
+  const tail = onScreen(point.position);
+  const depth = ortho > 0 ? 2 * ortho : -2 * point.position[2] * Math.tan((fovy_deg * Math.PI) / 360), labels = [];
+  place.setAttribute('viewBox', `0 0 ${width} ${height}`);
+  for (const [name, vector, used] of vectorsOf(triangle, point, point.lights[chosen.light])) {
+    const tip = onScreen(point.position.map((x, i) => x + LENGTH * depth * vector[i]));
+    const group = svg('g', { class: `arrow arrow-${name}${used ? '' : ' unused'}`, 'data-name': name, 'data-tip': tip.map((x) => x.toFixed(2)).join(' ') });
+    const [dx, dy] = [tip[0] - tail[0], tip[1] - tail[1]], size = Math.hypot(dx, dy), [ux, uy] = size > 0 ? [dx / size, dy / size] : [1, 0];
+    if (size < 9) {
+      // To the eye or away from it: a ring with a point, or with a cross.
+      const parts = vector[2] > 0 ? [svg('circle', { cx: tail[0], cy: tail[1], r: 1.5 })] : [svg('path', { d: `M${tail[0] - 5} ${tail[1] - 5}l10 10m0 -10l-10 10` })];
+      for (const kind of ['casing', 'core']) group.append(svg('g', { class: kind }, svg('circle', { cx: tail[0], cy: tail[1], r: 7 }), ...parts.map((part) => part.cloneNode())));
+    } else {
+      const head = Math.min(11, size * 0.5), at = (back, across) => `${tip[0] - back * ux - across * uy} ${tip[1] - back * uy + across * ux}`;
+      const line = `M${tail[0]} ${tail[1]}L${at(head * 0.6, 0)}`, point = `M${tip[0]} ${tip[1]}L${at(head, head * 0.45)}L${at(head, -head * 0.45)}Z`;
+      for (const kind of ['casing', 'core']) group.append(svg('g', { class: kind }, svg('path', { class: 'shaft', d: line }), svg('path', { class: 'head', d: point })));
+    }
+    const label = [tip[0] + 13 * ux, tip[1] + 13 * uy];
+    if (size < 9) [label[0], label[1]] = [tail[0] - 16, tail[1] + 4];
+    for (const other of labels) if (Math.hypot(other[0] - label[0], other[1] - label[1]) < 17) [label[0], label[1]] = [label[0] - 17 * uy, label[1] + 17 * ux];
+    labels.push(label);
+    const letter = svg('text', { x: label[0], y: label[1] });
+    letter.textContent = name === 'n' && triangle.lit_normal === '-n' ? '−n' : name;
+    group.append(letter);
+    place.append(group);
+  }
+  place.append(svg('circle', { class: 'foot', cx: tail[0], cy: tail[1], r: 3 }));
+}

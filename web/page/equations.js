@@ -1,0 +1,60 @@
+// equations.js: the equations of an explained point, with its values filled in. The formulas of D and of the highlight's base are the program's own
+// words; tests/web/page.mjs computes each right side and compares it with the program's number.
+
+// Four digits, no power of ten where it can be read without.
+export function number(x) {
+  if (x === null || x === undefined) return '';
+  const rounded = Number(x.toPrecision(4)), size = Math.abs(rounded);
+  return rounded === 0 ? '0' : size >= 1e-4 && size < 1e6 ? String(rounded) : rounded.toExponential();
+}
+
+export const triple = (v) => (v[0] === v[1] && v[1] === v[2] ? number(v[0]) : `(${v.map(number).join(', ')})`);
+
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+// A formula of the table with numbers in place of its dot products; null: it has others in it.
+function filled(formula, point, light) {
+  const values = { 'n·l': light.n_dot_l, 'n·h': dot(point.n, light.h), 'r·v': dot(light.r, point.v) };
+  const text = formula.replace(/[nr]·[lhv]/g, (name) => number(values[name]));
+  return /^max\([-\d.e+]+, 0\)$/.test(text) ? text : null;
+}
+
+// A light's rows: { name, formula, values, result }. `values` is null where the program gives the number alone.
+export function lightEquations(triangle, point, light) {
+  const { formulas } = triangle, rows = [];
+  const add = (name, formula, values, result) => rows.push({ name, formula, values, result });
+  if (light.distance !== null) {
+    const [a, b, c] = light.attenuation_terms.map(number), d = number(light.distance);
+    const window = light.range ? [' · max(min(1 − (d/range)⁴, 1), 0)', ` · max(min(1 − (${d}/${number(light.range)})^4, 1), 0)`] : ['', ''];
+    add('attenuation', `1 / (a + b d + c d²)${window[0]}`, `1 / (${a} + ${b} · ${d} + ${c} · ${d}^2)${window[1]}`, light.attenuation);
+  }
+  if (light.type === 'spot') add('spot', '', null, light.spot);
+  if (light.occlusion < 1) add('occlusion', '1 − occluded (1 − unoccluded)', null, light.occlusion);
+  if (light.casts_shadows) add('passed', '', null, light.passed);
+  add('D', formulas.D, filled(formulas.D, point, light), light.D);
+  const gate = formulas.gated ? '[n·l > 0] ' : '', open = !formulas.gated || light.n_dot_l > 0;
+  if (formulas.microfacet) add('S', `${gate}π D(h) V max(n·l, 0)`, open ? `3.14159265 · ${number(light.distribution)} · ${number(light.visibility)} · max(${number(light.n_dot_l)}, 0)` : '0', light.S);
+  else if (formulas.base) {
+    const base = filled(formulas.base, point, light) ?? number(light.base);
+    add('S', `${gate}${formulas.base}^α`, open ? `${base}^${number(light.power)}` : '0', light.S);
+  }
+  const before = [['spot', light.type === 'spot', light.spot], ['attenuation', light.distance !== null, light.attenuation], ['occlusion', light.occlusion < 1, light.occlusion]];
+  const product = (color, colorValue, answer, answerValue, passed) => {
+    const factors = [...before.filter(([, there]) => there).map(([name, , value]) => [name, number(value)]), [color, triple(colorValue)], [answer, number(answerValue)]];
+    if (passed) factors.push(['passed', triple(light.passed)]);
+    return [factors.map(([name]) => name).join(' · '), factors.map(([, value]) => value).join(' · ')];
+  };
+  if (light.left_out) return rows;
+  add('diffuse', ...product(formulas.microfacet ? 'base (1 − metallic) Ld' : 'kd Ld', light.kd_Ld, 'D', light.D, light.casts_shadows), light.diffuse_term);
+  if (formulas.base || formulas.microfacet) add('specular', ...product(formulas.microfacet ? 'F Ls' : 'ks Ls', light.ks_Ls, 'S', light.S, light.casts_shadows), light.specular_term);
+  return rows;
+}
+
+// The sum of a point's terms.
+export function sumEquation(point) {
+  const names = ['emission', 'ambient', 'diffuse', 'specular', 'reflection'].filter((name) => point.terms[name].some((x) => x !== 0));
+  return { name: 'sum', formula: names.join(' + ') || '0', values: names.map((name) => triple(point.terms[name])).join(' + ') || '0', result: point.sum };
+}
+
+// Where the eye's space stands in the world: what an explanation has in eye space, as a point of the model's world.
+export const worldOf = ({ side, above, back }, eye, v) => eye.map((x, i) => x + side[i] * v[0] + above[i] * v[1] + back[i] * v[2]);

@@ -1,0 +1,24 @@
+// later.js: the parts of the page that are fetched when they are used, and the tabs of those that have one.
+import { on, refuse, state } from './app.js';
+import { $ } from './dom.js';
+import { addTab } from './tabs.js';
+import { text } from './strings.js';
+
+const used = (loading) => loading.catch((error) => refuse(error.message));
+
+addTab('options', text('tabOptions'), () => used(import('./panel.js')));
+addTab('lights', text('tabLights'), () => used(import('./light_tab.js')));
+addTab('explain', text('tabExplain'), () => used(import('./explaining.js')));
+
+// The calculation at a part of the picture's width and height.
+export async function explainAt(across, down) {
+  const explaining = await used(import('./explaining.js'));
+  explaining?.pinAt(across, down);
+}
+
+on('still', () => {
+  if (state.values('light').length) used(import('./handles.js'));
+});
+
+$('compare').onclick = async () => (await used(import('./split.js')))?.toggle();
+$('save-scene').onclick = async () => (await used(import('./scene.js')))?.saveScene();

@@ -1,0 +1,141 @@
+// light_tab.js: the tab of the lights of --light: what they say, as words and as sliders, with their curves; it adds and removes them, and writes down
+// those that the program has chosen.
+import { beginGesture, call, endGesture, gestureKey, on, refuse, say, state, view } from './app.js';
+import { curvesOf } from './curves.js';
+import './explaining.js';
+import { $, button, element, ours } from './dom.js';
+import { lightText, lightWords, nameOf, newLight, parseLight } from './lights.js';
+import { text } from './strings.js';
+
+const place = $('panel-lights'), list = element('ul', { className: 'lights' });
+const adders = ['point', 'spot', 'directional'].map((type) =>
+  button({ point: 'addPoint', spot: 'addSpot', directional: 'addDirectional' }[type], () => {
+    const values = state.values('light');
+    state.set(state.withValues('light', [...values, newLight(type, values, values.length)]));
+  }));
+const mine = button('mineLights', makeMine), highlight = element('div');
+place.append(element('p', { className: 'hint', textContent: text('lightsHint') }), element('div', { className: 'buttons' }, ...adders, mine), list, highlight);
+
+// The sliders of a light: key, index within its value, least, most, step, standard.
+const SLIDERS = {
+  color: [],
+  point: [['intensity', 0, 0, 4, 0.05, 1], ['attenuation', 0, 0, 2, 0.05, 1], ['attenuation', 1, 0, 1, 0.01, 0], ['attenuation', 2, 0, 1, 0.01, 0]],
+  directional: [['intensity', 0, 0, 4, 0.05, 1]],
+};
+SLIDERS.spot = [...SLIDERS.point, ['cutoff', 0, 1, 90, 1, 45], ['exponent', 0, 0, 64, 1, 0]];
+const SOFT = [['inner', 0, 0, 89, 1, 0], ['outer', 0, 1, 90, 1, 45]];
+
+// A slider; `take` gets its number while it moves. One gesture is one step of undo.
+function slider(name, label, [least, most, step], value, take) {
+  const input = element('input', { type: 'range', min: least, max: most, step, attributes: { 'aria-label': label } });
+  input.value = value;
+  const output = element('output', { textContent: value, translate: false });
+  input.oninput = () => {
+    output.textContent = input.value;
+    beginGesture();
+    take(input.value);
+  };
+  input.onchange = endGesture;
+  return element('label', { className: 'slider' }, ours('span', name), input, output);
+}
+
+function slidersOf(i, light) {
+  const soft = light.keys.has('outer') ? SOFT : null;
+  const rows = (SLIDERS[light.type] ?? []).filter(([key]) => !soft || (key !== 'cutoff' && key !== 'exponent')).concat((light.type === 'spot' && soft) || []);
+  return rows.map(([key, part, least, most, step, standard]) => {
+    const parts = (light.keys.get(key) ?? (key === 'attenuation' ? '1/0/0' : String(standard))).split('/'), unit = parts[part].endsWith('r') ? 'r' : '';
+    const name = key === 'attenuation' ? `${key} ${'abc'[part]}` : key;
+    return slider(name, text('sliderOf', { name, light: nameOf(light, i) }), [least, most, step], parseFloat(parts[part]), (value) => {
+      const texts = state.values('light'), now = parseLight(texts[i]), values = [...parts];
+      values[part] = value + unit;
+      if (key === 'attenuation' && values.every((one) => parseFloat(one) === 0)) values[0] = '0.01';
+      parts[part] = values[part];
+      now.keys.set(key, values.join('/'));
+      texts[i] = lightText(now);
+      state.set(state.withValues('light', texts), gestureKey());
+    });
+  });
+}
+
+// The explained light of a command line's light: those of the command line are the last ones that the scene has.
+export function explainedLight(pixel, i, texts) {
+  const reaching = texts.map(parseLight).map(({ type }, at) => ({ type, at })).filter(({ type }) => ['point', 'spot', 'directional'].includes(type));
+  const own = pixel?.triangles[0]?.points[0].lights.filter((light) => light.light !== null).slice(-reaching.length);
+  return own?.[reaching.findIndex(({ at }) => at === i)] ?? null;
+}
+
+// The words of a light alone: the first of its picture.
+const wordsOf = (one) => state.withValues('light', [one.replace(/^\+/, '')]);
+
+function showLight(one, i) {
+  const light = parseLight(one), remover = button('removeLight', () => state.set(state.withValues('light', state.values('light').filter((_, at) => at !== i))));
+  remover.setAttribute('aria-label', text('removeNamed', { light: nameOf(light, i) }));
+  const curves = element('div', { className: 'curves-of' });
+  curves.refresh = () => {
+    const now = state.values('light')[i];
+    if (light.type !== 'point' && light.type !== 'spot') return;
+    curvesOf({ words: wordsOf(now), light: 0, explained: explainedLight(view.explained, i, state.values('light')), type: light.type }).then((made) => curves.replaceChildren(made), () => {});
+  };
+  curves.refresh();
+  return element('li', {}, element('div', { className: 'light-head' }, ours('code', one), remover), ...slidersOf(i, light), curves);
+}
+
+// The shininess of the material, with the highlight of the explained point.
+const exponent = slider('shininess', text('sliderShininess'), [0, 3, 0.01], 1.5, (log) => {
+  state.set(state.withValues('shininess', [String(Number((10 ** log).toPrecision(3)))]), gestureKey());
+});
+const plotted = element('div');
+highlight.append(exponent, plotted);
+
+function showHighlight() {
+  const triangle = view.explained?.triangles[0], { lights } = triangle?.points[0] ?? { lights: [] };
+  const light = lights.reduce((best, one) => (one.S > (best?.S ?? -1) ? one : best), null), [value] = state.values('shininess');
+  const alpha = Number(value ?? triangle?.material.shininess ?? 32);
+  if (!view.moving) exponent.querySelector('input').value = Math.log10(Math.max(1, alpha));
+  exponent.querySelector('output').textContent = String(alpha);
+  if (light) curvesOf({ words: state.words, light: lights.indexOf(light), explained: light, triangle, onlyHighlight: true }).then((made) => plotted.replaceChildren(made), () => {});
+  else plotted.replaceChildren(element('p', { className: 'hint', textContent: text('curveHint') }));
+}
+
+let listed = null;
+function show() {
+  const texts = state.values('light');
+  showHighlight();
+  if (view.moving || listed === texts.join('\n')) return;
+  listed = texts.join('\n');
+  // A slider that has the focus keeps it.
+  const inputs = [...list.querySelectorAll('input')], at = inputs.indexOf(document.activeElement);
+  list.replaceChildren(...texts.map(showLight));
+  if (at >= 0) [...list.querySelectorAll('input')][at]?.focus();
+}
+
+function refresh() {
+  showHighlight();
+  for (const curves of list.querySelectorAll('.curves-of')) curves.refresh();
+}
+
+// The lights of the picture as words: what the program has chosen can be changed from then on. The picture must stay the same, which is checked.
+async function makeMine() {
+  try {
+    const before = state.words, { lights, ambient } = await call('lights', { words: before });
+    let words = state.withValues('rig', []);
+    const change = (name, values) => (words = new state.constructor(words).withValues(name, values));
+    change('light', lights.map(lightWords));
+    change('ambient', ambient.some((x) => x > 0) ? [ambient.join('/')] : []);
+    const [old, now] = [await call('draw', { words: before }), await call('draw', { words })];
+    if (old.pixels.some((byte, i) => byte !== now.pixels[i])) refuse(text('mineDiffers'));
+    else {
+      state.set(words);
+      say(text('mineDone', { count: lights.length }));
+    }
+  } catch (error) {
+    refuse(error.message);
+  }
+}
+
+show();
+on('words', show);
+on('picture', () => {
+  if (!view.explained) refresh();
+});
+on('explained', refresh);

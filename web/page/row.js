@@ -1,0 +1,89 @@
+// row.js: a control for an option of the program's table: its name, its value, what it is for.
+import { state } from './app.js';
+import { element, ours } from './dom.js';
+import { State, VIEW } from './state.js';
+import { text } from './strings.js';
+
+// An angle takes the place of a camera, and a camera that of every angle.
+export function setOption(name, values) {
+  let words = state.withValues(name, values);
+  const without = VIEW.includes(name) ? ['camera'] : name === 'camera' ? VIEW : [];
+  for (const other of without) words = new State(words).withValues(other, []);
+  state.set(words);
+}
+
+export class Row {
+  // `prefix`: of the identifiers of its elements, since an option can have controls in two places.
+  constructor(option, prefix) {
+    this.option = option;
+    this.prefix = prefix;
+    this.change = (values) => setOption(option.name, values);
+    this.label = ours('label', option.name, { htmlFor: `${prefix}-${option.name}`, title: option.summary });
+    this.reset = element('button', { type: 'button', className: 'reset', textContent: '×', title: text('without', { option: `--${option.name}` }), hidden: true,
+      attributes: { 'aria-label': text('without', { option: `--${option.name}` }) } });
+    this.reset.onclick = () => this.change([]);
+    this.inputs = element('div');
+    const about = element('p', { id: `about-${prefix}-${option.name}` }, ours('span', option.summary));
+    if (option.default) about.append(' ', element('span', { textContent: text('standard', { value: option.default }) }));
+    this.place = element('div', { className: 'option' }, this.label, this.inputs, this.reset, about);
+    this.show([]);
+  }
+
+  matches(wanted) {
+    const o = this.option, words = (o.words ?? []).map((word) => word.name).join(' ');
+    return wanted.split(/\s+/).every((part) => `${o.name} ${o.others ?? ''} ${o.summary} ${words}`.toLowerCase().includes(part));
+  }
+
+  show(values) {
+    const key = values.join('\n');
+    if (this.shown === key) return;
+    this.shown = key;
+    this.reset.hidden = !values.length;
+    this.label.classList.toggle('given', values.length > 0);
+    const focused = this.inputs.contains(document.activeElement);
+    const shown = this.option.repeats ? [...values, null] : [values.length ? values.at(-1) : null];
+    this.inputs.replaceChildren(...shown.map((value, i) => this.#control(value, i, values)));
+    if (focused) this.inputs.firstChild.focus();
+  }
+
+  // The words that a choice is made of; null: others can be written. Among the few options these words are what is chosen most.
+  #words() {
+    const { words, repeats, kind } = this.option, plain = (words ?? []).filter((word) => !/[A-Z]/.test(word.name));
+    if (!plain.length || repeats) return null;
+    return this.prefix === 'quick' || (kind === 'any' && plain.length === words.length) ? plain : null;
+  }
+
+  #control(value, i, values) {
+    const o = this.option, words = this.#words();
+    const take = (value) => {
+      const next = [...values];
+      if (value === '') next.splice(i, 1);
+      else next[o.repeats ? i : 0] = value;
+      this.change(o.repeats ? next : next.slice(0, 1));
+    };
+    let control;
+    if (!o.value) {
+      control = element('input', { type: 'checkbox', checked: value !== null });
+      control.onchange = () => this.change(control.checked ? [''] : []);
+    } else if (words && (value === null || words.some((word) => word.name === value))) {
+      control = element('select', { translate: false }, new Option('—', ''), ...words.map((word) => {
+        const choice = new Option(word.name, word.name);
+        choice.title = word.summary ?? '';
+        return choice;
+      }));
+      control.value = value ?? '';
+      control.onchange = () => take(control.value);
+    } else {
+      control = element('input', { type: o.number && (value === null || isFinite(value)) ? 'number' : 'text', value: value ?? '', placeholder: o.value, translate: false });
+      if (control.type === 'number') {
+        control.step = o.whole ? 1 : 'any';
+        if (o.min !== undefined) Object.assign(control, { min: o.min, max: o.max });
+      }
+      control.onchange = () => take(control.value.trim());
+    }
+    if (i === 0) control.id = `${this.prefix}-${o.name}`;
+    else control.setAttribute('aria-label', o.name);
+    control.setAttribute('aria-describedby', `about-${this.prefix}-${o.name}`);
+    return control;
+  }
+}

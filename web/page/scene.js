@@ -1,0 +1,13 @@
+// scene.js: saves the scene file of the picture, as --save-scene writes it. It names the model's files, and does not contain them.
+import { call, refuse, state } from './app.js';
+import { download } from './bar.js';
+import { $ } from './dom.js';
+import { text } from './strings.js';
+
+export async function saveScene() {
+  try {
+    $('status').textContent = text('savedScene', { file: download(await call('scene', { words: state.words }), '.json', 'application/json') });
+  } catch (error) {
+    refuse(error.message);
+  }
+}

@@ -1,0 +1,101 @@
+// split.js: before and now: the left part of the picture is drawn from a command line that was kept, seen by the camera of now, in its size. The line
+// between them is dragged, or moved by keys.
+import { call, on, refuse, state, view } from './app.js';
+import { $, button, element, ours } from './dom.js';
+import { fit, quickWords } from './drawing.js';
+import { State, VIEW, command } from './state.js';
+import { text } from './strings.js';
+
+const kept = element('canvas', { id: 'before', attributes: { 'aria-hidden': 'true' } }), context = kept.getContext('2d');
+const line = element('div', { id: 'divider', tabIndex: 0, attributes: { role: 'separator', 'aria-orientation': 'vertical', 'aria-label': text('divider'), 'aria-valuemin': 0, 'aria-valuemax': 100 } });
+const words = ours('code', '', { id: 'before-command' });
+const bar = element('div', { id: 'split-bar' }, element('span', { textContent: text('before') }), ' ', words, ' ',
+  button('keepNow', () => keep()), button('swap', () => swap()), button('endSplit', () => toggle()));
+let before = null, share = 50, busy = false, again = false;
+
+// The kept words with the view and the size of now.
+function beforeWords() {
+  let made = before;
+  for (const name of [...VIEW, 'camera', 'size']) made = new State(made).withValues(name, state.values(name));
+  return made;
+}
+
+async function draw() {
+  again = true;
+  if (busy) return;
+  busy = true;
+  while (again && before) {
+    again = false;
+    const now = beforeWords();
+    words.textContent = command(now);
+    try {
+      const { pixels, width, height } = await call('draw', { words: view.moving ? quickWords(now) : now });
+      kept.width = width;
+      kept.height = height;
+      context.putImageData(new ImageData(pixels, width, height), 0, 0);
+      kept.dataset.drawn = view.moving ? '' : JSON.stringify(now);
+    } catch (error) {
+      refuse(error.message);
+    }
+  }
+  busy = false;
+}
+
+function place(next) {
+  share = Math.max(0, Math.min(100, next));
+  const canvas = $('canvas');
+  for (const name of ['left', 'top', 'width', 'height', 'imageRendering']) kept.style[name] = canvas.style[name];
+  kept.style.clipPath = `inset(0 ${100 - share}% 0 0)`;
+  Object.assign(line.style, { left: `${canvas.offsetLeft + (share / 100) * canvas.clientWidth}px`, top: canvas.style.top, height: canvas.style.height });
+  line.setAttribute('aria-valuenow', Math.round(share));
+}
+
+function keep() {
+  before = state.words;
+  draw();
+}
+
+function swap() {
+  const now = state.words;
+  const next = beforeWords();
+  before = now;
+  state.set(next);
+}
+
+export function toggle() {
+  const open = !before;
+  $('compare').setAttribute('aria-pressed', String(open));
+  if (open) {
+    $('canvas').after(kept, line);
+    $('stage').append(bar);
+    fit();
+    place(50);
+    keep();
+    line.focus();
+  } else {
+    before = null;
+    for (const one of [kept, line, bar]) one.remove();
+    fit();
+    $('compare').focus();
+  }
+}
+
+line.onpointerdown = (event) => {
+  line.setPointerCapture(event.pointerId);
+  line.focus();
+  event.preventDefault();
+};
+line.onpointermove = (event) => {
+  if (!line.hasPointerCapture(event.pointerId)) return;
+  const box = $('canvas').getBoundingClientRect();
+  place((100 * (event.clientX - box.left)) / box.width);
+};
+line.onkeydown = (event) => {
+  const step = event.shiftKey ? 10 : 2, to = { ArrowLeft: share - step, ArrowRight: share + step, Home: 0, End: 100 }[event.key];
+  if (to === undefined) return;
+  place(to);
+  event.preventDefault();
+};
+
+on('picture', () => before && draw());
+on('fit', () => before && place(share));

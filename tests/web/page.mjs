@@ -5,7 +5,7 @@ import { readFileSync, readdirSync } from 'node:fs';
 import { around, cameraText, orbit, pan, project, shifted, zoom } from '../../web/page/camera.js';
 import { dirname, join } from 'node:path';
 import { open } from '../../web/lambent.js';
-import { lightEquations, sumEquation } from '../../web/page/equations.js';
+import { aroundEquations, lightEquations, sumEquation } from '../../web/page/equations.js';
 import { lightText, lightWords, movedTo, newLight, parseLight, placeOf, withCone } from '../../web/page/lights.js';
 import { pseudo, stringKeys, text } from '../../web/page/strings.js';
 import { State, command, fromFragment, quoted, toFragment } from '../../web/page/state.js';
@@ -82,12 +82,12 @@ function computed(values, channel) {
 }
 const EQUATIONS = [['teapot'], ['teapot', '--reflection=phong', '--material=brass'], ['sphere', '--light=spot:position=0/0/4,cutoff=40,exponent=3,attenuation=0.5/0.1/0.05,range=6', '--ambient=0.2'],
   ['torus-knot', '--material=metallic=0.4,roughness=0.5,color=#c9a227', '--light=directional:direction=-1/-1/-1'], ['teapot', '--reflection=oren-nayar'], ['teapot', '--shadows', '--shading=gouraud'],
-  ['sphere', '--reflection=lambert', '--rig=lecture'], ['sphere', '--light=point:position=0/0/-4']];
+  ['sphere', '--reflection=lambert', '--rig=lecture'], ['sphere', '--light=point:position=0/0/-4'], ['teapot', '--environment=studio', '--reflectivity=0.4', '--ao=screen'], ['cube', '--material=ambient=0.2/0.4/0.8,diffuse=red', '--ambient=0.5/0.4/0.3', '--ao=off'], ['sphere', '--material=metallic=0.3,roughness=0.5,color=#c9a227', '--ambient=0.4']];
 let checked = 0;
 for (const words of EQUATIONS) {
   const pixel = lambent.explain([...words, '--size=96'], 46, 44), triangle = pixel.triangles[0], wrong = [];
   for (const point of triangle.points)
-    for (const { name, values, result } of [sumEquation(point), ...point.lights.flatMap((light) => lightEquations(triangle, point, light))]) {
+    for (const { name, values, result } of [sumEquation(point), ...aroundEquations(triangle, point), ...point.lights.flatMap((light) => lightEquations(triangle, point, light))]) {
       if (!values) continue;
       checked++;
       for (const channel of [0, 1, 2]) {

@@ -1,5 +1,5 @@
-// arrows.js: n, v, l, r and h of an explained point as arrows over the picture, by the camera that has drawn it. They have one length in space, a fifth
-// of the picture's height there, so that an arrow that points to the eye is a ring and the others show how far they lean.
+// arrows.js: n, v, l, r, h of an explained point, and R where the surroundings are mirrored, as arrows over the picture, by the camera that has drawn
+// it. They have one length in space, a fifth of the picture's height there: an arrow to the eye is a ring, and the others show how far they lean.
 import { view } from './app.js';
 import { project } from './camera.js';
 import { $, svg } from './dom.js';
@@ -9,6 +9,7 @@ const LENGTH = 0.2, place = $('overlay-arrows');
 // Which arrows: name, vector, whether the reflection model uses it.
 function vectorsOf(triangle, point, light) {
   const list = [['n', point.n, true], ['v', point.v, true]];
+  if (point.environment && point.terms.reflection.some((x) => x !== 0)) list.push(['R', point.environment.R, true]);
   if (!light) return list;
   const base = triangle.formulas.base ?? '';
   const uses = (name) => base.includes(`·${name}`) || base.includes(`${name}·`) || (triangle.formulas.microfacet && name === 'h');
@@ -33,6 +34,7 @@ export function showArrows(pixel, chosen) {
   };
   const tail = onScreen(point.position);
   const depth = ortho > 0 ? 2 * ortho : -2 * point.position[2] * Math.tan((fovy_deg * Math.PI) / 360), labels = [];
+  let rings = 0;
   place.setAttribute('viewBox', `0 0 ${width} ${height}`);
   for (const [name, vector, used] of vectorsOf(triangle, point, point.lights[chosen.light])) {
     const tip = onScreen(point.position.map((x, i) => x + LENGTH * depth * vector[i]));
@@ -48,8 +50,9 @@ export function showArrows(pixel, chosen) {
       for (const kind of ['casing', 'core']) group.append(svg('g', { class: kind }, svg('path', { class: 'shaft', d: line }), svg('path', { class: 'head', d: point })));
     }
     const label = [tip[0] + 13 * ux, tip[1] + 13 * uy];
-    if (size < 9) [label[0], label[1]] = [tail[0] - 16, tail[1] + 4];
-    for (const other of labels) if (Math.hypot(other[0] - label[0], other[1] - label[1]) < 17) [label[0], label[1]] = [label[0] - 17 * uy, label[1] + 17 * ux];
+    // Letters of rings stand beside one another on the left; others make way across their arrow.
+    if (size < 9) [label[0], label[1]] = [tail[0] - 17 * ++rings, tail[1]];
+    else for (const other of labels) if (Math.hypot(other[0] - label[0], other[1] - label[1]) < 17) [label[0], label[1]] = [label[0] - 17 * uy, label[1] + 17 * ux];
     labels.push(label);
     const letter = svg('text', { x: label[0], y: label[1] });
     letter.textContent = name === 'n' && triangle.lit_normal === '-n' ? '−n' : name;

@@ -50,6 +50,25 @@ export function lightEquations(triangle, point, light) {
   return rows;
 }
 
+// What comes from all around: hemisphere lights, ambient light, the environment.
+export function aroundEquations(triangle, point) {
+  const rows = [], add = (name, formula, values, result) => rows.push({ name, formula, values, result });
+  if (triangle.model === 'none') return rows;
+  const ka = triangle.material.matrix[0].map((x, i) => x * point.color[i]), terms = point.hemispheres.map(({ term }) => triple(term)), dimmed = point.unoccluded < 1;
+  for (const { name, ground, sky, n_dot_up, term } of point.hemispheres)
+    add(name ?? 'hemisphere', 'ka (ground + (sky − ground) (½ + ½ n·up))', `${triple(ka)} · (${triple(ground)} + (${triple(sky)} − ${triple(ground)}) · (0.5 + 0.5 · ${number(n_dot_up)}))`, term);
+  const sum = [`${triple(ka)} · ${triple(point.ambient_light)}`, ...terms].join(' + ');
+  if (point.terms.ambient.some((x) => x !== 0))
+    add('ambient', `${dimmed ? 'unoccluded · (' : ''}ka La${terms.length ? ' + Σ hemispheres' : ''}${dimmed ? ')' : ''}`, dimmed ? `${number(point.unoccluded)} · (${sum})` : sum, point.terms.ambient);
+  const { environment: e } = point, { reflectivity } = triangle.material;
+  if (!e || !point.terms.reflection.some((x) => x !== 0)) return rows;
+  if (e.prefiltered) {
+    for (const name of ['irradiance', 'prefiltered', 'scale', 'bias']) add(name, '', null, e[name]);
+    add('reflection', 'kd irradiance (1 − (0.04 scale + bias)) + prefiltered (f0 scale + bias)', null, point.terms.reflection);
+  } else add('reflection', `${dimmed ? 'unoccluded · ' : ''}kr environment`, `${dimmed ? `${number(point.unoccluded)} · ` : ''}${triple(reflectivity)} · ${triple(e.light)}`, point.terms.reflection);
+  return rows;
+}
+
 // The sum of a point's terms.
 export function sumEquation(point) {
   const names = ['emission', 'ambient', 'diffuse', 'specular', 'reflection'].filter((name) => point.terms[name].some((x) => x !== 0));

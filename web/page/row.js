@@ -66,7 +66,7 @@ export class Row {
       control = element('input', { type: 'checkbox', checked: value !== null });
       control.onchange = () => this.change(control.checked ? [''] : []);
     } else if (words && (value === null || words.some((word) => word.name === value))) {
-      control = element('select', { translate: false }, new Option('—', ''), ...words.map((word) => {
+      control = element('select', { translate: false }, new Option(o.default ? `(${o.default})` : '—', ''), ...words.map((word) => {
         const choice = new Option(word.name, word.name);
         choice.title = word.summary ?? '';
         return choice;

@@ -110,7 +110,15 @@ def settings(program, _):
         yield "| `%s` | `%s` | %s | %s |" % (key, json.dumps(value["default"]).strip('"'), values, value["description"])
 
 
-SECTIONS = {"rigs": rigs, "explained": explained, "roles": roles, "settings": settings}
+def mistakes(program, _):
+    """The mistakes of `lambent shader --mistake`."""
+    yield "| `--mistake` | what is wrong | what it looks like | needs |"
+    yield "|---|---|---|---|"
+    for row in json.loads(output(program, "shader", "--mistake", "list", "--json")):
+        yield "| `%s` | %s | %s | %s |" % (row["mistake"], row["wrong"], row["looks"], row["needs"] or "")
+
+
+SECTIONS = {"rigs": rigs, "explained": explained, "roles": roles, "settings": settings, "mistakes": mistakes}
 
 
 def pages_with_sections(program):

@@ -24,12 +24,33 @@ LAM_API const char *lam_glsl_name(lam_glsl version);
 // Where the shaders read the lights from. There is no fixed limit to their number; an implementation allows fewest in
 // an array (GL_MAX_*_UNIFORM_COMPONENTS), more in a block (GL_MAX_UNIFORM_BLOCK_SIZE), most in a texture.
 typedef enum lam_shader_lights {
-    LAM_SHADER_LIGHTS_AUTO = 0, // an array in GLSL 120, else a block
+    LAM_SHADER_LIGHTS_AUTO = 0, // an array in GLSL 120 and in the lecture style, else a block
     LAM_SHADER_LIGHTS_ARRAY,    // plain uniforms, set one by one: lights[0].position
     LAM_SHADER_LIGHTS_BLOCK,    // std140 blocks; not in GLSL 120
     LAM_SHADER_LIGHTS_TEXTURE,  // float textures; not in GLSL 120
     LAM_SHADER_LIGHTS_COUNT
 } lam_shader_lights;
+
+// How a shader's text is written.
+typedef enum lam_shader_style {
+    LAM_SHADER_STYLE_FULL = 0, // the equations of this library, for all that it draws
+    // About thirty plain lines for each stage, as a lecture would show them, with the same uniforms and the same picture within
+    // 1/255. It has the reflection models Lambert, Phong and Blinn-Phong, all kinds of lights, and all shading methods; what it
+    // does not have is LAM_UNSUPPORTED.
+    LAM_SHADER_STYLE_LECTURE,
+    LAM_SHADER_STYLE_COUNT
+} lam_shader_style;
+
+// A known mistake that can be introduced into a shader of the lecture style. Strings are static.
+typedef struct lam_shader_mistake {
+    const char *id;    // "no-gate", as lam_check_mistake has it
+    const char *looks; // a sentence: what one sees in the picture
+    const char *needs; // of the shader: "a light with attenuation"; NULL: none
+    LAM_RESERVED(4);
+} lam_shader_mistake;
+
+// Row `row` of the mistakes, counted from 0. False past the last one.
+LAM_API bool lam_shader_mistake_row(int row, lam_shader_mistake *mistake);
 
 // How shaders are written. All zero is the default.
 typedef struct lam_shader_params {
@@ -37,7 +58,10 @@ typedef struct lam_shader_params {
     lam_shader_lights lights; // where the lights are
     // true: the uniforms are the products ka·La, kd·Ld, ks·Ls, formed before drawing. false: materials and lights.
     bool products;
-    LAM_RESERVED(8);
+    // In the lecture style, LAM_SHADER_LIGHTS_AUTO is an array.
+    lam_shader_style style;
+    const char *mistake; // of the lecture style, by its id; NULL: none
+    LAM_RESERVED(7);
 } lam_shader_params;
 
 // A vertex attribute.
@@ -120,7 +144,8 @@ typedef struct lam_shader {
 // caller frees the result. NULL on failure:
 //   LAM_BAD_ARGUMENT  as lam_draw; blocks or textures in GLSL 120; objects with one and with two sides, or with and
 //                     without tangents, which one pair of shaders cannot serve: choose one by `object`
-//   LAM_UNSUPPORTED   the output is not light; there are no triangles (lines and points have no shader)
+//   LAM_UNSUPPORTED   the output is not light; there are no triangles (lines and points have no shader); the style does not
+//                     have what the scene asks for, or the shader does not have what the mistake needs
 //   LAM_LIMIT         memory
 LAM_API lam_shader *lam_shader_make(const lam_scene *scene, const lam_camera *camera, const lam_draw_params *draw,
                                     int width, int height, int object, const lam_shader_params *params,

@@ -5,6 +5,7 @@
 #include "equations.h"
 #include "fail.h"
 #include "glsl_rows.h"
+#include "lecture.h"
 #include "pieces.inc"
 
 #include <stdio.h>
@@ -28,7 +29,7 @@ static bool check(const struct glsl_choices *c, const struct glsl_facts *f, lam_
         return fail(error, LAM_BAD_ARGUMENT, "Phong shading lights every fragment: its stage is fragment");
     if (f->shading == LAM_SHADING_GOURAUD && f->per_fragment)
         return fail(error, LAM_BAD_ARGUMENT, "Gouraud shading lights every vertex: its stage is application or vertex");
-    return true;
+    return !c->lecture || lecture_check(c, f, error);
 }
 
 // --- text that depends on more than flags
@@ -541,8 +542,11 @@ static const char *const version_lines[] = {"#version 120\n", "#version 330 core
 static char *make_stage(const struct glsl_facts *f, bool fragment, lam_error *error)
 {
     struct text body = {0}, text = {0};
-    add_stage(&body, f, fragment);
     const struct glsl_choices *c = f->choices;
+    if (c->lecture)
+        lecture_add(&body, f, fragment);
+    else
+        add_stage(&body, f, fragment);
     text_add(&text, version_lines[c->version]);
     if (c->version == GLSL_300_ES && fragment && c->layer == GLSL_PEELS)
         text_add(&text, "precision highp usampler2D;\n");
@@ -556,7 +560,8 @@ static char *make_stage(const struct glsl_facts *f, bool fragment, lam_error *er
     if (body.bytes && !body.failed) {
         struct known_condition known[KNOWN_MAX + 1] = {{NULL, false}};
         known_conditions(known, f);
-        equations_add(&text, body.bytes, known);
+        if (!c->lecture)
+            equations_add(&text, body.bytes, known);
         glsl_declare(&text, f, fragment);
         text_add(&text, body.bytes);
     }
@@ -578,9 +583,10 @@ bool glsl_make(const struct glsl_choices *choices, struct glsl_text *text, lam_e
         return false;
     text->vertex = make_stage(&facts, false, error);
     text->fragment = text->vertex ? make_stage(&facts, true, error) : NULL;
-    if (!text->fragment)
+    bool ok = text->fragment && (!choices->mistake || mistake_apply(choices, text, error));
+    if (!ok)
         glsl_free(text);
-    return text->fragment != NULL;
+    return ok;
 }
 
 void glsl_free(struct glsl_text *text)

@@ -82,6 +82,8 @@ struct glsl_choices {
     bool catches;       // black, with the share of the light as opacity that shadows and occlusion take away
     lam_tone tone;      // of GLSL_ENCODED; AUTO, NONE: the light is clamped
     bool exposes;       // the fragment multiplies its light by the uniform `exposure`
+    bool lecture;       // the lecture style (lecture.h)
+    int mistake;        // of the lecture style: mistake_find; 0: none
     bool products;      // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
     bool two_sided;     // the back is lit with −n
     bool back_material; // the back has a material of its own

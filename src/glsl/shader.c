@@ -5,6 +5,7 @@
 #include "fail.h"
 #include "float_state.h"
 #include "glsl_rows.h"
+#include "lecture.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -146,11 +147,22 @@ static bool choose(struct build *m, const lam_draw_params *draw, int object, con
     static const enum glsl_storage storages[] = {GLSL_BLOCK, GLSL_ARRAY, GLSL_BLOCK, GLSL_TEXTURE};
     if ((unsigned)params->glsl >= LAM_GLSL_COUNT || (unsigned)params->lights >= LAM_SHADER_LIGHTS_COUNT)
         return fail(error, LAM_BAD_ARGUMENT, "shader parameters: glsl or lights is out of its range");
+    if ((unsigned)params->style >= LAM_SHADER_STYLE_COUNT)
+        return fail(error, LAM_BAD_ARGUMENT, "shader parameters: style is out of its range");
+    if (params->mistake && params->style != LAM_SHADER_STYLE_LECTURE)
+        return fail(error, LAM_BAD_ARGUMENT, "mistake '%.60s' is an edit of the lecture style; expected that style",
+                    params->mistake);
+    if (params->mistake && !mistake_find(params->mistake))
+        return fail(error, LAM_BAD_ARGUMENT, "mistake '%.60s' is not known; expected one of lam_shader_mistake_row",
+                    params->mistake);
     if (!merge_choices(m, draw->stage, object, error))
         return false;
     struct glsl_choices *c = &m->choices;
     c->version = versions[params->glsl];
-    c->storage = !params->lights && c->version == GLSL_120 ? GLSL_ARRAY : storages[params->lights];
+    c->lecture = params->style == LAM_SHADER_STYLE_LECTURE;
+    c->mistake = mistake_find(params->mistake);
+    bool array = c->version == GLSL_120 || c->lecture;
+    c->storage = !params->lights && array ? GLSL_ARRAY : storages[params->lights];
     c->encoding = m->frame.color == LAM_COLOR_RAW ? GLSL_STRAIGHT : GLSL_ENCODED;
     c->exposes = m->frame.exposure != 1;
     if (c->encoding == GLSL_ENCODED)

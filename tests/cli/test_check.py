@@ -318,6 +318,52 @@ for number, row in enumerate(MISTAKES):
     setattr(Mistakes, "test_%03d_%s_%s" % (number, row[0], row[1].replace(" ", "_and_")), method)
 
 
+# Scenes of which one has what each mistake of `lambent shader --mistake` needs. Phong's model needs its own highlight.
+LAMP = "point:attenuation=0.4/0.3/0.2"
+SCENES = (("--light", LAMP), ("--light", LAMP, "--reflection", "phong"), ("--light", "directional:direction=-1/-1/-1"),
+          ("--light", "spot:position=0/3/1,target=0/0/0,cutoff=24,exponent=4"), ("--light", LAMP, "--light", "directional:direction=-1/-1/-1"))
+
+
+class LectureStyle(CheckTest):
+    def test_correct(self):
+        """Shaders in the lecture style pass, lit in either stage, whatever the lights."""
+        flat, gouraud = ("--shading", "flat"), ("--shading", "gouraud")
+        for number, words in enumerate((*SCENES, (*SCENES[0], *gouraud), (*SCENES[3], *flat), (*SCENES[1], *gouraud, "--products"),
+                                        ("--reflection", "lambert"), ("--viewer", "infinite"))):
+            with self.subTest(words):
+                self.good("shader", "sphere", *words, "--style", "lecture", "-o", "s", "-q")
+                phong = ("--highlight", "phong") if "phong" in words else ()
+                report = self.report_of("s.frag", "--vertex", "s.vert", *phong)
+                self.assertEqual((report["verdict"], report["contract"]), ("passes", "lambent"))
+
+    def test_mistakes(self):
+        """Each mistake that `lambent shader` offers changes the pictures, and is named."""
+        table = json.loads(self.good("shader", "--mistake", "list", "--json").stdout)
+        self.assertGreater(len(table), 40)
+        used, expected = {}, {}
+        for number, row in list(enumerate(table))[::EVERY]:
+            self.assertTrue(row["wrong"] and row["looks"].endswith("."), row)
+            for scene in SCENES:
+                done = self.run_program("shader", "sphere", *scene, "--mistake", row["mistake"], "-o", f"{number:03}", "-q")
+                if done.returncode == 0:
+                    break
+                self.assertIn(f"mistake '{row['mistake']}': the shader does not have what it spoils; expected {row['needs']}", done.stderr.decode())
+            self.assertEqual(done.returncode, 0, row)
+            used.setdefault("phong" in scene, []).append(f"{number:03}")
+            expected[f"{number:03}.frag"] = row["mistake"]
+        for phong, names in used.items():
+            files = [f"{name}.{ending}" for name in names for ending in ("frag", "vert")]
+            done = self.run_program("check", *files, *(("--highlight", "phong") if phong else ()), "-s", "64", "--json")
+            for report in map(json.loads, done.stdout.splitlines()):
+                with self.subTest(expected[report["fragment"]]):
+                    self.assertEqual(report["verdict"], "differs")
+                    told = [(m["id"], m["certain"]) for m in report["mistakes"]]
+                    also = [(m["also"] or "").split() for m in report["mistakes"]]
+                    right = expected.pop(report["fragment"])
+                    self.assertTrue(told == [(right, 1)] or right in sum(also, []), (told, also))
+        self.assertFalse(expected, "not checked")
+
+
 class Refused(CheckTest):
     def told(self, name, edits, *hints):
         report = self.report_of(*self.shader(name, edits), code=6)

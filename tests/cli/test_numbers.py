@@ -180,7 +180,7 @@ class Sentences(Case):
         script = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(script)
         pages = script.pages_with_sections(PROGRAM)
-        self.assertEqual(set(pages), {"docs/lighting/lights.md", "docs/lighting/explain.md", "docs/check/contract-file.md", "docs/scene-file.md"})
+        self.assertEqual(set(pages), {"docs/lighting/lights.md", "docs/lighting/explain.md", "docs/check/contract-file.md", "docs/scene-file.md", "docs/teaching.md"})
         for path, text in pages.items():
             self.assertEqual((ROOT / path).read_text(), text, f"{path}: python3 scripts/docs.py build/lambent --text rewrites it")
 

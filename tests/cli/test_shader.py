@@ -28,6 +28,44 @@ class Shader(Case):
         self.assertIn("Phong (1975)", text)
         self.assertNotIn("Blinn", text)
 
+    def test_lecture_style(self):
+        for words in ((), ("--glsl", "120", "--reflection", "phong"), ("--glsl", "300es", "--products"), ("--shading", "gouraud"), ("--shading", "flat"),
+                      ("--stage", "application")):
+            with self.subTest(words):
+                full, lecture = self.contract("sphere", "--lights-in", "array", *words), self.contract("sphere", "--style", "lecture", *words)
+                for key in ("attributes", "uniforms", "draws", "lights_in", "flat"):
+                    self.assertEqual(lecture[key], full[key])
+                for stage in ("vertex", "fragment"):
+                    text = re.split(r"\n(?=(?:layout|attribute|in|flat|varying|out) )", lecture[stage], maxsplit=1)[1]
+                    lines = [line for line in text.splitlines() if line.strip() and not line.strip().startswith("//") and line.strip() not in "{}"]
+                    self.assertLessEqual(len(lines), 42, text)
+                    self.assertLess(len(lecture[stage]), len(full[stage]) + 300)
+
+    def test_lecture_style_refuses_what_it_does_not_have(self):
+        for words, option in ((("--reflection", "ggx"), "reflection"), (("--gl1", "--shading", "gouraud"), "gl1"), (("--shadows",), "shadows"), (("--exposure", "1"), "exposure"),
+                              (("--tone", "aces"), "tone"), (("--back-material", "gold"), "back-material"), (("--show", "diffuse"), "show"), (("--lights-in", "texture"), "lights-in")):
+            with self.subTest(words):
+                self.bad(3, "shader", "sphere", "--style", "lecture", *words, says=("'--style lecture' does not have '--" + option, "'--style full'"))
+        (self.folder / "red.ppm").write_bytes(b"P6\n2 1\n255\nabcdef")
+        (self.folder / "a.mtl").write_text("newmtl a\nmap_Kd red.ppm\n")
+        (self.folder / "a.obj").write_text("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n")
+        self.bad(3, "shader", "a.obj", "--style", "lecture", says="does not have textures", leaves=("red.ppm", "a.mtl", "a.obj"))
+
+    def test_mistakes_that_do_not_apply(self):
+        self.bad(1, "shader", "--mistake", "nogate", says="did you mean 'no-gate'?")
+        self.bad(1, "shader", "--mistake", "no-gate", "--style", "full", says="options '--mistake' and '--style full'")
+        self.bad(3, "shader", "--mistake", "no-cone", says="mistake 'no-cone': the shader does not have what it spoils; expected a spotlight")
+
+    def test_mistakes(self):
+        """Each mistake edits the text, and says what it is."""
+        for row in json.loads(self.good("shader", "--mistake", "list", "--json").stdout):
+            self.assertEqual(set(row), {"mistake", "wrong", "looks", "needs"})
+            self.assertIn(f"{row['mistake']}\n  Wrong: {row['wrong']}.\n  Seen: {row['looks']}\n", self.good("shader", "--mistake", "list").stdout.decode())
+        right, wrong = self.contract("sphere", "--style", "lecture"), self.contract("sphere", "--mistake", "no-gate")
+        self.assertIn("float S = dot(N, L) > 0.0 ? pow(max(dot(N, H), 0.0), material.shininess) : 0.0;", right["fragment"])
+        self.assertIn("float S = pow(max(dot(N, H), 0.0), material.shininess);", wrong["fragment"])
+        self.assertEqual({**wrong, "fragment": ""}, {**right, "fragment": ""})
+
     def test_files(self):
         self.good("shader", "cube.obj", "--glsl", "120", "-o", "mine", "--host", "c")
         self.assertEqual(self.new_files(), {"mine.vert", "mine.frag", "mine.c"})

@@ -290,6 +290,18 @@ CASES = [
     ("application", ["--stage", "application", "--reflection", "none"], [], "colors"),
     ("environment", ["--reflectivity", "0.5"], [], "plain", "cube"),
     ("environment-old", ["--reflectivity", "0.3", "--environment-rotation", "40"], ["--glsl", "120"], "plain", "cube"),
+    ("lecture", LIGHTS, ["--style", "lecture"]),
+    ("lecture-studio", [], ["--style", "lecture", "--lights-in", "block"]),
+    ("lecture-products", LIGHTS, ["--style", "lecture", "--products", "--glsl", "300es"]),
+    ("lecture-old", ["--reflection", "phong", *LIGHTS], ["--style", "lecture", "--glsl", "120"]),
+    ("lecture-old-flat", ["--shading", "flat", *LIGHTS], ["--style", "lecture", "--glsl", "120", "--products"]),
+    ("lecture-flat", ["--shading", "flat", *LIGHTS], ["--style", "lecture"]),
+    ("lecture-gouraud", ["--shading", "gouraud", "--reflection", "phong", *LIGHTS], ["--style", "lecture"]),
+    ("lecture-lambert", ["--reflection", "lambert", "--one-sided", *LIGHTS], ["--style", "lecture", "--glsl", "300es"]),
+    ("lecture-colors", ["--projection", "orthographic", *LIGHTS], ["--style", "lecture"], "colors"),
+    ("lecture-colors-gouraud", ["--shading", "gouraud"], ["--style", "lecture", "--products"], "colors"),
+    ("lecture-application", ["--stage", "application", "--reflection", "none"], ["--style", "lecture"], "colors"),
+    ("lecture-environment", ["--reflectivity", "0.5"], ["--style", "lecture"], "plain", "cube"),
     ("environment-es", ["--reflectivity", "0.5", "--shading", "gouraud"], ["--glsl", "300es"], "plain", "cube"),
 ]
 

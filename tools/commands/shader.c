@@ -5,13 +5,17 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <lambent/check.h>
+
 #include "command.h"
 #include "console.h"
 #include "interrupt.h"
 #include "job.h"
+#include "json.h"
 #include "output.h"
 #include "report.h"
 #include "sandbox_start.h"
+#include "suggest.h"
 
 // --- the list of inputs
 
@@ -138,13 +142,70 @@ static void print(const struct options *o, const lam_shader *shader, const char 
     }
 }
 
+// --- mistakes
+
+bool shader_mistake_is_known(const char *name, lam_error *error)
+{
+    struct suggestion nearest = suggest_start(name);
+    lam_shader_mistake mistake;
+    for (int i = 0; lam_shader_mistake_row(i, &mistake); i++) {
+        if (strcmp(name, mistake.id) == 0)
+            return true;
+        suggest_try(&nearest, mistake.id);
+    }
+    return complain(
+        error, LAM_BAD_ARGUMENT,
+        "option '--mistake': found '%.60s', expected the name of a mistake, which '--mistake list' lists%s%s%s", name,
+        nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
+}
+
+// The known mistakes: what is wrong, and what it looks like.
+static void list_mistakes(bool as_json)
+{
+    struct json json = {.file = stdout};
+    if (as_json)
+        json_open(&json, NULL, '[');
+    lam_shader_mistake mistake;
+    for (int i = 0; lam_shader_mistake_row(i, &mistake); i++) {
+        const char *wrong = "";
+        for (int k = 0; lam_check_mistake(k); k++)
+            if (strcmp(lam_check_mistake(k), mistake.id) == 0)
+                wrong = lam_check_mistake_explanation(k);
+        if (as_json) {
+            json_open(&json, NULL, '{');
+            json_text(&json, "mistake", mistake.id);
+            json_text(&json, "wrong", wrong);
+            json_text(&json, "looks", mistake.looks);
+            json_text(&json, "needs", mistake.needs);
+            json_close(&json, '}');
+        } else {
+            printf("%s\n  Wrong: %s.\n  Seen: %s\n", mistake.id, wrong, mistake.looks);
+            if (mistake.needs)
+                printf("  Needs: %s.\n", mistake.needs);
+        }
+    }
+    if (as_json) {
+        json_close(&json, ']');
+        putchar('\n');
+    }
+}
+
 int run_shader(int operand_count, char **operands, const struct options *given)
 {
     struct options options = *given;
     bool to_files = options.output && strcmp(options.output, "-") != 0;
     struct job job = {.options = &options, .model = operand_count ? operands[0] : "sphere"};
     lam_error error = {0};
-    if (!*job.model)
+    if (options.mistake && strcmp(options.mistake, "list") == 0) {
+        list_mistakes(options.json);
+        return 0;
+    }
+    if (options.mistake && option_given(&options, "style") && options.style == LAM_SHADER_STYLE_FULL)
+        complain(&error, LAM_BAD_ARGUMENT,
+                 "options '--mistake' and '--style full': a mistake is an edit of the lecture style");
+    else if (options.mistake && !shader_mistake_is_known(options.mistake, &error))
+        ; // the error says it
+    else if (!*job.model)
         complain(&error, LAM_BAD_ARGUMENT, "a model's name is empty");
     else if (options.dry_run)
         complain(&error, LAM_BAD_ARGUMENT, "option '--dry-run' applies to pictures, not to shaders");

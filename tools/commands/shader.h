@@ -15,6 +15,9 @@ void shader_host(FILE *file, const lam_shader *shader, const char *name, const c
 // All of it on one line.
 void shader_json(FILE *file, const lam_shader *shader, const char *model);
 
+// Whether a mistake of --mistake is known. False: the error, with the nearest name.
+bool shader_mistake_is_known(const char *name, lam_error *error);
+
 // "1, 0.5, 0": each with the fewest digits that give the same float; as C code "1, 0.5f, 0".
 void shader_numbers(FILE *file, const float *values, int count, bool code);
 

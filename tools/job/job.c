@@ -561,8 +561,11 @@ lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *er
         return NULL;
     const struct options *o = job->options; // now includes the scene file's settings
     lam_draw_params draw = draw_params_of(o, job->rig);
-    lam_shader_params params = {
-        .glsl = (lam_glsl)o->glsl, .lights = (lam_shader_lights)o->lights_in, .products = o->products};
+    lam_shader_params params = {.glsl = (lam_glsl)o->glsl,
+                                .lights = (lam_shader_lights)o->lights_in,
+                                .products = o->products,
+                                .style = o->mistake ? LAM_SHADER_STYLE_LECTURE : (lam_shader_style)o->style,
+                                .mistake = o->mistake};
     if (!show_option_apply(o->show, job->scene, &draw, error) ||
         (job->device && !fit_exposure(job, &draw, o->width, o->height, error)))
         return NULL;

@@ -122,8 +122,13 @@ static const struct word glsl_words[] = {{"330", LAM_GLSL_330, "OpenGL 3.3"},
                                          {"300es", LAM_GLSL_300_ES, "OpenGL ES 3.0, WebGL 2"},
                                          {NULL, 0, NULL}};
 
+static const struct word style_words[] = {
+    {"full", LAM_SHADER_STYLE_FULL, "the library's equations, for all that it draws"},
+    {"lecture", LAM_SHADER_STYLE_LECTURE, "about thirty plain lines for each stage, as a lecture shows them"},
+    {NULL, 0, NULL}};
+
 static const struct word lights_in_words[] = {
-    {"auto", LAM_SHADER_LIGHTS_AUTO, "an array in GLSL 120, else a block"},
+    {"auto", LAM_SHADER_LIGHTS_AUTO, "an array in GLSL 120 and in the lecture style, else a block"},
     {"array", LAM_SHADER_LIGHTS_ARRAY, "plain uniforms, set one by one: lights[0].position"},
     {"block", LAM_SHADER_LIGHTS_BLOCK, "uniform blocks, std140"},
     {"texture", LAM_SHADER_LIGHTS_TEXTURE, "textures of floats: thousands of lights"},
@@ -935,6 +940,19 @@ const struct option option_table[] = {
      "None has a fixed maximum number of lights; OpenGL allows the fewest in an array and the most in a "
      "texture.",
      lights_in_words, .store = store_word, FIELD(lights_in)},
+    {"style", 0, GROUP_SHADER, "STYLE", "full", "How the shaders are written: full or lecture.",
+     "The lecture style has the names of the blackboard: N, L, V, R, H, ka, kd, ks. Its uniforms and its picture are "
+     "those of "
+     "the full style, for lambert, phong and blinn-phong with any lights and any shading; textures and other "
+     "reflection "
+     "models are refused. See `docs/teaching.md`.",
+     style_words, .store = store_word, FIELD(style)},
+    {"mistake", 0, GROUP_SHADER, "NAME", NULL,
+     "Introduce a known mistake into shaders of the lecture style; `list` lists them.",
+     "For the exercise \"find the mistake\": `lambent check` names it. `lambent compare MODEL --across mistake=A,B` "
+     "shows what "
+     "mistakes look like. `--mistake list --json` prints the list for programs.",
+     .store = store_text, .others = "error bug fault wrong", FIELD(mistake)},
     {"parametric", 0, GROUP_SHAPE, "FORMULAS", NULL,
      "A surface over u and v: 'x = ...; y = ...; z = ...', with definitions before them.",
      "`a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)` is a torus. Formulas have `+ - * / ^`, "

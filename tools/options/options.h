@@ -157,7 +157,9 @@ struct options {
     int lights_in; // lam_shader_lights
     int host;      // 1: C code as well
     bool products;
-    int object; // valid if the flag below is set
+    int style;           // lam_shader_style
+    const char *mistake; // the id of one, or "list"; NULL: none
+    int object;          // valid if the flag below is set
     bool has_object;
 
     // Reports

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "fail.h"
+#include "lecture_style.h"
 #include "shader_constants.h"
 
 // Whether a declared uniform is read: a member of a struct after a dot, another name anywhere.
@@ -174,9 +175,15 @@ static bool has_highlight(lam_reflection model)
 static void apply_lambent_rules(struct shader_interface *r)
 {
     const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
-    unsigned rules = lambent_light_rules(lit), first = rules >> RULE_FIRST & RULE_KIND;
-    if (r->contract->printed)
+    unsigned rules = lambent_light_rules(lit);
+    bool lecture = r->contract->printed && !rules && (rules = lecture_light_rules(lit));
+    unsigned first = rules >> RULE_FIRST & RULE_KIND;
+    if (lecture) {
+        r->printed_model = lecture_model(lit);
+        r->infinite_viewer = lecture_viewer_is_infinite(lit);
+    } else if (r->contract->printed) {
         find_printed(r);
+    }
     if (r->printed_model == LAM_REFLECTION_NONE)
         r->supports &= ~(unsigned)NEED_TWO_SIDES;
     if (!r->contract->printed || !rules)
@@ -185,7 +192,7 @@ static void apply_lambent_rules(struct shader_interface *r)
     r->supports |= first == RULE_DIRECTIONAL ? NEED_DIRECTIONAL
                    : first == RULE_SPOT      ? NEED_POINT | NEED_SPOT
                                              : NEED_POINT;
-    if (!declarations_uses(&r->fragment, "gl_FrontFacing"))
+    if (!lecture && !declarations_uses(&r->fragment, "gl_FrontFacing")) // a mistake in the lecture style
         r->supports &= ~(unsigned)NEED_TWO_SIDES;
     r->supports |= rules;
     r->supports |= has_highlight(r->printed_model) ? 0 : RULE_NO_SPECULAR;

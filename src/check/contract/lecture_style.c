@@ -1,0 +1,102 @@
+// lecture_style.c: reads the lecture style's loop over the lights.
+#include "lecture_style.h"
+
+#include "reference_scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool is(const struct declarations *d, int at, const char *text)
+{
+    return at >= 0 && at < d->word_count && strcmp(d->words[at].text, text) == 0;
+}
+
+struct range {
+    int first, end; // of the lights that a condition on `i` selects
+};
+
+// Reads "i >= 1 && i < 3" or one half of it; no condition selects all lights. Returns the place after it.
+static int read_condition(const struct declarations *d, int at, struct range *range)
+{
+    *range = (struct range){0, MAX_SCENE_LIGHTS};
+    if (is(d, at, "i") && is(d, at + 1, ">") && is(d, at + 2, "=") && at + 3 < d->word_count) {
+        range->first = atoi(d->words[at + 3].text);
+        at += 4;
+        at += is(d, at, "&") && is(d, at + 1, "&") ? 2 : 0;
+    }
+    if (is(d, at, "i") && is(d, at + 1, "<") && at + 2 < d->word_count) {
+        range->end = atoi(d->words[at + 2].text);
+        at += 3;
+    }
+    return at;
+}
+
+// The condition of the statement at `at`: "if (i >= 3) spot = …".
+static struct range condition_before(const struct declarations *d, int at)
+{
+    struct range range = {0, MAX_SCENE_LIGHTS};
+    int open = at - 1;
+    while (is(d, at - 1, ")") && open > 0 && !is(d, open, "("))
+        open--;
+    if (is(d, at - 1, ")") && is(d, open - 1, "if"))
+        read_condition(d, open + 1, &range);
+    return range;
+}
+
+// Whether a statement names one of two words before its end.
+static bool names(const struct declarations *d, int at, const char *a, const char *b)
+{
+    for (; at < d->word_count && !is(d, at, ";"); at++)
+        if (is(d, at, a) || is(d, at, b))
+            return true;
+    return false;
+}
+
+unsigned lecture_light_rules(const struct declarations *lit)
+{
+    unsigned kinds[MAX_SCENE_LIGHTS] = {0}, rules = 0;
+    bool attenuated = false, found = false;
+    for (int i = 0; i < lit->word_count; i++) {
+        struct range range;
+        attenuated |= lit->words[i].is_member && is(lit, i, "attenuation");
+        if (is(lit, i, "vec3") && is(lit, i + 1, "way") && is(lit, i + 2, "=")) {
+            int at = read_condition(lit, i + 3, &range);
+            bool chosen = is(lit, at, "?");
+            at += chosen;
+            at += is(lit, at, "-");
+            bool directional = is(lit, at, "lights") && is(lit, at + 5, "direction");
+            for (int k = 0; k < MAX_SCENE_LIGHTS; k++)
+                kinds[k] = directional && k >= range.first && k < range.end ? RULE_DIRECTIONAL : RULE_POINT;
+            found = true;
+        }
+        if (found && is(lit, i, "spot") && is(lit, i + 1, "=") && names(lit, i, "cutoff", "exponent")) {
+            range = condition_before(lit, i);
+            for (int k = range.first; k < range.end && k < MAX_SCENE_LIGHTS; k++)
+                kinds[k] = RULE_SPOT;
+        }
+    }
+    for (int k = 0; found && k < MAX_SCENE_LIGHTS; k++)
+        rules |= (kinds[k] | (attenuated && kinds[k] != RULE_DIRECTIONAL ? 0 : RULE_UNATTENUATED))
+                 << (RULE_FIRST + RULE_BITS * k);
+    return rules;
+}
+
+lam_reflection lecture_model(const struct declarations *lit)
+{
+    for (int i = 0; i < lit->word_count; i++)
+        if (is(lit, i, "vec3") && is(lit, i + 2, "=")) {
+            if (is(lit, i + 1, "R"))
+                return LAM_REFLECTION_PHONG;
+            if (is(lit, i + 1, "H"))
+                return LAM_REFLECTION_BLINN_PHONG;
+        }
+    return LAM_REFLECTION_AUTO;
+}
+
+bool lecture_viewer_is_infinite(const struct declarations *lit)
+{
+    for (int i = 0; i < lit->word_count; i++)
+        if (is(lit, i, "const") && is(lit, i + 1, "vec3") && is(lit, i + 2, "V"))
+            return true;
+    return false;
+}

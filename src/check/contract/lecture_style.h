@@ -1,0 +1,19 @@
+// lecture_style.h: what a shader printed by `lambent shader --style lecture` computes, read from its words. The lines that it reads are
+// those of ../../glsl/lecture.glsl, also with one of the known mistakes in them.
+#ifndef LECTURE_STYLE_H
+#define LECTURE_STYLE_H
+
+#include <lambent/material.h>
+
+#include "declarations.h"
+
+// The restrictions on the kinds of lights (reference_rule). 0: it is not in the lecture style.
+unsigned lecture_light_rules(const struct declarations *lit);
+
+// The reflection model of a shader in the lecture style; AUTO: Lambert's.
+lam_reflection lecture_model(const struct declarations *lit);
+
+// Whether its viewer is infinitely far: the vector to the eye is a constant.
+bool lecture_viewer_is_infinite(const struct declarations *lit);
+
+#endif

@@ -1,0 +1,158 @@
+
+//@if !fragment
+@attributes@
+
+//@end
+//@if per_fragment
+@varying@vec3 eye_position;
+@varying@vec3 eye_normal;
+//@else
+@varying@vec4 front_light;
+//@if two_sided
+@varying@vec4 back_light;
+//@end
+//@end
+//@if passes_tint
+@varying@vec4 tint;
+//@end
+//@if fragment
+//@if !glsl_120
+out vec4 pixel;
+//@end
+//@end
+//@if lights_here
+
+// The light that a point P with the unit normal N sends to the eye. All of it is in eye space: the eye is at the origin.
+vec3 lit(@parameters@)
+{
+//@if !products
+//@if highlights
+    vec3 ka = material.ambient.rgb, kd = material.diffuse.rgb, ks = material.specular.rgb;
+//@else
+    vec3 ka = material.ambient.rgb, kd = material.diffuse.rgb;
+//@end
+//@end
+//@if reads_eye
+//@if distant_viewer
+    const vec3 V = vec3(0.0, 0.0, 1.0); // towards an eye that is infinitely far away
+//@else
+    vec3 V = normalize(-P);         // from the point to the eye
+//@end
+//@end
+//@if products
+    vec3 ambient = @tinted@ambient_product.rgb; // ka La
+//@else
+    vec3 ambient = @tinted@ka * ambient_light.rgb;
+//@end
+//@if has_hemispheres
+    for (int i = 0; i < @hemispheres@; i++) { // the sky above, the ground below
+//@if products
+        ambient += @tinted@mix(ground_product[i].rgb, sky_product[i].rgb, 0.5 + 0.5 * dot(N, hemispheres[i].up.xyz));
+//@else
+        vec3 sky = hemispheres[i].sky.rgb, ground = hemispheres[i].ground.rgb;
+        ambient += @tinted@ka * mix(ground, sky, 0.5 + 0.5 * dot(N, hemispheres[i].up.xyz));
+//@end
+    }
+//@end
+    vec3 color = @emission@ + ambient;
+//@if has_lights
+    for (int i = 0; i < @lights@; i++) {
+        vec3 way = @way@;
+        vec3 L = normalize(way);    // from the point to the light
+//@if has_falloff
+        float d = length(way);      // the light's distance
+        vec4 a = lights[i].attenuation;
+        float attenuation = 1.0 / (a.x + a.y * d + a.z * d * d);
+//@if has_range
+        attenuation *= clamp(1.0 - pow(d * a.w, 4.0), 0.0, 1.0); // nothing beyond the range
+//@end
+//@end
+//@if has_cone
+        float c = dot(-L, lights[i].direction.xyz); // cosine of the angle from the spotlight's axis
+//@if has_cutoff
+        float cutoff = lights[i].cone.x, exponent = lights[i].cone.y;
+//@end
+@spots@
+//@end
+        vec3 diffuse = @diffuse_light@ * max(dot(N, L), 0.0); // Lambert
+//@if phong
+        vec3 R = reflect(-L, N);    // the mirror image of L
+        float S = dot(N, L) > 0.0 ? pow(max(dot(R, V), 0.0), @shininess@) : 0.0; // Phong
+//@end
+//@if blinn_phong
+        vec3 H = normalize(L + V);  // halfway between light and eye
+        float S = dot(N, L) > 0.0 ? pow(max(dot(N, H), 0.0), @shininess@) : 0.0; // Blinn and Phong
+//@end
+//@if highlights
+        vec3 specular = @specular_light@ * S;
+        color += @arriving@(diffuse + specular);
+//@else
+        color += @arriving@diffuse;
+//@end
+    }
+//@end
+//@if has_environment
+    vec3 mirrored = environment_matrix * reflect(-V, N); // the way that the eye sees in a mirror
+    color += @reflectivity@ * @texture_cube@(environment, mirrored).rgb;
+//@end
+    return color;
+}
+//@end
+//@if encodes
+
+// From linear light to the numbers of a screen (sRGB).
+vec3 encode(vec3 light)
+{
+    vec3 x = clamp(light, 0.0, 1.0);
+    return mix(12.92 * x, 1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, x));
+}
+//@end
+
+void main()
+{
+//@if fragment
+//@if per_fragment
+    vec3 N = normalize(eye_normal); // interpolation made it shorter
+//@if two_sided
+    if (!gl_FrontFacing)
+        N = -N;                     // the back is lit as well
+//@end
+    vec4 light = vec4(lit(@arguments@), @opacity@);
+//@else
+//@if two_sided
+    vec4 light = gl_FrontFacing ? front_light : back_light;
+//@else
+    vec4 light = front_light;
+//@end
+//@end
+//@if encodes
+    @pixel@ = vec4(encode(light.rgb), light.a);
+//@elif premultiplied
+    @pixel@ = vec4(light.rgb * light.a, light.a);
+//@else
+    @pixel@ = light;
+//@end
+//@else
+    gl_Position = model_view_projection * vec4(position, 1.0);
+//@if per_fragment
+    eye_position = (model_view * vec4(@lit_position@, 1.0)).xyz;
+    eye_normal = normalize(normal_matrix * normal);
+//@if passes_tint
+    tint = color;
+//@end
+//@elif application
+    front_light = front_color; // lit by the application
+//@if two_sided
+    back_light = back_color;
+//@end
+//@else
+    vec3 eye_position = (model_view * vec4(@lit_position@, 1.0)).xyz;
+    vec3 N = normalize(normal_matrix * normal);
+    front_light = vec4(lit(@arguments@), @opacity@);
+//@if two_sided
+    N = -N; // the back is lit as well; the fragment shader chooses
+    back_light = vec4(lit(@arguments@), @opacity@);
+//@end
+//@end
+//@end
+}

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """browser.py PROGRAM [--long]: the page of `make web` in Debian's chromium, driven by playwright-core (web/browser.mjs): gestures and the command
 lines that they make, controls, links, drops, explanations, the page in one file, without its server, names and roles, texts. After random
-sequences of gestures, 3 or with --long 30, PROGRAM draws the copied command, and the canvas has the same pixels.
+sequences of gestures, 3 or with --long 30, PROGRAM draws the copied command, and the canvas has the same pixels. Shaders are checked with the
+browser's WebGL 2 (web/shaders.mjs): correct ones pass, known mistakes have their names, with --long all.
 
 Skipped where chromium, a package of the group `web`, or playwright-core is missing; npm installs that in build-web/npm, as web/package-lock.json
 has it."""
@@ -19,6 +20,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 OUT = os.path.join(ROOT, "build-web")
 sys.path[:0] = [os.path.join(ROOT, "web"), os.path.join(ROOT, "tests")]
 import build  # noqa: E402
+from check.mistakes import MISTAKES  # noqa: E402
 from web import Results, make_models  # noqa: E402
 
 
@@ -60,6 +62,48 @@ def check_picture(results, program, folder, kind, said):
     os.remove(path)
 
 
+# Known mistakes that are tried without --long: of a highlight, of a gate, of a vertex shader.
+SOME_MISTAKES = [("pittsburgh", "phong-lobe"), ("oregon", "no-gate"), ("pittsburgh", "normal-by-model-view")]
+
+
+def shader_tasks(long):
+    """Checks of tests/check for the browser: correct programs, known mistakes (with `long` all), one that does not compile."""
+    def text(name, ending):
+        path = os.path.join(ROOT, "tests", "check", "%s.%s" % (name, ending))
+        return open(path).read() if os.path.exists(path) else ""
+
+    tasks = []
+    for name in sorted(name[:-5] for name in os.listdir(os.path.join(ROOT, "tests", "check")) if name.endswith(".vert")):
+        if name != "pittsburgh-blocks": # ES 3.00 has no blocks of varyings
+            tasks.append({"name": name, "vertex": text(name, "vert"), "fragment": text(name, "frag"), "contract": "", "verdict": "passes", "mistakes": ""})
+    for name, ids, edits in MISTAKES:
+        if long or (name, ids) in SOME_MISTAKES:
+            task = {"name": name, "vertex": text(name, "vert"), "fragment": text(name, "frag"), "contract": "", "verdict": "differs",
+                    "mistakes": " ".join(sorted(ids.split()))}
+            for ending, old, new in edits:
+                key = {"frag": "fragment", "vert": "vertex"}[ending]
+                task[key] = task[key].replace(old, new)
+            tasks.append(task)
+    line = text("angel", "frag").count("\n", 0, text("angel", "frag").index("normalize(")) + 1
+    tasks.append({"name": "angel with an error", "vertex": text("angel", "vert"), "fragment": text("angel", "frag").replace("normalize(", "normalise(", 1),
+                  "contract": "", "verdict": "refused", "mistakes": "", "line": line})
+    return tasks
+
+
+def check_shaders(results, modules, chromium, folder, long):
+    path = os.path.join(folder, "shaders.json")
+    tasks = shader_tasks(long)
+    json.dump(tasks, open(path, "w"))
+    done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "shaders.mjs"), modules, chromium, OUT, path], stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True)
+    for line in done.stdout.splitlines():
+        if line.startswith("#"):
+            print(line)
+        else:
+            results.ok(line.startswith("ok "), "shaders: " + line.split("ok ", 1)[1])
+    results.ok(done.returncode == 0 and len(done.stdout.splitlines()) > len(tasks), "all shaders were checked", done.stderr)
+
+
 def skip(why):
     print("ok 1 - browser # SKIP %s\n1..1" % why)
     return 0
@@ -81,6 +125,7 @@ def main():
         return skip("npm cannot install playwright-core")
     sequences = 30 if long else 3
     with tempfile.TemporaryDirectory() as folder:
+        check_shaders(results, modules, chromium, folder, long)
         make_models(folder)
         with open(os.path.join(OUT, "included.html"), "w") as out:
             model = open(os.path.join(folder, "cube.ply"), "rb").read()

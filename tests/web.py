@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""web.py PROGRAM: Lambent as WebAssembly, run by node. The image table has the recorded hashes, with and without SIMD; the module of the
-page writes the same files as PROGRAM for the same words, says the same sentences, and explains the same numbers; it is as small as promised.
+"""web.py PROGRAM RECORD_PAINTER: Lambent as WebAssembly, run by node. The image table has the recorded hashes, with and without SIMD; the module of the
+page writes the same files as PROGRAM for the same words, says the same sentences, and explains the same numbers; it is as small as promised. The
+module of checks asks its painter for what RECORD_PAINTER recorded by OpenGL, and gives the same reports for the same pictures.
 
 Builds build-web/ as `make web` does, the first time in a minute or two; then what has changed. Skipped where a package of the group
 `web` (packages.txt) is missing, or Debian's sources of the libraries cannot be fetched."""
@@ -55,6 +56,11 @@ CURVES = [(["sphere", "--light", LAMP], {"light": 0, "farthest": 8, "shininess":
            {"light": 1, "farthest": 4, "shininess": 50, "reflection": "blinn-phong"},
            [("attenuation", "attenuation", "1/0/0", 0, 4), ("spot", "spot", "cutoff=30,exponent=8", 0, 90), ("highlight", "highlight", "50", 1, 90)])]
 EXPLAINED = [["cube.obj", "--size", "96"], ["torus-knot", "--size", "96", "--reflection", "phong"]]
+
+# Checks: a program of tests/check, contract ("": recognised), whether its vertex shader is given, and an edit of the fragment shader.
+CHECKS = [("angel", "", True, None), ("oregon-no-gate", "", True, None), ("nyu-direction", "nyu", False, None), ("pittsburgh-vertex", "", True, None),
+          ("pittsburgh", "pittsburgh", True, ("max(dot(n, h), 0.0)", "max(dot(reflect(-l, n), v), 0.0)")), ("threejs-pbr", "", True, None),
+          ("gltf", "", True, None), ("oregon", "", True, ("void main", "void mian")), ("learnopengl", "", True, ("normalize(Normal)", "Normal"))]
 
 
 class Results:
@@ -157,6 +163,33 @@ def check_module(results, program):
         results.ok(len(options) > 60 and set(options) <= listed, "module: its options are those of the help",
                    str(sorted(set(options) - listed)))
 
+def check_checks(results, recorder):
+    module = os.path.join(OUT, "wasm", "web", "check.wasm")
+    with tempfile.TemporaryDirectory() as folder:
+        files, asked = [], []
+        for name, contract, has_vertex, edit in CHECKS:
+            shaders = os.path.join(ROOT, "tests", "check", name)
+            vertex = open(shaders.replace("-no-gate", "") + ".vert").read() if has_vertex else ""
+            fragment = open(shaders + ".frag").read()
+            if edit:
+                results.ok(fragment.count(edit[0]) == 1, "%s.frag has '%s'" % (name, edit[0]))
+                fragment = fragment.replace(*edit)
+            files.append(os.path.join(folder, "%d-%s" % (len(files), name)))
+            asked.append({"fragment": fragment, "vertex": vertex, "contract": contract})
+            done = subprocess.run([recorder, files[-1]], input="\0".join([fragment, vertex, contract, ""]), stderr=subprocess.PIPE, text=True)
+            if done.returncode == 77:
+                print("# no OpenGL: checks are not compared")
+                return
+            results.ok(done.returncode == 0, "recorded: " + name, done.stderr)
+        done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "check.mjs"), module, *files], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True, input="".join(json.dumps(one) + "\n" for one in asked))
+        lines = done.stdout.splitlines()
+        for line in lines:
+            if not line.startswith("#"):
+                results.ok(line.startswith("ok "), "check: " + line.split("ok ", 1)[1], "\n".join(lines))
+        results.ok(done.returncode == 0 and sum(line.startswith("ok ") for line in lines) == 2 * len(CHECKS) + 3, "check: all were replayed", done.stderr + done.stdout)
+
+
 def check_sizes(results):
     """docs/web.md has the sizes of what was built, to a tenth and 3 kB; and what a page loads first is no more than promised."""
     page = open(os.path.join(ROOT, "docs", "web.md")).read()
@@ -185,6 +218,7 @@ def main():
     if done.returncode == 0:
         check_hashes(results)
         check_module(results, program)
+        check_checks(results, os.path.abspath(sys.argv[2]))
         check_sizes(results)
         done = node("page.mjs", os.path.join(OUT, "lambent.html"))
         for line in done.stdout.splitlines():

@@ -37,15 +37,20 @@ def call(*command):
 PAGE = "page.js"
 WORKER = "worker.js"
 
-# In place of start.js's openWorker: the worker and the module stand in the page itself.
-START_INSIDE = """function openWorker() {
-  const text = (id) => document.getElementById(id).textContent;
-  const worker = new Worker(URL.createObjectURL(new Blob([text('worker')], { type: 'text/javascript' })));
-  const packed = Uint8Array.from(atob(text('wasm')), (letter) => letter.charCodeAt(0));
-  const wasm = new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
-  return caller(worker, wasm);
-}
+CHECK_WORKER = "check_worker.js"
+
+# The one-file page has in it what the served one fetches: scripts of workers as texts, the rest packed. These functions stand before its script,
+# and in place of those of the same names.
+INSIDE_FIRST = """const insideText = (id) => document.getElementById(id).textContent;
+const insideStream = (id) => new Response(new Blob([Uint8Array.from(atob(insideText(id)), (letter) => letter.charCodeAt(0))]).stream().pipeThrough(new DecompressionStream('gzip')));
+const insideScript = (text) => URL.createObjectURL(new Blob([text], { type: 'text/javascript' }));
 """
+INSIDE = {
+    "openWorker": """function openWorker() {
+  return caller(new Worker(insideScript(insideText('worker'))), insideStream('wasm').arrayBuffer());
+}
+""",
+}
 
 
 def packed_text(content):
@@ -61,8 +66,8 @@ def with_files(page, files):
 
 def page_file(name):
     """A file of the page, a script without the lines that are comments alone: the page loads sooner."""
-    path = os.path.join(HERE, "page", name)
-    text = open(path if os.path.exists(path) else os.path.join(HERE, name)).read()
+    paths = [os.path.join(HERE, folder, name) for folder in ("page", "check", "")]
+    text = open(next((path for path in paths if os.path.exists(path)), paths[0])).read()
     return re.sub(r"^[ \t]*//.*\n", "", text, flags=re.M) if name.endswith(".js") else text
 
 
@@ -103,6 +108,8 @@ def plain_script(first):
     for name in modules_of(first) + later:
         variable = "module_" + re.sub(r"\W", "_", name)
         text = IMPORT.sub(lambda m: "const %s = %s;\n" % (m[1].replace(" as ", ": "), module(m[2])) if m[1] else module(m[2]) + ";\n", page_file(name))
+        for function, inside in INSIDE.items():
+            text = re.sub(r"^(export )?(async )?function %s\(\) \{.*?\n\}\n" % function, lambda m: (m[1] or "") + inside, text, count=1, flags=re.S | re.M)
         text = LATER.sub(lambda m: "Promise.resolve().then(() => %s)" % module(m[1]), text)
         listed = [word.strip() for group in re.findall(r"^export \{(.*)\};\n", text, flags=re.M) for word in group.split(",")]
         text = re.sub(r"^export \{.*\};\n", "", text, flags=re.M)
@@ -116,49 +123,63 @@ def plain_script(first):
     return "".join(out)
 
 
+def write(path, content):
+    """Writes a file, unless it is as it should be: another test may read it."""
+    content = content.encode() if isinstance(content, str) else content
+    if not os.path.exists(path) or open(path, "rb").read() != content:
+        with open(path + ".new", "wb") as out:
+            out.write(content)
+        os.replace(path + ".new", path)
+
+
 def source_hash(text):
     return "'sha256-%s'" % base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
 
 
-def make_offline(served):
-    """The service worker of the served page, and what starts it; its list is of all files that the page loads."""
-    open(os.path.join(served, "offline.js"), "w").write(page_file("offline.js"))
-    path = os.path.join(served, "index.html")
-    page = open(path).read()
+def served_file(name):
+    """A file of the served page, which has a service worker: what starts it is beside the page's script."""
+    text = page_file(name)
     script = '<script type="module" src="page.js"></script>'
-    if script not in page:
+    if name != "index.html":
+        return text
+    if script not in text:
         sys.exit("web: index.html has no %s" % script)
-    open(path, "w").write(page.replace(script, script + '\n<script type="module" src="offline.js"></script>'))
+    return text.replace(script, script + '\n<script type="module" src="offline.js"></script>')
+
+
+def make_offline(served):
+    """The service worker of the served page; its list is of all files that the page loads."""
+    write(os.path.join(served, "offline.js"), page_file("offline.js"))
     files = sorted(name for name in os.listdir(served) if name.endswith((".js", ".css", ".html", ".wasm")) and name != "offline_worker.js")
     contents = hashlib.sha256(b"".join(name.encode() + open(os.path.join(served, name), "rb").read() for name in files)).hexdigest()
     worker = page_file("offline_worker.js").replace("lambent-HASH", "lambent-" + contents[:16])
-    worker = worker.replace("const FILES = [];", "const FILES = %s;" % json.dumps(["./"] + files))
-    open(os.path.join(served, "offline_worker.js"), "w").write(worker)
+    write(os.path.join(served, "offline_worker.js"), worker.replace("const FILES = [];", "const FILES = %s;" % json.dumps(["./"] + files)))
 
 
-def make_page(folder, wasm):
-    """The page as files that a server serves, and as one file that works by itself."""
+def make_page(folder, modules):
+    """The page as files that a server serves, and as one file that works by itself. `modules`: the folder of lambent.wasm and check.wasm."""
     served = os.path.join(folder, "page")
     os.makedirs(served, exist_ok=True)
-    for name in modules_of(PAGE) + later_modules_of(PAGE) + modules_of(WORKER) + ["index.html", "page.css", "lambent.d.ts"]:
-        open(os.path.join(served, name), "w").write(page_file(name))
-    shutil.copy(wasm, os.path.join(served, "lambent.wasm"))
+    for name in modules_of(PAGE) + later_modules_of(PAGE) + modules_of(WORKER) + modules_of(CHECK_WORKER) + ["index.html", "page.css", "lambent.d.ts"]:
+        write(os.path.join(served, name), served_file(name))
+    for name in ("lambent.wasm", "check.wasm"):
+        write(os.path.join(served, name), open(os.path.join(modules, name), "rb").read())
     make_offline(served)
 
     style = page_file("page.css")
-    script = plain_script(PAGE)
-    script = re.sub(r"function openWorker\(\) \{.*?\n\}\n", lambda _: START_INSIDE, script, count=1, flags=re.S)
+    script = INSIDE_FIRST + plain_script(PAGE)
     page = page_file("index.html")
     policy = ("default-src 'none'; script-src %s blob: 'wasm-unsafe-eval'; worker-src blob:; style-src %s; img-src blob: data:; base-uri 'none'; "
               "form-action 'none'" % (source_hash(script), source_hash(style)))
     page = re.sub(r'(Content-Security-Policy" content=")[^"]*', lambda m: m[1] + policy, page)
     page = page.replace('<link rel="stylesheet" href="page.css">', "<style>%s</style>" % style)
     page = page.replace('<script type="module" src="page.js"></script>', "")
-    packed = packed_text(open(wasm, "rb").read())
-    inside = ('<script type="text/plain" id="worker">%s</script>\n<script type="text/plain" id="wasm">%s</script>\n'
-              '<script type="module">%s</script>\n</body>' % (plain_script(WORKER), packed, script))
-    page = page.replace("</body>", inside)
-    open(os.path.join(folder, "lambent.html"), "w").write(page)
+    texts = {"worker": plain_script(WORKER), "check-worker": plain_script(CHECK_WORKER)}
+    for name, file in (("wasm", "lambent.wasm"), ("check-wasm", "check.wasm")):
+        texts[name] = packed_text(open(os.path.join(served, file), "rb").read())
+    inside = "".join('<script type="text/plain" id="%s">%s</script>\n' % row for row in texts.items())
+    page = page.replace("</body>", '%s<script type="module">%s</script>\n</body>' % (inside, script))
+    write(os.path.join(folder, "lambent.html"), page)
 
 
 def main():
@@ -181,7 +202,7 @@ def main():
     output = call("ninja", "-C", wasm)
     if "warning:" in output:
         sys.exit("web: the compiler warns:\n" + output[-4000:])
-    make_page(folder, os.path.join(wasm, "web", "lambent.wasm"))
+    make_page(folder, os.path.join(wasm, "web"))
 
 
 if __name__ == "__main__":

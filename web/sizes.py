@@ -53,15 +53,18 @@ def table(folder):
     rows.append(("the module", os.path.getsize(module), packed(module)))
     page = os.path.join(folder, "page")
     later = build.later_modules_of(build.PAGE)
+    first = build.modules_of(build.PAGE) + build.modules_of(build.WORKER)
+    shaders = [name for name in build.modules_of(build.CHECK_WORKER) if name not in first + later]
     files = [name for name in os.listdir(page) if name.endswith((".js", ".html", ".css"))]
 
     def of(title, names):
         paths = [os.path.join(page, name) for name in names]
         return title, sum(os.path.getsize(path) for path in paths), sum(packed(path) for path in paths)
 
-    rows.append(of("scripts, page and style", [name for name in files if name not in later]))
+    rows.append(of("scripts, page and style", [name for name in files if name not in later + shaders]))
     rows.append((FIRST, rows[-2][1] + rows[-1][1], rows[-2][2] + rows[-1][2]))
     rows.append(of("scripts that are fetched when they are used", [name for name in files if name in later]))
+    rows.append(of("checks of shaders, fetched when one is checked", [*shaders, "check.wasm"]))
     return rows
 
 

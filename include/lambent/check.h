@@ -201,7 +201,8 @@ typedef struct lam_check_painter {
     // targets of floats, in which case colours are clamped and NaN is not found.
     bool (*draw)(void *place, const lam_check_drawing *drawing, float *pixels, lam_error *error);
     // Compiles nothing but GLSL ES: texts in desktop GLSL are rewritten for it, on the same lines, as far as the two
-    // languages agree (docs/check.md).
+    // languages agree (docs/check.md). Its pixels are not compared where the surface turns by more than 26 degrees from one to
+    // the next: GPUs that have nothing else may round corners to 1/16 of a pixel.
     bool es_only;
     LAM_RESERVED(4);
 } lam_check_painter;

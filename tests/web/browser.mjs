@@ -3,31 +3,15 @@
 // and the SHA-256 of the canvas' colours; the caller (browser.py) draws that command with the program.
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
-import { createServer } from 'node:http';
-import { createRequire } from 'node:module';
 import { extname, join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { openBrowser } from './serve.mjs';
 
 const [, , playwright, executablePath, built, models, sequences] = process.argv, all = Number(sequences) > 3; // all: of make test-long
-const { chromium } = createRequire(join(resolve(playwright), 'x'))('playwright-core');
 const ok = (good, label, why = '') => console.log(`${good ? 'ok' : 'not ok'} ${label}${good || why === '' ? '' : `\n# ${String(why).replaceAll('\n', '\n# ')}`}`);
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
-const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
-const server = createServer((request, answer) => {
-  const name = new URL(request.url, 'http://x').pathname.replace(/^\/$/, '/index.html');
-  try {
-    const bytes = readFileSync(join(built, 'page', name));
-    answer.writeHead(200, { 'content-type': TYPES[extname(name)] ?? 'application/octet-stream' }).end(bytes);
-  } catch {
-    answer.writeHead(404).end();
-  }
-});
-await new Promise((done) => server.listen(0, '127.0.0.1', done));
-const origin = `http://127.0.0.1:${server.address().port}/`;
-
-const browser = await chromium.launch({ executablePath, headless: true, args: ['--no-sandbox', '--disable-gpu', '--no-first-run', '--disable-background-networking',
-  '--disable-component-update', '--disable-sync'] });
+const { browser, server, origin } = await openBrowser(playwright, executablePath, built);
 const context = await browser.newContext({ viewport: { width: 1100, height: 800 }, permissions: ['clipboard-read', 'clipboard-write'] });
 
 // What the browser reports about the page: errors, and all that its content-security policy has refused.

@@ -6,6 +6,28 @@ static float clamped(float x) { return x > 0 ? (x < 1 ? x : 1) : 0; } // NaN: 0
 // Blending uses alpha before anything clamps it, so values above 1 count.
 static float bounded(float x) { return x > 0 ? (x < 4 ? x : 4) : 0; }
 
+static double cosine(const float *a, const float *b)
+{
+    return (double)a[0] * (double)b[0] + (double)a[1] * (double)b[1] + (double)a[2] * (double)b[2];
+}
+
+void scene_comparison_leave_out_turns(struct scene_comparison *scene, const float *normals, int size)
+{
+    static const double least_cosine = 0.9; // 26 degrees
+    size_t kept = 0;
+    for (size_t i = 0; i < scene->inside_count; i++) {
+        size_t at = scene->inside[i];
+        bool turns = false;
+        for (int k = 0; k < 9; k++) {
+            size_t other = at + (size_t)(k % 3) + (size_t)(k / 3) * (size_t)size - (size_t)size - 1;
+            turns = turns || cosine(normals + 4 * at, normals + 4 * other) < least_cosine;
+        }
+        if (!turns)
+            scene->inside[kept++] = scene->inside[i];
+    }
+    scene->inside_count = kept;
+}
+
 void scene_comparison_find_inside(struct scene_comparison *scene, int size)
 {
     scene->inside_count = 0;

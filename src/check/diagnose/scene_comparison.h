@@ -28,6 +28,9 @@ struct difference {
 // Finds the pixels to compare. The caller allocates `inside`, of size² elements.
 void scene_comparison_find_inside(struct scene_comparison *scene, int size);
 
+// Leaves out those where the surface turns by more than 26 degrees to a neighbour. `normals`: RGBA of size² pixels.
+void scene_comparison_leave_out_turns(struct scene_comparison *scene, const float *normals, int size);
+
 // Applies the tone curve of a shader printed by `lambent shader`. AUTO: none.
 void scene_comparison_apply_tone(lam_tone tone, float *pixels, size_t count);
 

@@ -4,6 +4,7 @@
 #include "place.h"
 #include "shader_dialect.h"
 
+#include <float.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -166,15 +167,18 @@ static bool draw_scene(struct shader_run *run, const struct reference_scene *sce
 // shader is recognised by its processor time, over all threads: a correct shader takes a hundredth of the limit. The
 // limit follows the machine's speed: it is a multiple of the time of a sum of dependent terms, measured in pieces so
 // short that at least one of them runs without an interruption.
-enum { PIECES = 16, TERMS = 1 << 16, TERMS_PER_PIXEL = 2000, MIN_PIXELS = 128 * 128 };
-static const double min_time_limit_s = 0.05; // the clock's resolution may be as coarse as 10 ms
-
 static double seconds(clockid_t clock)
 {
     struct timespec t;
     clock_gettime(clock, &t);
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
+
+#ifdef __wasi__ // has no processor time: whoever draws there stops what does not end
+static double time_limit_s(int size) { return size > 0 ? DBL_MAX : 0; }
+#else
+enum { PIECES = 16, TERMS = 1 << 16, TERMS_PER_PIXEL = 2000, MIN_PIXELS = 128 * 128 };
+static const double min_time_limit_s = 0.05; // the clock's resolution may be as coarse as 10 ms
 
 static double time_limit_s(int size)
 {
@@ -192,6 +196,7 @@ static double time_limit_s(int size)
     double limit = shortest / TERMS * TERMS_PER_PIXEL * ((double)size * size + MIN_PIXELS);
     return limit > min_time_limit_s ? limit : min_time_limit_s;
 }
+#endif
 
 // Compiles and links the texts as the painter's compiler reads them. `program` stays empty where they are refused.
 static bool compile(struct shader_run *run, const char *vertex, const char *fragment, lam_check_program *program,

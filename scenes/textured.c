@@ -169,7 +169,7 @@ bool textured_shadows(struct demo *d, lam_error *error)
     lam_material m = lam_material_default();
     d->params.shadows = true;
     if (!textured_masked(d, error) || !add_textured(d, "plane", &m, (lam_vec3){-0.8, -1.05, -0.6}, error) ||
-        !add_textured(d, "plane", &m, (lam_vec3){1.0, -1.05, -0.6}, error))
+        !add_textured(d, "plane", &m, (lam_vec3){1.25, -1.05, -0.6}, error))
         return false;
     lam_light l = lam_light_default(LAM_LIGHT_DIRECTIONAL);
     l.direction = (lam_vec3){0.1, -1, -0.5};

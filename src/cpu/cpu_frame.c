@@ -100,7 +100,7 @@ static bool set_up_thread(struct thread_state *thread, const struct cpu_frame *c
     lay_out_thread(&(struct suballocator){.block = thread->storage.data}, thread, &cpu->target);
     thread->coverage_ns = thread->lighting_ns = thread->resolve_ns = thread->pixels_covered = 0;
     thread->shading.points_lit = thread->shading.lights_evaluated = thread->shading.rays = 0;
-    thread->shading.shadow_layers.failed = false;
+    thread->shading.ray_layers.failed = false;
     return true;
 }
 
@@ -126,7 +126,7 @@ static bool set_up_threads(struct cpu_frame *cpu, struct buffer *heads, lam_erro
 
 uint64_t thread_bytes(const struct thread_state *thread, const struct thread_bins *bins)
 {
-    return (uint64_t)thread->shading.shadow_layers.capacity * sizeof *thread->shading.shadow_layers.list +
+    return (uint64_t)thread->shading.ray_layers.capacity * sizeof *thread->shading.ray_layers.list +
            thread->storage.capacity + slabs_bytes(&bins->blocks) + slabs_bytes(&bins->pieces);
 }
 
@@ -135,7 +135,7 @@ void thread_free(struct thread_state *thread, struct thread_bins *bins)
     slabs_free(&bins->blocks);
     slabs_free(&bins->pieces);
     buffer_free(&thread->storage);
-    free(thread->shading.shadow_layers.list);
+    free(thread->shading.ray_layers.list);
 }
 
 // --- pieces of work

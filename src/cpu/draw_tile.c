@@ -9,7 +9,7 @@
 static void shade(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile)
 {
     cpu->kernels->shade_fragments(&cpu->shade, &thread->fragments, &thread->shading, tile);
-    if (thread->shading.shadow_layers.failed)
+    if (thread->shading.ray_layers.failed)
         raster_fail(&cpu->raster, FAILED_MEMORY);
     if (cpu->shade.recorder)
         recording_kernels.record_fragments(cpu, thread, tile);

@@ -71,6 +71,8 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->light_count = wanted.light_count;
     c->hemisphere_count = wanted.hemisphere_count;
     c->shadows = f->frame->shadows && c->light_count && c->reflection != LAM_REFLECTION_NONE;
+    c->passes_rays = c->shadows && f->frame->passes_rays;
+    c->tints_rays = c->shadows && f->frame->tints_rays;
     c->catches = ground && f->frame->ground.kind == LAM_GROUND_SHADOW && !output_is_value(c->output);
 }
 
@@ -101,7 +103,8 @@ static enum vertex_form form_of(const struct gl_frame *f, const struct frame_dra
         return (frame->flat_normal == LAM_FLAT_NORMAL_VERTEX || draw->strokes) && draw->mesh->normals ? FORM_FLAT_VERTEX
                                                                                                       : FORM_FLAT_FACE;
     // Shaders number triangles by gl_VertexID / 3. A vertex lit for two materials has two colours.
-    bool counts = f->layered || frame->output == LAM_OUTPUT_IDS || frame->shadows;
+    bool counts = f->layered || frame->output == LAM_OUTPUT_IDS ||
+                  (frame->shadows && f->stage != LAM_STAGE_APPLICATION);
     bool two = f->stage == LAM_STAGE_APPLICATION && draw_all > 1;
     return counts || two || !mesh_can_share(mesh) ? FORM_CORNERS : FORM_SHARED;
 }
@@ -339,7 +342,8 @@ static uint64_t gl_memory(const struct lam_device *base)
     const struct gl_device *device = (const struct gl_device *)base;
     uint64_t bytes = device->scratch.capacity + device->runs.capacity + device->pixels.capacity +
                      device->draw_calls.capacity + device->environment_bytes + device->target_bytes +
-                     device->shadow_bytes + device->occlusion.capacity + device->occlusion_rows.capacity +
+                     device->shadow_bytes + device->surfaces.capacity + device->next_surfaces.capacity +
+                     device->surface_records.capacity + device->occlusion.capacity + device->occlusion_rows.capacity +
                      hierarchy_bytes(&device->hierarchy);
     const struct gl_light_buffer *lists[] = {&device->lights, &device->products};
     for (int i = 0; i < 2; i++)
@@ -374,6 +378,9 @@ static void gl_free(struct lam_device *base)
     }
     gl_context_free(&device->context);
     buffer_free(&device->scratch);
+    buffer_free(&device->surfaces);
+    buffer_free(&device->next_surfaces);
+    buffer_free(&device->surface_records);
     buffer_free(&device->occlusion);
     buffer_free(&device->occlusion_rows);
     buffer_free(&device->runs);

@@ -227,6 +227,9 @@ struct gl_device {
     struct hierarchy_memory hierarchy;
     GLuint shadow_texture;  // the hierarchy
     float shadow_places[2]; // first texel of the triangles, and of their places
+    // What lets light through: the texels of the frame before and of this one, and the records of this one's ranges.
+    struct buffer surfaces, next_surfaces, surface_records;
+    size_t surface_texels;
     uint64_t environment_bytes, target_bytes, shadow_bytes;
     struct gl_current_state current;
     struct buffer scratch;    // vertices before an upload
@@ -365,8 +368,14 @@ bool environment_send(struct gl_frame *f, lam_error *error);
 bool environment_light_send(struct gl_frame *f, lam_error *error);
 void light_buffers_free(struct gl_device *device);
 
+// --- gl_surfaces.c
+// Packs the surfaces that let light through, from the texel `first` of a texture that has `most`, into *count texels. LAM_LIMIT.
+bool surfaces_pack(struct gl_frame *f, size_t first, size_t most, struct buffer *out, size_t *count, lam_error *error);
+// The place of a triangle's record, by its number in the frame; 0: it lets no light through.
+size_t surfaces_record(const struct gl_frame *f, uint32_t number);
+
 // --- gl_shadows.c
-// Uploads the hierarchy of a frame with shadows. LAM_UNSUPPORTED: shadows that this device does not draw.
+// Uploads the hierarchy of a frame with shadows, and what lets light through. LAM_LIMIT: the texture would be too large.
 bool shadows_send(struct gl_frame *f, lam_error *error);
 // Sets what a program with shadows reads.
 void shadows_use(struct gl_frame *f, struct gl_program *program);

@@ -1,8 +1,9 @@
-// gl_shadows.c: the hierarchy of a frame as a float texture, which the fragment shader walks (shadows.glsl).
+// gl_shadows.c: the hierarchy of a frame as a float texture, which the shaders walk (shadows.glsl).
 //
 // Texels: two for each child of a node (the low corner of its box with its number; the high corner with twice its count of
-// triangles, and one more where no further child follows), six for each triangle in the order of the leaves (corners, with the twin and a kind; normals of the corners,
-// unit), and a number for each triangle of the frame: its place in that order.
+// triangles, and one more where no further child follows), six for each triangle in the order of the leaves (corners, with the twin, a kind
+// and the place of the record of one that lets light through, or 0; normals of the corners, unit, with the corners' elements),
+// and a number for each triangle of the frame: its place in that order. Behind them lies what lets light through (gl_surfaces.c).
 #include "gl_device.h"
 
 #include "fail.h"
@@ -10,6 +11,7 @@
 #include <string.h>
 
 enum { WIDTH = GLSL_LIST_WIDTH, TEXEL = 4 * sizeof(float), NODE = 2 * NODE_CHILDREN, TRIANGLE = 6, STACK = 64 };
+enum { TEXELS_MAX = 1 << 24 }; // whose places are floats
 enum { KIND_FLAT, KIND_CURVED, KIND_APART }; // APART: casts no shadow, and is in no ray's way
 
 static int children_of(const struct ray_node *node)
@@ -72,28 +74,23 @@ static void pack_normal(float *out, const struct frame_draw *draw, uint32_t corn
         out[i] = square > 0 ? (float)(to[i] / __builtin_sqrt(square)) : 0;
 }
 
-static void pack_triangle(float *out, const struct frame *frame, const struct ray_triangle *t)
+static void pack_triangle(float *out, const struct gl_frame *f, const struct ray_triangle *t)
 {
+    const struct frame *frame = f->frame;
     const struct frame_draw *draw = &frame->draws[frame->ranges[frame_range_of(frame, t->number)].draw];
+    const uint32_t *indices = draw->mesh->indices;
     bool curved = draw->mesh->normals && frame_draw_casts(draw);
     for (uint32_t k = 0; k < 3; k++) {
         for (int i = 0; i < 3; i++)
             out[4 * k + (uint32_t)i] = (float)t->p[k][i];
+        uint32_t corner = 3 * (t->number - draw->first_id) + k;
         if (curved)
-            pack_normal(out + 4 * (3 + k), draw, 3 * (t->number - draw->first_id) + k);
+            pack_normal(out + 4 * (3 + k), draw, corner);
+        out[4 * (3 + k) + 3] = (float)(indices ? indices[corner] : corner);
     }
     out[3] = (float)t->twin;
     out[7] = !frame_draw_casts(draw) ? KIND_APART : curved ? KIND_CURVED : KIND_FLAT;
-}
-
-static bool check(const struct frame *frame, lam_error *error)
-{
-    const char *what = frame->shading != LAM_SHADING_PHONG ? "colours lit at vertices (flat or Gouraud shading)" : NULL;
-    if (frame->passes_rays)
-        what = "masked, translucent or transmitting surfaces";
-    return !what ||
-           fail(error, LAM_UNSUPPORTED,
-                "OpenGL: this device draws no shadows where there are %s; use the CPU device, or no shadows", what);
+    out[11] = (float)surfaces_record(f, t->number);
 }
 
 bool shadows_send(struct gl_frame *f, lam_error *error)
@@ -103,30 +100,42 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
     const struct gl *gl = f->gl;
     bool built;
     uint64_t start = now_ns();
-    if (!check(frame, error))
-        return false;
     const struct hierarchy *h = hierarchy_of_frame(&device->hierarchy, frame, NULL, f->call, &built, error);
     if (!h)
         return false;
     device->base.report.hierarchy_ms += built ? (double)(now_ns() - start) * 1e-6 : 0;
+    if (f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->output)) { // no shader walks it
+        device->surface_texels = SIZE_MAX;
+        return true;
+    }
     // Triangles are counted in floats, and in texels of a texture.
     size_t triangles = (size_t)NODE * h->node_count, places = triangles + (size_t)TRIANGLE * (h->triangle_count + 1);
-    size_t texels = places + h->triangle_count / 4 + 1, rows = (texels + WIDTH - 1) / WIDTH;
-    if (rows > (size_t)device->texture_size_max || texels > 1 << 24)
-        return fail(
-            error, LAM_LIMIT,
-            "OpenGL: the hierarchy of %u triangles needs a texture of %zu rows, this device can have %d; the CPU "
-            "device has no such limit",
-            h->triangle_count, rows,
-            device->texture_size_max < (1 << 24) / WIDTH ? device->texture_size_max : (1 << 24) / WIDTH);
+    size_t surfaces = places + h->triangle_count / 4 + 1, surface_texels = 0;
+    size_t most = (size_t)device->texture_size_max * WIDTH;
+    most = most < TEXELS_MAX ? most : TEXELS_MAX;
+    if (surfaces > most)
+        return fail(error, LAM_LIMIT,
+                    "OpenGL: the hierarchy of %u triangles needs a texture of %zu texels, this device can have %zu; "
+                    "the CPU device has no such limit",
+                    h->triangle_count, surfaces, most);
     if (built && depth_of(h) > STACK)
         return fail(error, LAM_LIMIT, "OpenGL: the hierarchy is %d nodes deep, at most %d can be walked here",
                     depth_of(h), STACK);
     device->shadow_places[0] = (float)triangles;
     device->shadow_places[1] = (float)places;
-    if (!built && device->shadow_texture)
+    if (frame->passes_rays &&
+        !surfaces_pack(f, surfaces, most, &device->next_surfaces, &surface_texels, error))
+        return false;
+    bool same = surface_texels == device->surface_texels &&
+                (!surface_texels ||
+                 memcmp(device->surfaces.data, device->next_surfaces.data, surface_texels * TEXEL) == 0);
+    if (!built && same && device->shadow_texture)
         return true;
-    size_t bytes = rows * WIDTH * TEXEL;
+    struct buffer swapped = device->surfaces;
+    device->surfaces = device->next_surfaces;
+    device->next_surfaces = swapped;
+    device->surface_texels = surface_texels;
+    size_t rows = (surfaces + surface_texels + WIDTH - 1) / WIDTH, bytes = rows * WIDTH * TEXEL;
     if (!gl_charge(f, &device->shadow_bytes, bytes, error) || !buffer_reserve(&device->scratch, bytes, f->call, error))
         return false;
     float *out = device->scratch.data;
@@ -134,11 +143,12 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
     for (uint32_t i = 0; i < h->node_count; i++)
         pack_node(out + (size_t)4 * NODE * i, &h->nodes[i]);
     for (uint32_t i = 0; i < h->triangle_count; i++) {
-        pack_triangle(out + 4 * (triangles + (size_t)TRIANGLE * i), frame, &h->triangles[i]);
+        pack_triangle(out + 4 * (triangles + (size_t)TRIANGLE * i), f, &h->triangles[i]);
         out[4 * places + h->triangles[i].number] = (float)i;
     }
-    bool fresh = !device->shadow_texture;
-    if (fresh)
+    if (surface_texels)
+        memcpy(out + 4 * surfaces, device->surfaces.data, surface_texels * TEXEL);
+    if (!device->shadow_texture)
         gl->GenTextures(1, &device->shadow_texture);
     gl_use_texture(device, UNIT_SHADOW_TREE, GL_TEXTURE_2D, device->shadow_texture);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);

@@ -9,6 +9,7 @@
 #define LANES 4
 #include "cube_lookup.h"
 #include "cube_map.h"
+#include "light_rays.h"
 #include "lighting.h"
 #include "surroundings_at.h"
 
@@ -31,6 +32,14 @@ struct side {
     bool apart; // the terms that a diffuse map multiplies are apart from the rest
     bool glows; // and the emission is in neither, since an emission map multiplies it
     lam_reflection reflection;
+    struct light_rays *rays; // NULL: no light casts shadows
+};
+
+// Where the shadow rays of LANES vertices start: at the vertices, which no triangle there can shadow.
+struct vertex_rays {
+    _Alignas(64) double origin[3][LANES];
+    int32_t own[LANES];
+    uint32_t turn[LANES];
 };
 
 LANE_FN vec3 of3(const float *v) { return (vec3){num_of(v[0]), num_of(v[1]), num_of(v[2])}; }
@@ -76,8 +85,49 @@ LANE_FN vec3 environment_of(const struct frame *frame, surface s)
     return pick3(both(present(s.n), present(s.v)), vec3_of(c.r, c.g, c.b), black3());
 }
 
+// Vertices take their elements as x of the pattern's turns (light_pattern.h).
+static void start_rays(struct vertex_rays *out, const struct side *side, const struct mesh_vertex *from,
+                       const uint32_t elements[LANES])
+{
+    for (int i = 0; i < LANES; i++) {
+        double p[3];
+        frame_to_world(side->draw, from[i].position, p);
+        ray_point(side->rays->hierarchy, p, p);
+        for (int k = 0; k < 3; k++)
+            out->origin[k][i] = p[k];
+        out->own[i] = NO_TRIANGLE;
+        out->turn[i] = light_turn(elements[i], 0);
+    }
+}
+
+// Takes the part of a light away that does not reach the vertices. Those that face away need no rays, unless light counts there too.
+LANE_FN void pass_light(const struct side *side, const struct frame_light *l, const struct vertex_rays *rays,
+                        bool every_side, surface s, light_sample *t, light_source *light)
+{
+    _Alignas(64) float passed[3][LANES];
+    if (!side->rays || !l->casts_shadows)
+        return;
+    mask wanted = t->attenuation * t->spot > 0.0f;
+    if (!every_side)
+        wanted = both(wanted, dot3(s.n, t->l) > 0.0f);
+    unsigned active = mask_bits(wanted);
+    if (!active)
+        return;
+    trace_light(side->rays, (const double *const[3]){rays->origin[0], rays->origin[1], rays->origin[2]}, rays->own,
+                rays->turn, l, active, passed);
+    num one = num_of(1.0f), red = pick(wanted, num_load(passed[0]), one);
+    if (!side->frame->tints_rays) {
+        t->attenuation = t->attenuation * red;
+        return;
+    }
+    vec3 tint = vec3_of(red, pick(wanted, num_load(passed[1]), one), pick(wanted, num_load(passed[2]), one));
+    light->diffuse = mul3(light->diffuse, tint);
+    light->specular = mul3(light->specular, tint);
+}
+
 // The rest of evaluate_terms for a material with layers, as src/cpu/shade/layered.inc. `sign`: of the bitangent.
-LANE_FN terms layered_terms(const struct side *side, surface s, vec3 color, num sign, terms sum)
+LANE_FN terms layered_terms(const struct side *side, const struct vertex_rays *rays, surface s, vec3 color, num sign,
+                            terms sum)
 {
     const struct frame *frame = side->frame;
     const lam_material *m = side->material;
@@ -93,9 +143,10 @@ LANE_FN terms layered_terms(const struct side *side, surface s, vec3 color, num 
         const struct frame_light *l = &frame->lights[i];
         light_source light = source_of(side, l);
         light_sample t = toward_light(s.p, light, l->kind, l->falloff);
-        sum = add_layered(sum, light, t, layered_light(s, y, t.l, set));
         if (frame->gl1)
             sum = add_arriving_ambient(sum, product3(&m->ambient.r, l->ambient), t);
+        pass_light(side, l, rays, true, s, &t, &light);
+        sum = add_layered(sum, light, t, layered_light(s, y, t.l, set));
     }
     sum = cover_terms(sum, y, set);
     if (side->environment_light) {
@@ -114,7 +165,7 @@ LANE_FN terms layered_terms(const struct side *side, surface s, vec3 color, num 
     return tint_terms(sum, color);
 }
 
-LANE_FN terms evaluate_terms(const struct side *side, surface s, vec3 color, num sign)
+LANE_FN terms evaluate_terms(const struct side *side, const struct vertex_rays *rays, surface s, vec3 color, num sign)
 {
     const struct frame *frame = side->frame;
     const lam_material *m = side->material;
@@ -128,7 +179,7 @@ LANE_FN terms evaluate_terms(const struct side *side, surface s, vec3 color, num
             sum, s, (hemisphere){of3(h->up), product3(&m->ambient.r, h->sky), product3(&m->ambient.r, h->ground)});
     }
     if (model == LAM_REFLECTION_GGX && frame_layers(frame, m))
-        return layered_terms(side, s, color, sign, sum);
+        return layered_terms(side, rays, s, color, sign, sum);
     num gain = frame->single_scattering || !(lobe_properties(model) & LOBE_MICROFACET)
                    ? num_of(0.0f)
                    : scattering_gain(s, num_of(m->roughness));
@@ -138,11 +189,12 @@ LANE_FN terms evaluate_terms(const struct side *side, surface s, vec3 color, num
         const struct frame_light *l = &frame->lights[i];
         light_source light = source_of(side, l);
         light_sample t = toward_light(s.p, light, l->kind, l->falloff);
-        if (lobe_properties(model) & LOBE_MICROFACET)
-            light = with_fresnel(light, mirror, s.v, t.l);
-        sum = add_reflected(sum, light, t, reflect_light(s, t.l, parameters, model));
         if (frame->gl1)
             sum = add_arriving_ambient(sum, product3(&m->ambient.r, l->ambient), t);
+        if (lobe_properties(model) & LOBE_MICROFACET)
+            light = with_fresnel(light, mirror, s.v, t.l);
+        pass_light(side, l, rays, (lobe_properties(model) & LOBE_TANGENT) != 0, s, &t, &light);
+        sum = add_reflected(sum, light, t, reflect_light(s, t.l, parameters, model));
     }
     if (side->environment_light && (lobe_properties(model) & LOBE_MICROFACET)) {
         vec3 kd = scale3(mul3(of3(&m->diffuse.r), color), num_of(1.0f - m->metallic));
@@ -257,19 +309,23 @@ LANE_FN void store_vertices(float (*out)[4], vec3 color)
 }
 
 // Computes the colours of vertices, with alpha, and if they are kept apart the rest of each; `count` is a multiple of LANES.
-static void light_side(const struct side *side, const struct mesh_vertex *from, uint32_t count, float (*out)[4],
-                       float (*rest)[4])
+// `elements` (with shadows): their elements in the mesh.
+static void light_side(const struct side *side, const struct mesh_vertex *from, const uint32_t *elements,
+                       uint32_t count, float (*out)[4], float (*rest)[4])
 {
+    struct vertex_rays rays;
     const struct frame *frame = side->frame;
     bool clamped = frame->gl1 && output_is_picture(frame->output);
     for (uint32_t first = 0; first < count; first += LANES, from += LANES, out += LANES) {
         surface s = surface_of(side, from);
+        if (side->rays)
+            start_rays(&rays, side, from, elements + first);
         vec3 white = vec3_of(num_of(1.0f), num_of(1.0f), num_of(1.0f));
         vec3 color;
         if (output_is_vector(frame->output)) {
             color = output_vector(side, s);
         } else {
-            terms t = evaluate_terms(side, s, side->mesh->colors ? load3(from, 6) : white, sign_of(side, from));
+            terms t = evaluate_terms(side, &rays, s, side->mesh->colors ? load3(from, 6) : white, sign_of(side, from));
             color = side->apart ? part_terms(side, t, true) : output_terms(side, t);
             if (side->apart)
                 store_vertices(rest, clamped3(part_terms(side, t, false), clamped));
@@ -345,7 +401,8 @@ static bool make_key(struct gl_frame *f, struct gl_vertex_lighting *row, const s
                            frame->distant_viewer, frame->match_highlights, frame->single_scattering,
                            frame->light_count,    frame->hemisphere_count, draw->one_sided,
                            frame->flat_normal,    (int)mesh->form,         frame->translucent};
-    const uint64_t frame_number = mesh->passing ? f->device->frame_number : 0; // the contents are of this frame
+    // Contents that are of this frame, and shadows, which depend on all meshes.
+    const uint64_t frame_number = mesh->passing || frame->shadows ? f->device->frame_number : 0;
     const void *pointers[] = {frame->environment, mesh->mesh.positions, mesh->token};
     bool ok = key_add(f, row, size, choices, sizeof choices, error) &&
               key_add(f, row, size, pointers, sizeof pointers, error) &&
@@ -367,9 +424,15 @@ static bool make_key(struct gl_frame *f, struct gl_vertex_lighting *row, const s
 
 // --- lighting and upload
 
+// The mesh's element of a vertex.
+static uint32_t element_of(const struct gl_mesh *mesh, uint32_t vertex)
+{
+    return mesh->form == FORM_SHARED || !mesh->mesh.indices ? vertex : mesh->mesh.indices[vertex];
+}
+
 // Lights the vertices of a range, and interleaves front and back colours.
 static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const struct frame_draw_range *run,
-                      uint32_t first, uint32_t end, uint32_t each, float (*lit)[4])
+                      uint32_t first, uint32_t end, uint32_t each, struct light_rays *rays, float (*lit)[4])
 {
     const struct frame_draw *draw = &f->frame->draws[run->draw];
     struct side side = {.frame = f->frame,
@@ -378,11 +441,13 @@ static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const stru
                         .mesh = &mesh->mesh,
                         .translucent = run->translucent,
                         .apart = glsl_keeps_apart(f->frame, run),
-                        .reflection = run->reflection};
+                        .reflection = run->reflection,
+                        .rays = rays};
     for (int back = 0; back < 2; back++)
         side.glows |= f->frame->materials[back ? run->back : run->front]->maps[LAM_MAP_EMISSION] != NULL;
     struct mesh_vertex *from = f->device->scratch.data;
     float(*colors)[4] = (float(*)[4])(from + CHUNK), (*rest)[4] = colors + CHUNK;
+    uint32_t *elements = (uint32_t *)(rest + CHUNK);
     for (; first < end; first += CHUNK) {
         uint32_t chunk = end - first < CHUNK ? end - first : CHUNK, padded = (chunk + LANES - 1) / LANES * LANES;
         if (!call_should_continue(f->call))
@@ -390,12 +455,14 @@ static bool light_run(struct gl_frame *f, const struct gl_mesh *mesh, const stru
         mesh_vertices(f->device, &mesh->mesh, mesh->form, first, chunk, from);
         for (uint32_t i = chunk; i < padded; i++)
             from[i] = from[chunk - 1];
+        for (uint32_t i = 0; i < padded && side.rays; i++)
+            elements[i] = element_of(mesh, first + (i < chunk ? i : chunk - 1));
         for (int back = 0; back < 2; back++) {
             if (!back || !draw->one_sided) { // one-sided: the back repeats the front
                 side.material = f->frame->materials[back ? run->back : run->front];
                 frame_material_colors(side.material, side.kd, side.ks);
                 side.flip = back;
-                light_side(&side, from, padded, colors, rest);
+                light_side(&side, from, elements, padded, colors, rest);
                 f->device->base.report.points_lit += chunk;
                 f->device->base.report.lights_evaluated += (uint64_t)chunk * (uint64_t)f->frame->light_count;
             }
@@ -416,13 +483,18 @@ static bool send_colors(struct gl_frame *f, struct gl_vertex_lighting *row, cons
     uint32_t count = mesh_vertex_count(&mesh->mesh, mesh->form);
     uint32_t each = row->apart ? 4 : 2; // colours of a vertex
     uint64_t bytes = (uint64_t)count * each * 4 * sizeof(float);
-    if (!buffer_reserve(&f->device->scratch, CHUNK * (sizeof(struct mesh_vertex) + 8 * sizeof(float)), f->call,
+    if (!buffer_reserve(&f->device->scratch, CHUNK * (sizeof(struct mesh_vertex) + 8 * sizeof(float) + sizeof(uint32_t)), f->call,
                         error) ||
         !gl_charge(f, &row->bytes, bytes, error))
         return false;
     float(*lit)[4] = gl_buffer_map_new(f, row->colors, (size_t)bytes, GL_DYNAMIC_DRAW, error);
     if (!lit)
         return false;
+    struct ray_layers layers = {0};
+    struct light_pattern pattern;
+    struct light_rays rays = {frame, &f->device->hierarchy.hierarchy, &pattern, &layers, 0};
+    if (frame->shadows)
+        light_pattern_fill(&pattern, frame->shadow_samples);
     bool on = true;
     bool shared = mesh->form == FORM_SHARED, done = false; // shared vertices: all ranges have one material
     for (int i = 0; on && !done && i < frame->range_count; i++) {
@@ -430,11 +502,15 @@ static bool send_colors(struct gl_frame *f, struct gl_vertex_lighting *row, cons
         uint32_t first = 3 * (s->first_id - frame->draws[number].first_id);
         if (s->draw != number)
             continue;
-        on = light_run(f, mesh, s, shared ? 0 : first, shared ? count : first + 3 * s->count, each, lit);
+        on = light_run(f, mesh, s, shared ? 0 : first, shared ? count : first + 3 * s->count, each, frame->shadows ? &rays : NULL, lit);
         done = shared;
     }
     f->gl->UnmapBuffer(GL_ARRAY_BUFFER);
+    free(layers.list);
+    f->device->base.report.rays += rays.sent;
     f->device->base.report.lighting_ms += (double)(now_ns() - start) * 1e-6;
+    if (layers.failed)
+        return fail_memory(error, (size_t)layers.capacity * 2 * sizeof *layers.list);
     return on || call_error(f->call, error);
 }
 

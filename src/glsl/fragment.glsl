@@ -119,8 +119,11 @@ void main()
     }
 //@end
 //@end
-//@if shadows
+//@if fragment_shadows
     lit_triangle = first_triangle + triangle;
+//@if from_vertices
+    lit_corner = 2; // the one that OpenGL takes flat values from
+//@end
 //@end
 //@if apart
     vec3 rest;

@@ -51,7 +51,7 @@ static void add_groups(struct text *text, const struct glsl_facts *f)
     int first = 0;
     if (c->shadows)
         text_print(text, "    start_rays(s.p, lit_triangle, %s);\n",
-                   c->two_sided ? "gl_FrontFacing ? 1.0 : -1.0" : "1.0");
+                   c->two_sided && f->per_fragment ? "gl_FrontFacing ? 1.0 : -1.0" : "1.0");
     for (int i = 0; f->adds_lights && i < c->group_count; i++) {
         const struct glsl_group *group = &c->groups[i];
         text_print(text, "    for (int i = %d; i < %d; i++) {\n", first, first + group->count);
@@ -63,7 +63,9 @@ static void add_groups(struct text *text, const struct glsl_facts *f)
         if (c->passed)
             text_add(text, "        t.attenuation = t.attenuation * passed_light(i, s.p);\n");
         if (c->shadows)
-            text_print(text, "        t.attenuation = t.attenuation * passed_light(%s, light, t, %s, %s);\n",
+            text_print(text,
+                       c->tints_rays ? "        light = tinted_light(light, passed_light(%s, light, t, %s, %s));\n"
+                                     : "        t.attenuation = t.attenuation * passed_light(%s, light, t, %s, %s);\n",
                        c->storage == GLSL_TEXTURE ? "list_texel(light_list, i * 4)" : "lights[i].position",
                        f->tangent || f->layers ? "1.0" : "dot3(s.n, t.l)", kind_words[group->kind]);
         if (f->layers) {
@@ -334,6 +336,11 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"shadows", c->shadows},
         {"catches", c->catches},
         {"passes_lights", c->passed},
+        {"fragment_shadows", c->shadows && f->per_fragment},
+        {"vertex_shadows", c->shadows && lights_here && !fragment},
+        {"from_vertices", f->shading != LAM_SHADING_PHONG},
+        {"passes_rays", c->passes_rays},
+        {"tints_rays", c->tints_rays},
         {"numbers_triangles", c->layer != GLSL_NO_LAYERS || c->shadows},
         {"peels", c->layer == GLSL_PEELS},
         {"exposed", c->exposes && !f->output_vector && !f->output_material},
@@ -444,6 +451,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"flat_varying", fragment ? "flat in " : "flat out "},
         {"attributes", attributes.bytes ? attributes.bytes : ""},
         {"pixel", pixel},
+        {"passed", c->tints_rays ? "vec3" : "float"},
         {"tone", glsl_tone_function(c->tone)},
         {"level_sizes", sizes.bytes},
         {"level_starts", starts.bytes},
@@ -459,6 +467,8 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
             text->failed = true;
             text->error = parts[i]->error;
         }
+    if (!glsl_120 && (samples || (lights_here && c->passes_rays)))
+        preprocess_add(text, text_wrapping_glsl, &words);
     if (samples) {
         preprocess_add(text, text_texture_glsl, &words);
         glsl_add_maps(text, f);

@@ -78,7 +78,9 @@ struct glsl_choices {
     bool gl1;
     bool single_scattering;
     bool passed;        // of each light a share is taken, a uniform that the program sets (texels: position.w)
-    bool shadows;       // walks the hierarchy in a texture (shadows.glsl); Phong shading, not in 120
+    bool shadows;       // walks the hierarchy in a texture (shadows.glsl); not in 120
+    bool passes_rays;   // with shadows: some triangles let light through
+    bool tints_rays;    // with those: and colour it
     bool catches;       // black, with the share of the light as opacity that shadows and occlusion take away
     lam_tone tone;      // of GLSL_ENCODED; AUTO, NONE: the light is clamped
     bool exposes;       // the fragment multiplies its light by the uniform `exposure`

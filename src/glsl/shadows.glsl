@@ -6,11 +6,35 @@ uniform mat4 shadow_matrix;    // eye space to the hierarchy's, where all triang
 uniform vec4 shadow_places;    // first texel of the triangles, and of the places; 1: the terminator is cured
 uniform vec4 shadow_samples;   // rays to a light with a radius; world units to the hierarchy's; the picture's pixel at the target's corner
 
-int lit_triangle; // number in the frame of the triangle that the fragment shows
+int lit_triangle = 0; // number in the frame of the triangle that the fragment shows, or that has the vertex
+//@if from_vertices
+int lit_corner = 0; // of its corners that which is lit
+//@end
 vec3 ray_origin;
-float ray_twin; // of the triangle that rays start on
+float ray_twin; // of the triangle that rays start on; -1: they start at a vertex
+//@if from_vertices
+uvec2 ray_turn; // of the pattern: the vertex's element
+//@end
 
 vec4 tree_texel(int i) { return texelFetch(shadow_tree, ivec2(i % 1024, i / 1024), 0); }
+
+// The first texel of a triangle, by its number in the frame.
+int triangle_texel(int number)
+{
+    return int(shadow_places.x) + 6 * int(tree_texel(int(shadow_places.y) + number / 4)[number % 4]);
+}
+//@if from_vertices
+
+// Rays start at the vertex itself, which no triangle there can shadow: they leave each of them at t = 0.
+void start_rays(vec3 p, int number, float side)
+{
+    int at = triangle_texel(number);
+    bool apart = tree_texel(at + 1).w > 1.5; // a line or a point: in no ray's way, and not among the triangles
+    ray_origin = apart ? (shadow_matrix * vec4(p, 1.0)).xyz : tree_texel(at + lit_corner).xyz;
+    ray_twin = -1.0;
+    ray_turn = uvec2(uint(tree_texel(at + 3 + lit_corner).w), 0u);
+}
+//@else
 
 vec3 moved_by(vec3 p, vec3 corner, vec3 n, float weight)
 {
@@ -20,10 +44,7 @@ vec3 moved_by(vec3 p, vec3 corner, vec3 n, float weight)
 // Rays start at the point of a triangle next to p, a point in eye space. `side` is -1 where the back is seen and lit.
 void start_rays(vec3 p, int number, float side)
 {
-    vec4 four = tree_texel(int(shadow_places.y) + number / 4);
-    int within = number % 4;
-    float place = within == 0 ? four.x : (within == 1 ? four.y : (within == 2 ? four.z : four.w));
-    int at = int(shadow_places.x) + 6 * int(place);
+    int at = triangle_texel(number);
     vec4 a = tree_texel(at);
     vec4 b = tree_texel(at + 1);
     vec4 c = tree_texel(at + 2);
@@ -53,6 +74,7 @@ void start_rays(vec3 p, int number, float side)
         ray_origin = ray_origin - moved;
     }
 }
+//@end
 
 // Whether a box is in the way of the ray from ray_origin; `reach` is more than what rounding can move its planes.
 bool meets_box(vec3 low, vec3 high, vec3 inverse, float end, float reach)
@@ -64,35 +86,158 @@ bool meets_box(vec3 low, vec3 high, vec3 inverse, float end, float reach)
     return max(max(near.x, near.y), max(near.z, 0.0)) <= min(min(far.x, far.y), min(far.z, end));
 }
 
-// Whether a triangle is in the way of the ray from ray_origin along d, whose component k is the largest.
-bool crosses(int at, vec3 d, int k, float end)
+//@if passes_rays
+// --- what lets light through: src/rays/opacity.c. gl_shadows.c packs what is read here.
+
+// A texel of a map: four channels, or one of which four share a texel of the tree.
+vec4 surface_texel(vec4 pixels, int x, int y)
+{
+    int i = y * int(pixels.y) + x;
+    return pixels.w > 0.5 ? tree_texel(int(pixels.x) + i) : vec4(tree_texel(int(pixels.x) + i / 4)[i % 4]);
+}
+
+// A map at level 0, filtered as texture.glsl does. Four texels: where its pixels are, its size and whether it has four
+// channels; two rows to the picture's coordinates, with the wrapping and the set of coordinates; scale, offset, and 1 where
+// the nearest texel counts.
+vec4 surface_map(int at, vec4 texcoords)
+{
+    vec4 pixels = tree_texel(at);
+    vec4 s = tree_texel(at + 1);
+    vec4 t = tree_texel(at + 2);
+    vec4 how = tree_texel(at + 3);
+    int wrap_s = int(s.w) % 4;
+    int wrap_t = int(s.w) / 4;
+    vec3 coordinates = vec3(t.w > 0.5 ? texcoords.zw : texcoords.xy, 1.0);
+    vec2 place = vec2(wrapped(dot(s.xyz, coordinates), wrap_s), wrapped(dot(t.xyz, coordinates), wrap_t));
+    ivec2 size = ivec2(pixels.yz);
+    vec2 spot = place * pixels.yz;
+    vec4 value;
+    if (how.z > 0.5) {
+        ivec2 texel = min(ivec2(spot), size - 1);
+        value = surface_texel(pixels, texel.x, texel.y);
+    } else {
+        spot -= 0.5;
+        vec2 corner = floor(spot);
+        vec2 part = spot - corner;
+        int x0 = neighbour(int(corner.x), size.x, wrap_s);
+        int x1 = neighbour(int(corner.x) + 1, size.x, wrap_s);
+        int y0 = neighbour(int(corner.y), size.y, wrap_t);
+        int y1 = neighbour(int(corner.y) + 1, size.y, wrap_t);
+        vec4 a = surface_texel(pixels, x0, y0);
+        vec4 c = surface_texel(pixels, x0, y1);
+        vec4 upper = a + (surface_texel(pixels, x1, y0) - a) * part.x;
+        vec4 lower = c + (surface_texel(pixels, x1, y1) - c) * part.x;
+        value = upper + (lower - upper) * part.y;
+    }
+    return value * how.x + how.y;
+}
+
+// The light that passes a point of a triangle, where its corners have the weights w. `at`: the triangle's record, of one texel
+// (the records of its sides, and 1 where it has colours), its corners' texture coordinates, and their colours.
+@passed@ passed_surface(int at, bool back, vec3 w)
+{
+    vec4 head = tree_texel(at);
+    int side = int(back ? head.y : head.x);
+    vec4 texcoords = tree_texel(at + 1) * w.x + tree_texel(at + 2) * w.y + tree_texel(at + 3) * w.z;
+    vec4 color = head.z > 0.5 ? tree_texel(at + 4) * w.x + tree_texel(at + 5) * w.y + tree_texel(at + 6) * w.z : vec4(1.0);
+    vec4 rule = tree_texel(side);     // alpha, its mode, the cutoff, and what it transmits: 0 nothing, 1 some, 2 all
+    vec4 maps = tree_texel(side + 2); // base colour, opacity, transmission, metallic: where they are, or 0
+    vec4 base = maps.x > 0.0 ? surface_map(int(maps.x), texcoords) : vec4(1.0);
+    float opacity = 1.0;
+    if (rule.y > 0.5) {
+        opacity = clamp(rule.x * color.a, 0.0, 1.0);
+        opacity = clamp(opacity * base.a, 0.0, 1.0);
+        if (maps.y > 0.0) {
+            opacity = clamp(opacity * surface_map(int(maps.y), texcoords).x, 0.0, 1.0);
+        }
+        if (rule.y < 1.5) {
+            opacity = opacity >= rule.z ? 1.0 : 0.0;
+        }
+    }
+//@if tints_rays
+    if (rule.w > 1.5) {
+        return vec3(1.0);
+    }
+    if (rule.w > 0.5) {
+        vec4 metal = tree_texel(side + 3); // metallic, transmission
+        vec4 factor = tree_texel(side + 1);
+        float through = opacity * metal.y;
+        if (maps.z > 0.0) {
+            through *= clamp(surface_map(int(maps.z), texcoords).x, 0.0, 1.0);
+        }
+        if (maps.w > 0.0) {
+            metal.x *= clamp(surface_map(int(maps.w), texcoords).x, 0.0, 1.0);
+        }
+        through *= 1.0 - metal.x;
+        return 1.0 - opacity + through * clamp(factor.rgb * color.rgb * base.rgb, 0.0, 1.0);
+    }
+//@end
+    return @passed@(1.0 - opacity);
+}
+
+// A ray through an edge crosses both of its triangles, of which translucent ones count once: the one that has the edge on one side.
+bool owns_edge(float weight, vec2 from, vec2 to, bool turned)
+{
+    vec2 d = turned ? to - from : from - to;
+    return weight != 0.0 || d.y > 0.0 || (d.y == 0.0 && d.x > 0.0);
+}
+
+//@end
+// On which side of an edge the ray lies: the cross product of its ends. They are taken in a fixed order, so that the triangles
+// of both sides get the same number with opposite signs from drivers that fuse products with sums, too.
+float edge_weight(vec2 a, vec2 b)
+{
+    bool swapped = a.x > b.x || (a.x == b.x && a.y > b.y);
+    vec2 p = swapped ? b : a;
+    vec2 q = swapped ? a : b;
+    float w = p.x * q.y - p.y * q.x;
+    return swapped ? -w : w;
+}
+
+// The light that passes a triangle which may be in the way of the ray from ray_origin along d, whose component k is the largest.
+@passed@ passed_triangle(int at, vec3 d, int k, float end)
 {
     vec4 corner = tree_texel(at);
     if (corner.w == ray_twin) {
-        return false;
+        return @passed@(1.0);
     }
     int i = k == 2 ? 0 : k + 1;
     int j = k == 0 ? 2 : k - 1;
     vec3 a = corner.xyz - ray_origin;
     vec3 b = tree_texel(at + 1).xyz - ray_origin;
-    vec3 c = tree_texel(at + 2).xyz - ray_origin;
+    vec4 last = tree_texel(at + 2);
+    vec3 c = last.xyz - ray_origin;
     vec2 slope = vec2(d[i], d[j]) / d[k];
     vec2 p = vec2(a[i], a[j]) - slope * a[k];
     vec2 q = vec2(b[i], b[j]) - slope * b[k];
     vec2 r = vec2(c[i], c[j]) - slope * c[k];
-    float u = q.x * r.y - q.y * r.x;
-    float v = r.x * p.y - r.y * p.x;
-    float w = p.x * q.y - p.y * q.x;
+    float u = edge_weight(q, r);
+    float v = edge_weight(r, p);
+    float w = edge_weight(p, q);
     float det = u + v + w;
     if ((min(min(u, v), w) < 0.0 && max(max(u, v), w) > 0.0) || det == 0.0) {
-        return false;
+        return @passed@(1.0);
     }
     float t = (u * a[k] + v * b[k] + w * c[k]) / (d[k] * det);
-    return t > 0.0 && t < end;
+    if (!(t > 0.0 && t < end)) {
+        return @passed@(1.0);
+    }
+//@if passes_rays
+    if (last.w > 0.5) { // its record
+        bool turned = det > 0.0;
+        if (!(owns_edge(u, q, r, turned) && owns_edge(v, r, p, turned) && owns_edge(w, p, q, turned))) {
+            return @passed@(1.0);
+        }
+        return passed_surface(int(last.w), dot(d, cross(b - a, c - a)) < 0.0, vec3(u, v, w) / det);
+    }
+//@end
+    return @passed@(0.0);
 }
 
-bool any_hit(vec3 d, float end)
+// The light that passes along the ray from ray_origin.
+@passed@ passed_ray(vec3 d, float end)
 {
+    @passed@ passed = @passed@(1.0);
     int stack[64];
     int waiting = 0;
     int at = 0; // the texel of the next child to be tested
@@ -119,26 +264,31 @@ bool any_hit(vec3 d, float end)
                 continue;
             }
             for (int i = 0; i < count; i++) {
-                if (crosses(first + 6 * (int(low.w) + i), d, k, end)) {
-                    return true;
+                passed = passed * passed_triangle(first + 6 * (int(low.w) + i), d, k, end);
+                if (passed == @passed@(0.0)) {
+                    return passed;
                 }
             }
         }
         if (last) {
             if (waiting == 0) {
-                return false;
+                return passed;
             }
             waiting = waiting - 1;
             at = stack[waiting];
         }
     }
-    return false;
+    return passed;
 }
 
 // light_turn of light_pattern.h: the product of its two numbers has more than 32 bits, of which 40 to 47 are the turn.
-float turn_of_pixel()
+float turn_of_rays()
 {
+//@if from_vertices
+    uvec2 at = ray_turn;
+//@else
     uvec2 at = uvec2(gl_FragCoord.xy) + uvec2(shadow_samples.zw);
+//@end
     uint part = at.x * 0x112e0be8u + at.y * 0x017e8cd9u;
     uint low = part & 0xffffu;
     uint high = part >> 16u;
@@ -147,22 +297,20 @@ float turn_of_pixel()
     return float(upper >> 8u & 255u) * (6.28318531 / 256.0);
 }
 
-// The rays, of N, that reach the points of a light's disc around p + d (light_pattern.h). `across` has the length of its radius.
-int count_reaching(vec3 d, vec3 across, float end, int count)
+// The light that passes along N rays to the points of a light's disc around p + d (light_pattern.h). `across` has the length of its radius.
+@passed@ passed_disc(vec3 d, vec3 across, float end, int count)
 {
     vec3 along = normalize(d);
     vec3 u = normalize(across - along * dot(along, across)) * length(across);
     vec3 v = cross(along, u);
-    float turn = turn_of_pixel();
-    int reaching = 0;
+    float turn = turn_of_rays();
+    @passed@ sum = @passed@(0.0);
     for (int i = 0; i < count; i++) {
         float angle = 6.28318531 * fract(float(i) * 0.381966011) + turn;
         float distance = sqrt((float(i) + 0.5) / float(count));
-        if (!any_hit(d + distance * (u * cos(angle) + v * sin(angle)), end)) {
-            reaching = reaching + 1;
-        }
+        sum = sum + passed_ray(d + distance * (u * cos(angle) + v * sin(angle)), end);
     }
-    return reaching;
+    return sum / float(count);
 }
 
 // The axis of which d has the smallest part, the first of equals.
@@ -177,14 +325,14 @@ vec3 least_axis(vec3 d)
 
 // The share of a light that reaches the point. place.w: its radius, below 0 where it casts no shadow; place.xyz of a directional
 // light: the axis of which its direction has the smallest part. Where a light does not shine no ray is needed.
-float passed_light(vec4 place, light_source light, light_sample t, float n_dot_l, int kind)
+@passed@ passed_light(vec4 place, light_source light, light_sample t, float n_dot_l, int kind)
 {
     if (place.w < 0.0 || !(n_dot_l > 0.0) || !(t.attenuation * t.spot > 0.0)) {
-        return 1.0;
+        return @passed@(1.0);
     }
 //@if catches
     if (unobstructed) {
-        return 1.0;
+        return @passed@(1.0);
     }
 //@end
     bool directional = kind == LIGHT_DIRECTIONAL;
@@ -192,9 +340,18 @@ float passed_light(vec4 place, light_source light, light_sample t, float n_dot_l
     vec3 d = directional ? -normalize(mat3(shadow_matrix) * light.direction)
                          : (shadow_matrix * vec4(light.position, 1.0)).xyz - ray_origin;
     if (place.w == 0.0) {
-        return any_hit(d, end) ? 0.0 : 1.0;
+        return passed_ray(d, end);
     }
     vec3 across = directional ? place.xyz * place.w : least_axis(d) * (place.w * shadow_samples.y);
     int count = int(shadow_samples.x);
-    return float(count_reaching(d, across, end, count)) / float(count);
+    return passed_disc(d, across, end, count);
 }
+//@if tints_rays
+
+light_source tinted_light(light_source light, vec3 passed)
+{
+    light.diffuse = light.diffuse * passed;
+    light.specular = light.specular * passed;
+    return light;
+}
+//@end

@@ -1,3 +1,7 @@
+//@if vertex_shadows
+
+uniform int first_triangle; // number of the draw's first triangle
+//@end
 
 void main()
 {
@@ -55,6 +59,10 @@ void main()
 //@else
     float turn = 1.0;
 //@end
+//@end
+//@if vertex_shadows
+    lit_triangle = first_triangle + gl_VertexID / 3;
+    lit_corner = gl_VertexID % 3;
 //@end
 //@if two_sided
     // Both sides are lit; the fragment shader selects the visible one.

@@ -6,6 +6,8 @@
 #include "srgb.h"
 #include "texture_map.h"
 
+#include <string.h>
+
 static uint32_t element_of(const uint32_t *own, const uint32_t *shared, uint32_t corner)
 {
     return own ? own[corner] : shared ? shared[corner] : corner;
@@ -18,22 +20,38 @@ static float at_weights(const float v[3], float b1, float b2)
 
 static float saturated(float x) { return x > 0 ? x < 1 ? x : 1 : 0; }
 
+static float corner_channel(const lam_mesh *mesh, uint32_t corner, int channel)
+{
+    uint32_t element = mesh->colors_rate == LAM_PER_TRIANGLE ? corner / 3
+                                                             : element_of(mesh->color_indices, mesh->indices, corner);
+    size_t at = 4 * (size_t)element + (size_t)channel;
+    if (mesh->colors_format == LAM_COLORS_LINEAR_F32)
+        return ((const float *)mesh->colors)[at];
+    double encoded = (double)((const uint8_t *)mesh->colors)[at] / 255.0;
+    return (float)(channel < 3 ? srgb_linear(encoded) : encoded);
+}
+
+void ray_corner_color(const lam_mesh *mesh, uint32_t corner, float out[4])
+{
+    for (int channel = 0; channel < 4; channel++)
+        out[channel] = corner_channel(mesh, corner, channel);
+}
+
+bool ray_corner_texcoord(const lam_mesh *mesh, int set, uint32_t corner, float out[2])
+{
+    const float *from = set ? mesh->second_texcoords : mesh->texcoords;
+    const uint32_t *own = set ? mesh->second_texcoord_indices : mesh->texcoord_indices;
+    if (from)
+        memcpy(out, from + 2 * (size_t)element_of(own, mesh->indices, corner), 2 * sizeof *out);
+    return from != NULL;
+}
+
 // A channel of the colours of a triangle's vertices.
 static float vertex_color(const lam_mesh *mesh, uint32_t triangle, int channel, float b1, float b2)
 {
     float value[3];
-    for (uint32_t k = 0; k < 3; k++) {
-        uint32_t element = mesh->colors_rate == LAM_PER_TRIANGLE
-                               ? triangle
-                               : element_of(mesh->color_indices, mesh->indices, 3 * triangle + k);
-        size_t at = 4 * (size_t)element + (size_t)channel;
-        if (mesh->colors_format == LAM_COLORS_LINEAR_F32) {
-            value[k] = ((const float *)mesh->colors)[at];
-        } else {
-            double encoded = (double)((const uint8_t *)mesh->colors)[at] / 255.0;
-            value[k] = (float)(channel < 3 ? srgb_linear(encoded) : encoded);
-        }
-    }
+    for (uint32_t k = 0; k < 3; k++)
+        value[k] = corner_channel(mesh, 3 * triangle + k, channel);
     return at_weights(value, b1, b2);
 }
 
@@ -41,17 +59,14 @@ static float vertex_color(const lam_mesh *mesh, uint32_t triangle, int channel, 
 static float map_value(const lam_mesh *mesh, const lam_texture_map *map, int channel, uint32_t triangle, float b1,
                        float b2)
 {
-    const float *from = map->texcoords ? mesh->second_texcoords : mesh->texcoords;
-    const uint32_t *own = map->texcoords ? mesh->second_texcoord_indices : mesh->texcoord_indices;
-    float s[3], t[3], value = 1;
-    if (from) {
-        for (uint32_t k = 0; k < 3; k++) {
-            const float *at = from + 2 * (size_t)element_of(own, mesh->indices, 3 * triangle + k);
-            s[k] = at[0];
-            t[k] = at[1];
-        }
-        value = texture_map_base(map, at_weights(s, b1, b2), at_weights(t, b1, b2))[channel];
+    float at[2], s[3], t[3], value = 1;
+    uint32_t k = 0;
+    for (; k < 3 && ray_corner_texcoord(mesh, map->texcoords, 3 * triangle + k, at); k++) {
+        s[k] = at[0];
+        t[k] = at[1];
     }
+    if (k == 3)
+        value = texture_map_base(map, at_weights(s, b1, b2), at_weights(t, b1, b2))[channel];
     return value * (map->scale != 0 ? map->scale : 1) + map->offset;
 }
 

@@ -12,4 +12,19 @@ float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b
 // surface that transmits: transmission (1 − metallic) · base. The boundary of a volume counts where light enters it.
 void ray_transmittance(const struct frame *frame, uint32_t number, bool back, float b1, float b2, float out[3]);
 
+// The translucent triangles in the way of rays that travel together.
+struct ray_layers {
+    struct ray_layer {
+        uint32_t lane, number; // the ray, and the triangle in the frame
+        float passed[3];       // share of the light; where nothing tints it, the first
+    } *list;                   // grows; freed by its owner
+    int count, capacity;
+    bool failed; // out of memory
+};
+
+// The colour of a corner of a mesh with colours, linear and with alpha, and its texture coordinates in a map's set; false: the
+// mesh has none. Corners are counted over all triangles.
+void ray_corner_color(const lam_mesh *mesh, uint32_t corner, float out[4]);
+bool ray_corner_texcoord(const lam_mesh *mesh, int set, uint32_t corner, float out[2]);
+
 #endif

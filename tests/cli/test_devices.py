@@ -62,6 +62,18 @@ class Drawing(Case):
         report = self.report(*words, "-s", "64x48", "-o", "gl.png", "--device", device)
         return json.loads(self.run_program("diff", "cpu.png", "gl.png", "--tolerance", 1, "--json").stdout)["differ"], report
 
+    def test_shadows_through_surfaces_and_at_vertices(self):
+        light = ["--shadows", "--light", "directional:direction=-0.4/-1/-0.3"]
+        for more in (["torus-knot", "--opacity", "0.5"], ["torus-knot", "--shading", "gouraud", "--stage", "application"],
+                     ["torus-knot", "--shading", "gouraud", "--stage", "vertex"], ["torus-knot", "--shading", "flat", "--stage", "application"],
+                     ["torus-knot", "--shading", "flat", "--stage", "fragment"],
+                     ["torus-knot", "--opacity", "0.5", "--shading", "gouraud", "--stage", "application"]):
+            differ, _ = self.apart(*more, "--samples", 1, *light)
+            self.assertLessEqual(differ, 12, more)
+            self.good(*more, "-s", "64x48", "--samples", 1, *light[1:], "-o", "lit.png")
+            shadowed = self.run_program("diff", "lit.png", "cpu.png", "--tolerance", 1, "--json").stdout
+            self.assertGreater(json.loads(shadowed)["differ"], 100, more)  # there are shadows
+
     def test_same_picture(self):
         for device, version in (("gl", "OpenGL 3.3"), ("gles", "OpenGL ES 3.0")):
             if not any(version in d["versions"] for d in self.usable):

@@ -3,6 +3,7 @@
 #define SHADING_BATCH_H
 
 #include "light_cull.h"
+#include "opacity.h"
 #include "tile.h"
 
 #include <stdbool.h>
@@ -71,21 +72,11 @@ struct shadow_rows {
     uint32_t turn[BATCH_ROW]; // of the pattern of lights with a size (light_pattern.h)
 };
 
-// The translucent triangles in the way of rays that travel together.
-struct shadow_layers {
-    struct shadow_layer {
-        uint32_t lane, number; // the ray, and the triangle in the frame
-        float passed[3];       // share of the light; where nothing tints it, the first
-    } *list;                   // grows; freed with the thread's state
-    int count, capacity;
-    bool failed; // out of memory
-};
-
 // Scratch memory of one thread's shading, and its counters.
 struct shading {
     struct shading_batch *batch;
     struct shadow_rows *shadows; // NULL: the frame has none
-    struct shadow_layers shadow_layers;
+    struct ray_layers ray_layers;
     struct vertex_cache vertices;
     struct light_list lights;
     uint64_t points_lit, lights_evaluated, rays;

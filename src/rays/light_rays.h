@@ -1,0 +1,219 @@
+// light_rays.h: the light that passes along LANES rays (docs/lighting/shadows.md). Include with LANES defined, before or after
+// ray_lanes.h.
+#ifndef LIGHT_RAYS_H
+#define LIGHT_RAYS_H
+
+#include "light_pattern.h"
+#include "opacity.h"
+#include "ray_lanes.h"
+
+#include <stdlib.h>
+
+struct light_rays {
+    const struct frame *frame;
+    const struct hierarchy *hierarchy;
+    const struct light_pattern *pattern; // of lights with a size
+    struct ray_layers *layers;
+    uint64_t sent; // rays
+};
+
+// A ray through an edge crosses both of its triangles, which an opaque surface does not mind. Of translucent ones it counts
+// for one: that which has the edge on one side, seen along the ray, as coverage has it.
+static bool owns_edges(const struct ray_triangle *triangle, const double origin[3], const double d[3],
+                       const double weights[3])
+{
+    double x[3], y[3], turn = (weights[0] + weights[1]) + weights[2];
+    double size[3] = {__builtin_fabs(d[0]), __builtin_fabs(d[1]), __builtin_fabs(d[2])};
+    int along = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
+    int i = (along + 1) % 3, j = (along + 2) % 3;
+    for (int k = 0; k < 3; k++) {
+        double z = (triangle->p[k][along] - origin[along]) / d[along];
+        x[k] = (triangle->p[k][i] - origin[i]) - d[i] * z;
+        y[k] = (triangle->p[k][j] - origin[j]) - d[j] * z;
+    }
+    for (int k = 0, a = 1, b = 2; k < 3; a = b, b = k++) {
+        double dx = turn > 0 ? x[b] - x[a] : x[a] - x[b], dy = turn > 0 ? y[b] - y[a] : y[a] - y[b];
+        if (weights[k] == 0 && !(dy > 0 || (dy == 0 && dx > 0)))
+            return false;
+    }
+    return true;
+}
+
+// Notes what a translucent triangle lets through, and returns the rays that it ends. The side that the light falls on counts.
+static unsigned filter_ray(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
+                           const struct ray_view *view, unsigned lanes)
+{
+    const struct light_rays *r = user;
+    struct ray_layers *layers = r->layers;
+    const struct frame *frame = r->frame;
+    const struct frame_draw_range *range = &frame->ranges[frame_range_of(frame, triangle->number)];
+    if (!range->passes_rays)
+        return lanes;
+    _Alignas(64) double weights[3][LANES] = {{0}};
+    crosses(triangle, ray, view, lanes, weights, NULL);
+    const double(*p)[3] = triangle->p;
+    double a[3], b[3], n[3];
+    for (int i = 0; i < 3; i++) {
+        a[i] = p[1][i] - p[0][i];
+        b[i] = p[2][i] - p[0][i];
+    }
+    for (int i = 0, j = 1, k = 2; i < 3; j = k, k = i++)
+        n[i] = a[j] * b[k] - a[k] * b[j];
+    bool mirrored = frame->draws[range->draw].mirrored;
+    unsigned ended = 0;
+    for (unsigned rest = lanes; rest; rest &= rest - 1) {
+        int i = __builtin_ctz(rest);
+        const double o[3] = {ray->origin[0][i], ray->origin[1][i], ray->origin[2][i]};
+        const double d[3] = {ray->direction[0][i], ray->direction[1][i], ray->direction[2][i]};
+        const double w[3] = {weights[0][i], weights[1][i], weights[2][i]};
+        if (!owns_edges(triangle, o, d, w))
+            continue;
+        double toward = (d[0] * n[0] + d[1] * n[1]) + d[2] * n[2], sum = (w[0] + w[1]) + w[2];
+        float b1 = (float)(w[1] / sum), b2 = (float)(w[2] / sum);
+        struct ray_layer layer = {.lane = (uint32_t)i, .number = triangle->number};
+        float *passed = layer.passed;
+        bool back = (toward < 0) != mirrored;
+        if (frame->tints_rays)
+            ray_transmittance(frame, triangle->number, back, b1, b2, passed);
+        else
+            passed[0] = passed[1] = passed[2] = 1 - ray_opacity(frame, triangle->number, back, b1, b2);
+        if (passed[0] <= 0 && passed[1] <= 0 && passed[2] <= 0) {
+            ended |= 1u << i;
+            continue;
+        }
+        if (passed[0] >= 1 && passed[1] >= 1 && passed[2] >= 1)
+            continue;
+        if (layers->count == layers->capacity) {
+            int capacity = layers->capacity ? 2 * layers->capacity : 64;
+            struct ray_layer *grown = realloc(layers->list, (size_t)capacity * sizeof *grown);
+            if (!grown) {
+                layers->failed = true;
+                return lanes;
+            }
+            layers->list = grown;
+            layers->capacity = capacity;
+        }
+        layers->list[layers->count++] = layer;
+    }
+    return ended;
+}
+
+static int by_number(const void *a, const void *b)
+{
+    const struct ray_layer *x = a, *y = b;
+    return (x->number > y->number) - (x->number < y->number);
+}
+
+// The channels of the light that passes: one unless something tints it.
+static int passed_channels(const struct frame *frame) { return frame->tints_rays ? 3 : 1; }
+
+// The share of the light that passes along LANES rays, for each of passed_channels.
+static __attribute__((noinline)) void trace(struct light_rays *r, const struct ray_lanes *ray, unsigned active,
+                                            float passed[3][LANES])
+{
+    int channels = passed_channels(r->frame);
+    struct ray_layers *layers = r->layers;
+    r->sent += (unsigned)__builtin_popcount(active);
+    if (!r->frame->passes_rays) {
+        unsigned hit = any_hit(r->hierarchy, ray, active, NULL, NULL);
+        num_store(passed[0], pick(mask_of_bits(hit), num_of(0.0f), num_of(1.0f)));
+        return;
+    }
+    layers->count = 0;
+    unsigned hit = any_hit(r->hierarchy, ray, active, filter_ray, r);
+    for (int c = 0; c < channels; c++)
+        num_store(passed[c], pick(mask_of_bits(hit), num_of(0.0f), num_of(1.0f)));
+    if (layers->count > 1)
+        qsort(layers->list, (size_t)layers->count, sizeof *layers->list, by_number);
+    for (int i = 0; i < layers->count; i++)
+        for (int c = 0; c < channels; c++)
+            passed[c][layers->list[i].lane] *= layers->list[i].passed[c];
+}
+
+// Two unit vectors at right angles to d and to each other.
+static void across(const double d[3], double u[3], double v[3])
+{
+    double length = __builtin_sqrt((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]);
+    double n[3] = {d[0] / length, d[1] / length, d[2] / length}, square = 0;
+    int least = 0;
+    for (int i = 1; i < 3; i++)
+        least = __builtin_fabs(n[i]) < __builtin_fabs(n[least]) ? i : least;
+    for (int i = 0; i < 3; i++) {
+        u[i] = (i == least) - n[least] * n[i];
+        square += u[i] * u[i];
+    }
+    length = __builtin_sqrt(square);
+    for (int i = 0; i < 3; i++)
+        u[i] /= length;
+    for (int i = 0, j = 1, k = 2; i < 3; j = k, k = i++)
+        v[i] = n[j] * u[k] - n[k] * u[j];
+}
+
+// The mean over the points of a light with a size.
+static void trace_disc(struct light_rays *r, const uint32_t turns[LANES], const struct frame_light *light, const struct ray_lanes *centre,
+                       unsigned active, float passed[3][LANES])
+{
+    const struct light_pattern *pattern = r->pattern;
+    bool directional = light->kind == LIGHT_DIRECTIONAL;
+    double radius = directional ? light->radius : light->radius * r->hierarchy->scale;
+    _Alignas(64) float one[3][LANES], sum[3][LANES] = {{0}};
+    int channels = passed_channels(r->frame);
+    double u[3][LANES], v[3][LANES];
+    for (int i = 0; i < LANES; i++) {
+        double own_u[3], own_v[3];
+        uint32_t turn = turns[i];
+        double c = pattern->cosine[turn] * radius, s = pattern->sine[turn] * radius;
+        across((const double[3]){centre->direction[0][i], centre->direction[1][i], centre->direction[2][i]}, own_u,
+               own_v);
+        for (int k = 0; k < 3; k++) {
+            u[k][i] = c * own_u[k] + s * own_v[k];
+            v[k][i] = c * own_v[k] - s * own_u[k];
+        }
+    }
+    for (int n = 0; n < pattern->count; n++) {
+        struct ray_lanes ray = *centre;
+        for (int k = 0; k < 3; k++)
+            for (int part = 0; part < LANES; part += DLANES)
+                dnum_store(ray.direction[k] + part,
+                           dnum_load(centre->direction[k] + part) +
+                               (pattern->x[n] * dnum_load(u[k] + part) + pattern->y[n] * dnum_load(v[k] + part)));
+        trace(r, &ray, active, one);
+        for (int c = 0; c < channels; c++)
+            num_store(sum[c], num_load(sum[c]) + num_load(one[c]));
+    }
+    for (int c = 0; c < channels; c++)
+        num_store(passed[c], num_load(sum[c]) / (float)pattern->count);
+}
+
+// Rays from LANES origins, in the hierarchy's space, to the middle of a light. `own` as in ray_lanes.
+LANE_FN void rays_to_light(struct ray_lanes *ray, const struct light_rays *r, const double *const origins[3],
+                           const int32_t *own, const struct frame_light *light)
+{
+    bool directional = light->kind == LIGHT_DIRECTIONAL;
+    double position[3], end = directional ? (double)__builtin_inf() : 1.0;
+    ray_point(r->hierarchy, light->world_position, position);
+    for (int part = 0; part < LANES; part += DLANES) {
+        for (int i = 0; i < 3; i++) {
+            dnum origin = dnum_load(origins[i] + part);
+            dnum_store(ray->origin[i] + part, origin);
+            dnum_store(ray->direction[i] + part, directional ? dnum_of(-light->world_axis[i]) : position[i] - origin);
+        }
+        dnum_store(ray->end + part, dnum_of(end));
+    }
+    inum_store(ray->own, inum_load(own));
+}
+
+// The share of a light that reaches LANES points, those of `active`; for each of passed_channels.
+LANE_FN void trace_light(struct light_rays *r, const double *const origins[3], const int32_t *own,
+                         const uint32_t turns[LANES], const struct frame_light *light, unsigned active,
+                         float passed[3][LANES])
+{
+    struct ray_lanes ray;
+    rays_to_light(&ray, r, origins, own, light);
+    if (light->radius > 0)
+        trace_disc(r, turns, light, &ray, active, passed);
+    else
+        trace(r, &ray, active, passed);
+}
+
+#endif

@@ -103,8 +103,8 @@ static enum vertex_form form_of(const struct gl_frame *f, const struct frame_dra
         return (frame->flat_normal == LAM_FLAT_NORMAL_VERTEX || draw->strokes) && draw->mesh->normals ? FORM_FLAT_VERTEX
                                                                                                       : FORM_FLAT_FACE;
     // Shaders number triangles by gl_VertexID / 3. A vertex lit for two materials has two colours.
-    bool counts = f->layered || frame->output == LAM_OUTPUT_IDS ||
-                  (frame->shadows && f->stage != LAM_STAGE_APPLICATION);
+    bool counts =
+        f->layered || frame->output == LAM_OUTPUT_IDS || (frame->shadows && f->stage != LAM_STAGE_APPLICATION);
     bool two = f->stage == LAM_STAGE_APPLICATION && draw_all > 1;
     return counts || two || !mesh_can_share(mesh) ? FORM_CORNERS : FORM_SHARED;
 }

@@ -11,7 +11,7 @@
 #include <string.h>
 
 enum { WIDTH = GLSL_LIST_WIDTH, TEXEL = 4 * sizeof(float), NODE = 2 * NODE_CHILDREN, TRIANGLE = 6, STACK = 64 };
-enum { TEXELS_MAX = 1 << 24 }; // whose places are floats
+enum { TEXELS_MAX = 1 << 24 };               // whose places are floats
 enum { KIND_FLAT, KIND_CURVED, KIND_APART }; // APART: casts no shadow, and is in no ray's way
 
 static int children_of(const struct ray_node *node)
@@ -123,12 +123,11 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
                     depth_of(h), STACK);
     device->shadow_places[0] = (float)triangles;
     device->shadow_places[1] = (float)places;
-    if (frame->passes_rays &&
-        !surfaces_pack(f, surfaces, most, &device->next_surfaces, &surface_texels, error))
+    if (frame->passes_rays && !surfaces_pack(f, surfaces, most, &device->next_surfaces, &surface_texels, error))
         return false;
-    bool same = surface_texels == device->surface_texels &&
-                (!surface_texels ||
-                 memcmp(device->surfaces.data, device->next_surfaces.data, surface_texels * TEXEL) == 0);
+    bool same =
+        surface_texels == device->surface_texels &&
+        (!surface_texels || memcmp(device->surfaces.data, device->next_surfaces.data, surface_texels * TEXEL) == 0);
     if (!built && same && device->shadow_texture)
         return true;
     struct buffer swapped = device->surfaces;

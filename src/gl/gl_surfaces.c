@@ -116,22 +116,13 @@ static size_t add_side(struct packer *p, const struct frame *frame, const struct
         return at;
     float *out = texel_of(p, at);
     const float packed[4 * SIDE] = {
-        m->diffuse.a,
-        m->alpha_mode == LAM_ALPHA_OPAQUE ? 0 : m->alpha_mode == LAM_ALPHA_MASK ? 1 : 2,
-        m->alpha_cutoff,
-        !transmits                     ? 0
-        : back && m->thickness > 0 ? 2
-                                       : 1,
-        m->diffuse.r,
-        m->diffuse.g,
-        m->diffuse.b,
-        0,
-        (float)of_maps[0],
-        (float)of_maps[1],
-        (float)of_maps[2],
-        (float)of_maps[3],
-        m->metallic,
-        m->transmission,
+        m->diffuse.a,      m->alpha_mode == LAM_ALPHA_OPAQUE ? 0 : m->alpha_mode == LAM_ALPHA_MASK ? 1 : 2,
+        m->alpha_cutoff,   !transmits ? 0 : back && m->thickness > 0 ? 2 : 1,
+        m->diffuse.r,      m->diffuse.g,
+        m->diffuse.b,      0,
+        (float)of_maps[0], (float)of_maps[1],
+        (float)of_maps[2], (float)of_maps[3],
+        m->metallic,       m->transmission,
     };
     memcpy(out, packed, sizeof packed);
     return at;

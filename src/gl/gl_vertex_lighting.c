@@ -483,8 +483,8 @@ static bool send_colors(struct gl_frame *f, struct gl_vertex_lighting *row, cons
     uint32_t count = mesh_vertex_count(&mesh->mesh, mesh->form);
     uint32_t each = row->apart ? 4 : 2; // colours of a vertex
     uint64_t bytes = (uint64_t)count * each * 4 * sizeof(float);
-    if (!buffer_reserve(&f->device->scratch, CHUNK * (sizeof(struct mesh_vertex) + 8 * sizeof(float) + sizeof(uint32_t)), f->call,
-                        error) ||
+    if (!buffer_reserve(&f->device->scratch,
+                        CHUNK * (sizeof(struct mesh_vertex) + 8 * sizeof(float) + sizeof(uint32_t)), f->call, error) ||
         !gl_charge(f, &row->bytes, bytes, error))
         return false;
     float(*lit)[4] = gl_buffer_map_new(f, row->colors, (size_t)bytes, GL_DYNAMIC_DRAW, error);
@@ -502,7 +502,8 @@ static bool send_colors(struct gl_frame *f, struct gl_vertex_lighting *row, cons
         uint32_t first = 3 * (s->first_id - frame->draws[number].first_id);
         if (s->draw != number)
             continue;
-        on = light_run(f, mesh, s, shared ? 0 : first, shared ? count : first + 3 * s->count, each, frame->shadows ? &rays : NULL, lit);
+        on = light_run(f, mesh, s, shared ? 0 : first, shared ? count : first + 3 * s->count, each,
+                       frame->shadows ? &rays : NULL, lit);
         done = shared;
     }
     f->gl->UnmapBuffer(GL_ARRAY_BUFFER);

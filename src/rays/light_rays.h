@@ -150,8 +150,8 @@ static void across(const double d[3], double u[3], double v[3])
 }
 
 // The mean over the points of a light with a size.
-static void trace_disc(struct light_rays *r, const uint32_t turns[LANES], const struct frame_light *light, const struct ray_lanes *centre,
-                       unsigned active, float passed[3][LANES])
+static void trace_disc(struct light_rays *r, const uint32_t turns[LANES], const struct frame_light *light,
+                       const struct ray_lanes *centre, unsigned active, float passed[3][LANES])
 {
     const struct light_pattern *pattern = r->pattern;
     bool directional = light->kind == LIGHT_DIRECTIONAL;

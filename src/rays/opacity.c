@@ -22,8 +22,8 @@ static float saturated(float x) { return x > 0 ? x < 1 ? x : 1 : 0; }
 
 static float corner_channel(const lam_mesh *mesh, uint32_t corner, int channel)
 {
-    uint32_t element = mesh->colors_rate == LAM_PER_TRIANGLE ? corner / 3
-                                                             : element_of(mesh->color_indices, mesh->indices, corner);
+    uint32_t element =
+        mesh->colors_rate == LAM_PER_TRIANGLE ? corner / 3 : element_of(mesh->color_indices, mesh->indices, corner);
     size_t at = 4 * (size_t)element + (size_t)channel;
     if (mesh->colors_format == LAM_COLORS_LINEAR_F32)
         return ((const float *)mesh->colors)[at];

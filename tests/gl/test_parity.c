@@ -392,8 +392,7 @@ static struct outcome compare(lam_device *device, const struct demo *demo, const
             o.snapped++;
             continue;
         }
-        if (far > float_limit(name) &&
-            (is_grazing(name) || (is_soft(name) && far <= 1.0 / soft_samples(params)))) {
+        if (far > float_limit(name) && (is_grazing(name) || (is_soft(name) && far <= 1.0 / soft_samples(params)))) {
             o.grain++;
             continue;
         }

@@ -145,6 +145,69 @@ async function gestures() {
   await page.close();
 }
 
+// Each of these makes the command line that the table says of the one that it begins with. '' stands for no change.
+const handle = (part) => (page) => page.locator(`.handle.${part}`);
+const press = (find, name) => async (page) => find(page).press(name);
+const dragHandle = (part, right, up, shift = false) => async (page) => {
+  const box = await handle(part)(page).boundingBox(), at = await middle(page);
+  await drag(page, [box.x + 22, box.y + 22], [right * at.height, -up * at.height], { shift });
+};
+const inTab = (tab, act) => async (page) => {
+  await page.locator(`#tab-${tab}`).click();
+  await act(page);
+};
+const click = (name) => (page) => page.getByRole('button', { name, exact: true }).click();
+const slide = (name, key) => (page) => page.getByRole('slider', { name }).press(key);
+const POINT = '--light=point:position=0/0/0', SPOT = '--light=spot:position=0/1/0,target=0/0/0,cutoff=20', SUN = '--light=directional:direction=0/0/-1';
+const WORDS = [
+  ['handle of a light: ArrowRight', POINT, press(handle('position'), 'ArrowRight'), '--light=point:position=0.0804/0/0'],
+  ['handle of a light: Shift+ArrowUp', POINT, press(handle('position'), 'Shift+ArrowUp'), '--light=point:position=0/0.0134/0'],
+  ['handle of a light: PageUp', POINT, press(handle('position'), 'PageUp'), '--light=point:position=0/0/-0.0804'],
+  ['handle of a light: dragged right by a quarter of the height', POINT, dragHandle('position', 0.25, 0), /--light=point:position=0\.6(69|70)\d*\/0\/0$/],
+  ['handle of a light: Shift and dragged up by a quarter', POINT, dragHandle('position', 0, 0.25, true), /--light=point:position=0\/0\/-0\.6\d+$/],
+  ['handle of a light: Delete', POINT, press(handle('position'), 'Delete'), null],
+  ['handle of a spot: where it aims', SPOT, press(handle('aim'), 'ArrowRight'), '--light=spot:position=0/1/0,target=0.0804/0/0,cutoff=20'],
+  ['handle of a spot: the edge of its cone', SPOT, press(handle('cone'), 'ArrowRight'), '--light=spot:position=0/1/0,target=0/0/0,cutoff=22'],
+  ['handle of a directional light: ArrowRight', SUN, press(handle('position'), 'ArrowRight'), /--light=directional:direction=-0\.0\d+\/0\/-0\.99\d+$/],
+  ['button: a point light', null, inTab('lights', click('Add a point light')), '--light=+point:position=-1r/1r/1.2r'],
+  ['button: a spot', POINT, inTab('lights', click('Add a spot')), `${POINT} --light=spot:position=0.6r/1.4r/1.2r,cutoff=25`],
+  ['button: a directional light', null, inTab('lights', click('Add a directional light')), '--light=+directional:direction=1/-1/-0.5'],
+  ['button: a light is removed', POINT, inTab('lights', click('Remove point 1')), null],
+  ['slider: intensity', POINT, inTab('lights', slide('intensity of point 1', 'ArrowRight')), `${POINT},intensity=1.05`],
+  ['slider: attenuation', POINT, inTab('lights', slide('attenuation c of point 1', 'ArrowRight')), `${POINT},attenuation=1/0/0.01`],
+  ['slider: cone', SPOT, inTab('lights', slide('cutoff of spot 1', 'ArrowLeft')), '--light=spot:position=0/1/0,target=0/0/0,cutoff=19'],
+  ['slider: shininess', POINT, inTab('lights', slide('Shininess of the highlights', 'ArrowRight')), `${POINT} --shininess=33.1`],
+  ['choice: reflection', null, inTab('quick', (page) => page.locator('#quick-reflection').selectOption('phong')), '--reflection=phong'],
+  ['choice: a term', null, inTab('quick', (page) => page.locator('#quick-show').selectOption('diffuse')), '--show=diffuse'],
+  ['switch: wireframe', null, inTab('quick', (page) => page.locator('#quick-wireframe').check()), '--wireframe'],
+  ['a click pins', POINT, async (page) => page.mouse.click((await middle(page)).x + 30, (await middle(page)).y), ''],
+  ['Enter pins the middle', POINT, key('Enter'), ''],
+  ['Alt+ArrowLeft moves the pinned point', POINT, key('Alt+ArrowLeft'), ''],
+  ['Escape lets it go', POINT, key('Escape'), ''],
+  ['pointing', POINT, inTab('explain', async (page) => page.mouse.move((await middle(page)).x, (await middle(page)).y)), ''],
+  ['before and now', POINT, click('Before and now'), ''],
+];
+
+async function words() {
+  const page = await start(START);
+  for (const [label, light, act, wanted] of all ? WORDS : WORDS.filter((_, i) => i % 2 === 0)) {
+    await page.evaluate((hash) => (location.hash = hash), fragment([...START, ...(light ? [light] : [])]));
+    await settled(page, `before ${label}`);
+    const before = await commandOf(page);
+    if (light) await until(page, () => document.querySelector('.handle'));
+    await act(page);
+    await settled(page, label);
+    const text = await commandOf(page), rest = wanted === '' ? light : wanted;
+    const good = rest instanceof RegExp ? rest.test(text) : text === ['lambent', ...START, ...(rest ? [rest] : [])].join(' ');
+    ok(good, `gesture: ${label}`, text);
+    if (wanted !== '') {
+      await undoIn(page);
+      ok((await commandOf(page)) === before, `gesture: ${label}, undone at once`, await commandOf(page));
+    }
+  }
+  await page.close();
+}
+
 // --- touch
 
 async function touch() {
@@ -157,6 +220,11 @@ async function touch() {
   await settled(page, 'pinch');
   const found = cameraOf(await commandOf(page));
   ok(found && Math.abs(Math.hypot(...found.eye.map((x, i) => x - found.target[i])) - 2.5) < 0.01, 'touch: fingers twice as far apart, twice as near', await commandOf(page));
+  await send('touchStart', [at.x, at.y]);
+  await send('touchEnd');
+  await until(page, () => document.getElementById('pinned') && !document.getElementById('pinned').hidden && document.querySelector('#overlay-arrows .arrow'));
+  await page.locator('#pinned button').first().click();
+  ok((await arrowsIn(page)).length === 0, 'touch: a tap pins the point, and its button lets it go');
   await fingers.close();
 }
 
@@ -403,8 +471,19 @@ async function oneFile() {
   await until(page, () => document.getElementById('model').value === '/textured/damaged.obj');
   await page.locator('#model').selectOption('/textured/quad.obj');
   await settled(page, 'one file, a folder');
+  await usesLater(page, 'one file');
   console.log(`pixels ${JSON.stringify({ command: await commandOf(page), hash: await pixels(page) })}`);
   await page.close();
+}
+
+// The parts that are fetched when they are used.
+async function usesLater(page, label) {
+  await page.locator('#canvas').press('Enter');
+  await until(page, () => document.getElementById('explain').textContent.length > 100);
+  for (const tab of ['options', 'lights']) await page.locator(`#tab-${tab}`).click();
+  await page.locator('#compare').click();
+  await until(page, () => document.getElementById('divider') && document.querySelector('#options details') && document.querySelector('#panel-lights .slider'));
+  ok(true, `${label}: explains, has all options, lights, before and now`);
 }
 
 async function offline() {
@@ -419,6 +498,7 @@ async function offline() {
   await page.locator('#canvas').press('+');
   await settled(page, 'offline, zoomed');
   ok(cameraOf(await commandOf(page)).eye[2] < 5, 'without the server: the page loads again, and draws');
+  await usesLater(page, 'without the server');
   ok(same(await page.evaluate(() => caches.keys().then((names) => names.length)), 1), 'without the server: one cache');
   await away.close();
 }
@@ -495,7 +575,7 @@ async function sequence(page, seed) {
   await drawn(page, `sequence ${seed}`);
   const acts = [];
   for (let i = 0, count = 4 + pick(6); i < count; i++) {
-    const at = await middle(page), act = pick(10);
+    const at = await middle(page), act = pick(12);
     acts.push(act);
     if (act < 3) await drag(page, [at.x, at.y], [pick(200) - 100, pick(160) - 80], { shift: act === 2 });
     else if (act === 3) (await page.mouse.move(at.x, at.y), await page.mouse.wheel(0, pick(400) - 200));
@@ -507,6 +587,12 @@ async function sequence(page, seed) {
       const there = await control.locator('option').evaluateAll((list) => list.map((o) => o.value));
       const offered = words.filter((word) => there.includes(word));
       if (offered.length) await control.selectOption(offered[pick(offered.length)]);
+    } else if (act === 10) {
+      await page.mouse.click(at.x + pick(120) - 60, at.y + pick(90) - 45);
+      await page.locator('#tab-quick').click();
+    } else if (act === 11) {
+      await page.locator('#tab-lights').click();
+      await page.getByRole('button', { name: ['Add a point light', 'Add a spot'][pick(2)] }).click();
     } else {
       const button = page.locator(act === 8 ? '#undo' : '#redo');
       if (await button.isEnabled()) await button.click();
@@ -523,7 +609,7 @@ async function sequencesOf(count) {
   await page.close();
 }
 
-const parts = { gestures, touch, controls, explained, arrows, compared, lights, sizes, files, oneFile, offline, accessible, ...(await hasTable() ? { pseudo } : {}), random: () => sequencesOf(Number(sequences)) };
+const parts = { gestures, words, touch, controls, explained, arrows, compared, lights, sizes, files, oneFile, offline, accessible, ...(await hasTable() ? { pseudo } : {}), random: () => sequencesOf(Number(sequences)) };
 
 async function hasTable() {
   try {

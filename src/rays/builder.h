@@ -8,7 +8,8 @@
 // Triangles are prepared, and the largest ranges divided, in pieces of this many.
 enum { RAY_PIECE = 4096 };
 
-// The box of a triangle. low[3] holds the bits of its number.
+// The box of a triangle. low[3] holds the bits of its number, high[3] those of 1. Or that of a cell's triangles (cells.c), of
+// which low[3] has the first and high[3] the count.
 struct primitive {
     _Alignas(16) float low[4];
     float high[4];
@@ -21,23 +22,37 @@ static inline uint32_t primitive_number(const struct primitive *p)
     return number;
 }
 
+static inline uint32_t primitive_weight(const struct primitive *p)
+{
+    uint32_t weight;
+    __builtin_memcpy(&weight, &p->high[3], sizeof weight);
+    return weight;
+}
+
+static inline void primitive_note(struct primitive *p, uint32_t number, uint32_t weight)
+{
+    __builtin_memcpy(&p->low[3], &number, sizeof number);
+    __builtin_memcpy(&p->high[3], &weight, sizeof weight);
+}
+
 struct builder {
     const struct frame *frame;
     struct hierarchy *hierarchy;
-    struct ray_triangle *prepared;  // by number
     struct ray_triangle *triangles; // in the order of the leaves
     struct ray_node *nodes;
     uint32_t *twins;
-    struct primitive *primitives[2]; // large ranges move from one to the other as they are divided
+    struct primitive *primitives; // of the ranges that are divided
+    struct primitive *in_cells;   // of a large range, sorted by its cells
     struct pool *pool;
     struct loop_status loop;
 };
 
-// Fills prepared, primitives[0], and the hierarchy's centre and scale.
+// Fills primitives, and the hierarchy's centre and scale.
 bool ray_triangles_prepare(struct builder *builder, lam_error *error);
 
-// The nodes over so many triangles, at most.
-uint32_t ray_nodes_max(uint32_t triangle_count);
+// The nodes below a range of so many triangles, at most. A node with fewer than NODE_CHILDREN children has leaves alone, and
+// more than LEAF_MIN triangles; hence, by induction, (2 count − 1)/7.
+static inline uint32_t ray_nodes_below(uint32_t count) { return count ? (uint32_t)((2 * (uint64_t)count - 1) / 7) : 0; }
 
 // Divides the primitives into nodes and leaves.
 bool ray_nodes_build(struct builder *builder, lam_error *error);

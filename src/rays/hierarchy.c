@@ -56,7 +56,7 @@ const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, cons
                                            struct pool *pool, struct call_control *call, bool *built, lam_error *error)
 {
     struct hierarchy *h = &memory->hierarchy;
-    size_t count = frame->triangle_count, nodes = ray_nodes_max(frame->triangle_count);
+    size_t count = frame->triangle_count, nodes = 1 + (size_t)ray_nodes_below(frame->triangle_count);
     *built = false;
     if (memory->token && same_sources(memory, frame))
         return h;
@@ -65,8 +65,7 @@ const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, cons
         !buffer_reserve(&memory->nodes, nodes * sizeof(struct ray_node), call, error) ||
         !buffer_reserve(&memory->triangles, (count + 1) * sizeof(struct ray_triangle), call, error) ||
         !buffer_reserve(&memory->twins, (count + 1) * sizeof(uint32_t), call, error) ||
-        !buffer_reserve(&memory->scratch, (count + 1) * (sizeof(struct ray_triangle) + 2 * sizeof(struct primitive)),
-                        call, error))
+        !buffer_reserve(&memory->scratch, 2 * (count + 1) * sizeof(struct primitive), call, error))
         return NULL;
     struct builder builder = {.frame = frame,
                               .hierarchy = h,
@@ -75,16 +74,15 @@ const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, cons
                               .twins = memory->twins.data,
                               .pool = pool,
                               .loop = {.call = call}};
-    builder.primitives[0] = memory->scratch.data;
-    builder.primitives[1] = builder.primitives[0] + count;
-    builder.prepared = (struct ray_triangle *)(builder.primitives[1] + count);
+    builder.primitives = memory->scratch.data;
+    builder.in_cells = builder.primitives + count;
     *h = (struct hierarchy){.nodes = builder.nodes,
                             .triangles = builder.triangles,
                             .twins = builder.twins,
                             .node_count = (uint32_t)nodes,
                             .triangle_count = (uint32_t)count};
     bool ok = ray_triangles_prepare(&builder, error) && ray_nodes_build(&builder, error);
-    // The scratch memory is twice as large as the hierarchy, and not needed again before something moves.
+    // The scratch memory is half as large as the hierarchy, and not needed again before something moves.
     uint64_t scratch = memory->scratch.capacity;
     buffer_free(&memory->scratch);
     if (call)

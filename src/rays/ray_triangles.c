@@ -1,13 +1,12 @@
 // ray_triangles.c: the triangles of a frame in the hierarchy's space, and their boxes.
-#include "builder.h"
+//
+// Corners are computed where they are needed, which is three times: for the extent of everything, for boxes, and for the
+// leaves. To store them first would take more time, most of it for memory.
+#include "ray_triangles.h"
 
 #include "fail.h"
-#include "linear.h"
 
 #include <stdlib.h>
-#include <string.h>
-
-#define LEFT_OUT 0xffffffffu // as a twin, until the corners are scaled
 
 struct bounds {
     double low[3], high[3];
@@ -18,88 +17,49 @@ struct preparation {
     struct bounds *bounds; // of each piece, in world space
 };
 
-static bool finite_corners(const double p[3][3])
-{
-    double sum = 0; // 0 times anything finite
-    for (int i = 0; i < 9; i++)
-        sum += 0 * (&p[0][0])[i];
-    return sum == 0;
-}
-
-// The draw with a triangle.
-static int draw_of(const struct frame *frame, uint32_t number)
-{
-    int low = 0, high = frame->draw_count - 1;
-    while (low < high) {
-        int middle = (low + high + 1) / 2;
-        if (frame->draws[middle].first_id <= number)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return low;
-}
-
 static void place_task(void *user, size_t index, int thread)
 {
     (void)thread;
     struct preparation *preparation = user;
     struct builder *b = preparation->builder;
-    const struct frame *frame = b->frame;
-    uint32_t first = (uint32_t)index * RAY_PIECE, end = frame->triangle_count;
+    uint32_t first = (uint32_t)index * RAY_PIECE, end = b->frame->triangle_count;
     end = end - first < RAY_PIECE ? end : first + RAY_PIECE;
-    struct bounds bounds = {{1e308, 1e308, 1e308}, {-1e308, -1e308, -1e308}};
+    struct point low = {dnum_of(1e308), dnum_of(1e308)}, high = {dnum_of(-1e308), dnum_of(-1e308)};
+    struct placement place = {0};
     if (!should_continue(&b->loop))
         return;
-    int draw = draw_of(frame, first);
     for (uint32_t i = first; i < end; i++) {
-        while (draw + 1 < frame->draw_count && frame->draws[draw + 1].first_id <= i)
-            draw++;
-        struct ray_triangle *t = &b->prepared[i];
-        ray_corners(&frame->draws[draw], i - frame->draws[draw].first_id, t->p);
-        t->number = t->twin = i;
-        // No ray meets it. Rectangles of lines and points face the eye: they are no things that could cast a shadow.
-        if (!frame_draw_casts(&frame->draws[draw]) || !finite_corners(t->p)) {
-            t->twin = LEFT_OUT;
+        struct point p[3];
+        if (!world_corners(b->frame, i, &place, p))
             continue;
-        }
-        for (int k = 0; k < 9; k++) {
-            double x = t->p[k / 3][k % 3];
-            bounds.low[k % 3] = x < bounds.low[k % 3] ? x : bounds.low[k % 3];
-            bounds.high[k % 3] = x > bounds.high[k % 3] ? x : bounds.high[k % 3];
+        for (int k = 0; k < 3; k++) {
+            low = (struct point){dmin_of(p[k].xy, low.xy), dmin_of(p[k].z, low.z)};
+            high = (struct point){dmax_of(p[k].xy, high.xy), dmax_of(p[k].z, high.z)};
         }
     }
-    preparation->bounds[index] = bounds;
+    struct bounds *bounds = &preparation->bounds[index];
+    store_point(low, bounds->low);
+    store_point(high, bounds->high);
 }
 
-// The corners in the hierarchy's space, and the box, rounded to the nearest floats (ray_lanes.h takes care of that).
-static void scale_task(void *user, size_t index, int thread)
+// The boxes in the hierarchy's space, rounded to the nearest floats (ray_lanes.h takes care of that).
+static void box_task(void *user, size_t index, int thread)
 {
     (void)thread;
     struct preparation *preparation = user;
     struct builder *b = preparation->builder;
-    const struct hierarchy *h = b->hierarchy;
     uint32_t first = (uint32_t)index * RAY_PIECE, end = b->frame->triangle_count;
     end = end - first < RAY_PIECE ? end : first + RAY_PIECE;
+    struct placement place = {0};
     if (!should_continue(&b->loop))
         return;
     for (uint32_t i = first; i < end; i++) {
-        struct ray_triangle *t = &b->prepared[i];
-        struct primitive *out = &b->primitives[0][i];
-        for (int k = 0; k < 3; k++)
-            ray_point(h, t->p[k], t->p[k]);
-        if (t->twin == LEFT_OUT) {
-            memset(t->p, 0, sizeof t->p);
-            t->twin = i;
-        }
-        for (int axis = 0; axis < 3; axis++) {
-            double x = t->p[0][axis], y = t->p[1][axis], z = t->p[2][axis];
-            double low = x < y ? x : y, high = x < y ? y : x;
-            out->low[axis] = (float)(low < z ? low : z);
-            out->high[axis] = (float)(high > z ? high : z);
-        }
-        memcpy(&out->low[3], &i, sizeof i);
-        out->high[3] = 0;
+        struct primitive *out = &b->primitives[i];
+        struct point p[3];
+        ray_space_corners(b, i, &place, p);
+        store_floats(out->low, dmin_of(dmin_of(p[0].xy, p[1].xy), p[2].xy), dmin_of(dmin_of(p[0].z, p[1].z), p[2].z));
+        store_floats(out->high, dmax_of(dmax_of(p[0].xy, p[1].xy), p[2].xy), dmax_of(dmax_of(p[0].z, p[1].z), p[2].z));
+        primitive_note(out, i, 1);
     }
 }
 
@@ -136,7 +96,7 @@ bool ray_triangles_prepare(struct builder *builder, lam_error *error)
             all.high[axis] = own->high[axis] > all.high[axis] ? own->high[axis] : all.high[axis];
         }
     choose_space(builder->hierarchy, &all);
-    pool_run(builder->pool, pieces, scale_task, &preparation);
+    pool_run(builder->pool, pieces, box_task, &preparation);
     free(preparation.bounds);
     return should_continue(&builder->loop) || loop_error(&builder->loop, 0, error);
 }

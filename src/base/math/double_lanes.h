@@ -61,4 +61,13 @@ LANE_FN unsigned dmask_bits(dmask m) // bit i: lane i
 }
 #endif
 
+// Minimum and maximum as min_of and max_of have them.
+#if LANES == 4 && defined(__SSE2__)
+LANE_FN dnum dmin_of(dnum a, dnum b) { return (dnum)_mm_min_pd((__m128d)a, (__m128d)b); }
+LANE_FN dnum dmax_of(dnum a, dnum b) { return (dnum)_mm_max_pd((__m128d)a, (__m128d)b); }
+#elif LANES == 4
+LANE_FN dnum dmin_of(dnum a, dnum b) { return dpick(a < b, a, b); }
+LANE_FN dnum dmax_of(dnum a, dnum b) { return dpick(a > b, a, b); }
+#endif
+
 #endif

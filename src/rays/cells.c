@@ -1,0 +1,303 @@
+// cells.c: divides large ranges of a hierarchy's triangles, and hands the small ones out.
+//
+// The middles of a large range's triangles are sorted into the cells of a grid, and the range is divided by the boxes of
+// its cells in place of the triangles', of which there are many times more. A part of few triangles leaves its cells and is
+// divided by one thread (splits.c); so is one that fills a cell, within a grid of its own where it is large.
+// Pieces of work follow from the number of triangles, and a range's nodes have a place that follows from its triangles
+// alone, so neither the threads nor their number matter.
+#include "ranges.h"
+
+#include "fail.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    PART = 32,                    // triangles of a part of a node that cells do not divide any more
+    SMALL = NODE_CHILDREN * PART, // triangles of a range that one thread divides; above, a node has all its children
+    CELL_BITS_MAX = 16,
+    PIECES_MAX = 16,
+    CELLS_PIECE = 256 // cells that are measured together
+};
+
+// A grid over the middles of a range's triangles.
+struct grid {
+    num start, factor, last; // from twice a middle to the column, row and layer, and the last of these
+    int shift[3];            // where their bits are in a cell's number
+    uint32_t cell_count;
+};
+
+struct large {
+    struct builder *builder;
+    const struct range *range;
+    struct grid grid;
+    uint32_t piece, pieces;  // triangles sorted together
+    uint16_t *keys;          // of each triangle, its cell
+    uint32_t *places;        // of each piece and cell: how many triangles, then where the next one goes
+    struct primitive *cells; // those with triangles
+    uint32_t used_cells;
+    struct box *boxes;             // of each piece: of its triangles, and of twice their middles
+    struct range *small, *waiting; // to be divided by one thread; in grids of their own
+    size_t small_count, small_capacity, waiting_count, waiting_capacity;
+};
+
+// --- the grid
+
+// Each bit of a cell's number halves the longest side that is left.
+static struct grid grid_over(const struct box *middles, uint32_t count)
+{
+    int bits = 31 - __builtin_clz(count) - 2, of_axis[3] = {0, 0, 0};
+    float side[3];
+    struct grid grid;
+    bits = bits > CELL_BITS_MAX ? CELL_BITS_MAX : bits;
+    for (int axis = 0; axis < 3; axis++)
+        side[axis] = lane(middles->high, axis) - lane(middles->low, axis);
+    for (int bit = 0; bit < bits; bit++) {
+        int longest = side[0] >= side[1] ? 0 : 1;
+        longest = side[longest] >= side[2] ? longest : 2;
+        side[longest] *= 0.5f;
+        of_axis[longest]++;
+    }
+    float factor[4] = {0}, last[4] = {0};
+    int shift = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        float length = lane(middles->high, axis) - lane(middles->low, axis);
+        int steps = 1 << of_axis[axis];
+        factor[axis] = length > 1e-30f ? (float)steps * 0.99999f / length : 0;
+        last[axis] = (float)(steps - 1);
+        grid.shift[axis] = shift;
+        shift += of_axis[axis];
+    }
+    grid.start = middles->low;
+    grid.factor = num_load(factor);
+    grid.last = num_load(last);
+    grid.cell_count = 1u << bits;
+    return grid;
+}
+
+static uint32_t cell_of(const struct grid *grid, const struct primitive *p)
+{
+    num at = min_of(max_of((middle_of(p) - grid->start) * grid->factor, num_of(0.0f)), grid->last);
+    inum i = int_of(at);
+    return (uint32_t)(ilane(i, 0) << grid->shift[0] | ilane(i, 1) << grid->shift[1] | ilane(i, 2) << grid->shift[2]);
+}
+
+static uint32_t piece_count(const struct large *l, size_t index)
+{
+    uint32_t first = (uint32_t)index * l->piece;
+    return l->range->count - first < l->piece ? l->range->count - first : l->piece;
+}
+
+static void measure_task(void *user, size_t index, int thread)
+{
+    (void)thread;
+    struct large *l = user;
+    const struct primitive *p = l->builder->primitives + l->range->first + index * l->piece;
+    range_measure(p, piece_count(l, index), &l->boxes[2 * index], &l->boxes[2 * index + 1]);
+}
+
+static void count_task(void *user, size_t index, int thread)
+{
+    (void)thread;
+    struct large *l = user;
+    const struct primitive *p = l->builder->primitives + l->range->first + index * l->piece;
+    uint16_t *keys = l->keys + index * l->piece;
+    uint32_t *places = l->places + index * l->grid.cell_count;
+    for (uint32_t i = 0, count = piece_count(l, index); i < count; i++) {
+        keys[i] = (uint16_t)cell_of(&l->grid, &p[i]);
+        places[keys[i]]++;
+    }
+}
+
+static void sort_task(void *user, size_t index, int thread)
+{
+    (void)thread;
+    struct large *l = user;
+    const struct primitive *p = l->builder->primitives + l->range->first + index * l->piece;
+    const uint16_t *keys = l->keys + index * l->piece;
+    uint32_t *places = l->places + index * l->grid.cell_count;
+    for (uint32_t i = 0, count = piece_count(l, index); i < count; i++)
+        l->builder->in_cells[places[keys[i]]++] = p[i];
+}
+
+static void cells_task(void *user, size_t index, int thread)
+{
+    (void)thread;
+    struct large *l = user;
+    uint32_t end =
+        (uint32_t)(index + 1) * CELLS_PIECE < l->used_cells ? (uint32_t)(index + 1) * CELLS_PIECE : l->used_cells;
+    for (uint32_t i = (uint32_t)index * CELLS_PIECE; i < end; i++) {
+        struct primitive *cell = &l->cells[i];
+        uint32_t first = primitive_number(cell), count = primitive_weight(cell);
+        struct box box, middles;
+        range_measure(l->builder->in_cells + first, count, &box, &middles);
+        num_store(cell->low, box.low);
+        num_store(cell->high, box.high);
+        primitive_note(cell, first, count);
+    }
+}
+
+// Sorts the primitives of a range into cells, with the range's box and middles.
+static bool sort_into_cells(struct large *l, struct range *r)
+{
+    struct builder *b = l->builder;
+    l->range = r;
+    l->piece = r->count / PIECES_MAX > 8 * RAY_PIECE ? r->count / PIECES_MAX + 1 : 8 * RAY_PIECE;
+    l->pieces = (r->count + l->piece - 1) / l->piece;
+    struct box boxes[2 * (PIECES_MAX + 1)];
+    l->boxes = boxes;
+    pool_run(b->pool, l->pieces, measure_task, l);
+    r->box = r->middles = empty_box();
+    for (uint32_t i = 0; i < l->pieces; i++) {
+        r->box = around(r->box, boxes[2 * i]);
+        r->middles = around(r->middles, boxes[2 * i + 1]);
+    }
+    l->grid = grid_over(&r->middles, r->count);
+    size_t cells = l->grid.cell_count;
+    free(l->keys);
+    free(l->places);
+    free(l->cells);
+    l->keys = malloc(r->count * sizeof *l->keys);
+    l->places = calloc(l->pieces * cells, sizeof *l->places);
+    l->cells = aligned_alloc(64, (cells * sizeof *l->cells + 63) & ~(size_t)63);
+    if (!l->keys || !l->places || !l->cells) {
+        no_memory(&b->loop);
+        return false;
+    }
+    pool_run(b->pool, l->pieces, count_task, l);
+    uint32_t at = 0;
+    l->used_cells = 0;
+    for (size_t cell = 0; cell < cells; cell++) {
+        uint32_t first = at;
+        for (uint32_t piece = 0; piece < l->pieces; piece++) {
+            uint32_t *place = &l->places[piece * cells + cell], count = *place;
+            *place = at;
+            at += count;
+        }
+        if (at > first)
+            primitive_note(&l->cells[l->used_cells++], first, at - first);
+    }
+    pool_run(b->pool, l->pieces, sort_task, l);
+    pool_run(b->pool, (l->used_cells + CELLS_PIECE - 1) / CELLS_PIECE, cells_task, l);
+    r->first_cell = 0;
+    r->cell_count = l->used_cells;
+    struct box unused;
+    range_measure(l->cells, l->used_cells, &unused, &r->middles);
+    return true;
+}
+
+// --- the division
+
+static void add(struct large *l, const struct range *r, struct range **list, size_t *count, size_t *capacity)
+{
+    if (*count == *capacity) {
+        size_t more = *capacity ? 2 * *capacity : 64;
+        struct range *grown = aligned_alloc(64, (more * sizeof *grown + 63) & ~(size_t)63);
+        if (!grown) {
+            no_memory(&l->builder->loop);
+            return;
+        }
+        if (*count)
+            memcpy(grown, *list, *count * sizeof *grown);
+        free(*list);
+        *list = grown;
+        *capacity = more;
+    }
+    (*list)[(*count)++] = *r;
+}
+
+// Divides a range by its cells. False: it has one, or all their middles are the same, or it is too deep.
+static bool halve_cells(struct large *l, struct range *r, struct range *right)
+{
+    struct split split;
+    struct bins bins;
+    struct box boxes[2], middles[2];
+    if (r->cell_count < 2 || r->depth >= BALANCED_AT || !choose_axis(r, &split))
+        return false;
+    clear_bins(&bins, split.bins);
+    fill_bins(&bins, &split, l->cells + r->first_cell, r->cell_count);
+    choose_bin(&bins, &split);
+    uint32_t left = partition(l->cells + r->first_cell, r->cell_count, &split);
+    halves_of(r, sides_of(&bins, split.bin, boxes, middles), boxes, middles, right);
+    r->cell_count = left;
+    right->first_cell += left;
+    right->cell_count -= left;
+    return true;
+}
+
+// The triangles of a range leave their cells.
+static void leave_cells(const struct large *l, struct range *r)
+{
+    struct primitive *to = l->builder->primitives + r->first;
+    for (uint32_t i = 0; i < r->cell_count; i++) {
+        const struct primitive *cell = &l->cells[r->first_cell + i];
+        memcpy(to, l->builder->in_cells + primitive_number(cell), primitive_weight(cell) * sizeof *to);
+        to += primitive_weight(cell);
+    }
+    if (r->cell_count)
+        range_measure(l->builder->primitives + r->first, r->count, &r->box, &r->middles);
+    r->cell_count = 0;
+}
+
+static void divide_by_cells(struct large *l, const struct range *r)
+{
+    struct range parts[NODE_CHILDREN] = {*r};
+    bool open[NODE_CHILDREN] = {true};
+    int count = 1, i;
+    if (!should_continue(&l->builder->loop))
+        return;
+    while (count < NODE_CHILDREN && (i = widest_part(parts, open, count)) >= 0) {
+        if (!halve_cells(l, &parts[i], &parts[count])) {
+            leave_cells(l, &parts[i]);
+            if (!range_halve(l->builder, &parts[i], &parts[count])) // no memory
+                return;
+        }
+        open[i] = parts[i].count > PART;
+        open[count] = parts[count].count > PART;
+        count++;
+    }
+    range_enter_node(l->builder, r, parts, count);
+    for (i = 0; i < count; i++)
+        if (parts[i].count > SMALL && parts[i].cell_count)
+            divide_by_cells(l, &parts[i]);
+        else if (parts[i].count > SMALL && parts[i].depth < BALANCED_AT && !parts[i].sorted)
+            add(l, &parts[i], &l->waiting, &l->waiting_count, &l->waiting_capacity);
+        else
+            add(l, &parts[i], &l->small, &l->small_count, &l->small_capacity);
+}
+
+static void small_task(void *user, size_t index, int thread)
+{
+    (void)thread;
+    struct large *l = user;
+    if (!should_continue(&l->builder->loop))
+        return;
+    leave_cells(l, &l->small[index]);
+    range_divide(l->builder, &l->small[index]);
+}
+
+bool ray_nodes_build(struct builder *b, lam_error *error)
+{
+    struct large l = {.builder = b};
+    struct range r = {.count = b->frame->triangle_count};
+    if (r.count > SMALL) {
+        add(&l, &r, &l.waiting, &l.waiting_count, &l.waiting_capacity);
+    } else {
+        range_measure(b->primitives, r.count, &r.box, &r.middles);
+        range_divide(b, &r);
+    }
+    while (l.waiting_count && should_continue(&b->loop)) {
+        r = l.waiting[--l.waiting_count];
+        l.small_count = 0;
+        if (sort_into_cells(&l, &r)) {
+            divide_by_cells(&l, &r);
+            pool_run(b->pool, l.small_count, small_task, &l);
+        }
+    }
+    free(l.keys);
+    free(l.places);
+    free(l.cells);
+    free(l.small);
+    free(l.waiting);
+    return should_continue(&b->loop) || loop_error(&b->loop, (size_t)b->frame->triangle_count * 4, error);
+}

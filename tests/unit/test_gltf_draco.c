@@ -188,6 +188,98 @@ static void missing(void **state)
 
 #endif
 
+#if HAS_DRACO
+
+// A file of some kilobytes with 100 attributes of 60 numbers for each of 6000 vertices, all zero, which the coder packs into no bits: each
+// takes 2.9 MB as Draco keeps it.
+enum { FACES = 2000, VERTICES = 3 * FACES, ATTRIBUTES = 100, BOMB_BYTES = 6200 };
+
+static size_t make_bomb(uint8_t *out)
+{
+    // All symbols are the same: how they are coded, bits, how many there are, how probable (4096 of 4096), bytes.
+    static const uint8_t symbols[] = {1, 1, 1, 1, 64, 1, 0};
+    static const uint8_t head[] = {
+        'D',           'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0, (FACES & 127) | 128, FACES >> 7, (VERTICES & 127) | 128,
+        VERTICES >> 7, 0};
+    uint8_t *at = out;
+    memset(out, 0, BOMB_BYTES); // Draco wants three bytes for each triangle, used or not
+    memcpy(at, head, sizeof head);
+    at += sizeof head;
+    memcpy(at, symbols, sizeof symbols);
+    at += sizeof symbols;
+    *at++ = 1; // decoder
+    *at++ = ATTRIBUTES;
+    for (int i = 0; i < ATTRIBUTES;
+         i++) { // position, then others: type, unsigned of 32 bits, width, not normalized, id
+        const uint8_t attribute[] = {i ? 4 : 0, 6, i ? 60 : 3, 0, (uint8_t)i};
+        memcpy(at, attribute, sizeof attribute);
+        at += sizeof attribute;
+    }
+    memset(at, 1, ATTRIBUTES); // integers
+    at += ATTRIBUTES;
+    for (int i = 0; i < ATTRIBUTES; i++) { // as they are, not predicted; compressed
+        *at++ = 0xfe;
+        *at++ = 1;
+        memcpy(at, symbols, sizeof symbols);
+        at += sizeof symbols;
+    }
+    return at - out < BOMB_BYTES ? BOMB_BYTES : 0;
+}
+
+static lam_scene *load_bomb(const lam_control *control, lam_error *error)
+{
+    static uint8_t glb[12 + 8 + 800 + 8 + BOMB_BYTES];
+    char text[801];
+    int length = snprintf(
+        text, sizeof text,
+        "{\"asset\": {\"version\": \"2.0\"}, " REQUIRED " \"nodes\": [{\"mesh\": 0}], \"meshes\": [{\"primitives\": "
+        "[{\"attributes\": {\"POSITION\": 0}, \"indices\": 1, \"extensions\": {\"KHR_draco_mesh_compression\": "
+        "{\"bufferView\": 0, \"attributes\": {\"POSITION\": 0}}}}]}], \"accessors\": [{\"count\": %d, "
+        "\"componentType\": 5126, \"type\": \"VEC3\"}, {\"count\": %d, \"componentType\": 5125, \"type\": "
+        "\"SCALAR\"}], "
+        "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": %d}], \"buffers\": [{\"byteLength\": %d}]}",
+        VERTICES, 3 * FACES, BOMB_BYTES, BOMB_BYTES);
+    assert_in_range(length, 1, 800);
+    memset(text + length, ' ', (size_t)(800 - length));
+    const uint32_t head[] = {0x46546c67, 2, sizeof glb, 800, 0x4e4f534a}, second[] = {BOMB_BYTES, 0x004e4942};
+    memcpy(glb, head, sizeof head);
+    memcpy(glb + sizeof head, text, 800);
+    memcpy(glb + sizeof head + 800, second, sizeof second);
+    assert_int_equal(make_bomb(glb + sizeof head + 800 + sizeof second), BOMB_BYTES);
+    return lam_scene_load_memory(glb, sizeof glb, "bomb.glb", NULL, control, error);
+}
+
+// What Draco takes is counted while it takes it: more than the limit is an error, whatever the header said.
+static void memory_counted(void **state)
+{
+    (void)state;
+    lam_error error = {0};
+    lam_scene *scene = load_bomb(&(lam_control){.memory_limit_bytes = 1000000000}, &error);
+    if (!scene)
+        fail_msg("%s", error.text);
+    assert_int_equal(lam_scene_triangle_count(scene), FACES);
+    lam_scene_free(scene);
+    assert_null(load_bomb(&(lam_control){.memory_limit_bytes = 100000000}, &error));
+    assert_int_equal(error.code, LAM_LIMIT);
+    double limit, used, more;
+    assert_int_equal(sscanf(error.text, "the memory limit of %lf MB is reached: %lf MB in use, %lf MB more needed",
+                            &limit, &used, &more),
+                     3);
+    assert_true(limit == 100 && used > 90 && used <= 100 && used + more > 100 && more < 10);
+}
+
+// 36 million numbers take longer than that: it ends on the way.
+static void too_long(void **state)
+{
+    (void)state;
+    lam_error error = {0};
+    assert_null(load_bomb(&(lam_control){.time_limit_s = 0.01}, &error));
+    assert_int_equal(error.code, LAM_LIMIT);
+    assert_string_equal(error.text, "the time limit of 0.01 s is over");
+}
+
+#endif
+
 #define CLAIM(...) draco_header_read((const uint8_t[]){__VA_ARGS__}, sizeof((uint8_t[]){__VA_ARGS__}), &claim)
 
 static void claims(void **state)
@@ -229,8 +321,9 @@ static void claims(void **state)
 int main(void)
 {
 #if HAS_DRACO
-    const struct CMUnitTest tests[] = {cmocka_unit_test(claims), cmocka_unit_test(decoded), cmocka_unit_test(wrong),
-                                       cmocka_unit_test(damaged)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(claims),         cmocka_unit_test(decoded),
+                                       cmocka_unit_test(wrong),          cmocka_unit_test(damaged),
+                                       cmocka_unit_test(memory_counted), cmocka_unit_test(too_long)};
 #else
     const struct CMUnitTest tests[] = {cmocka_unit_test(claims), cmocka_unit_test(missing)};
 #endif

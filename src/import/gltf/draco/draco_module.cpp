@@ -4,12 +4,67 @@
 #include <draco/compression/decode.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <malloc.h>
 #include <memory>
 #include <new>
 
 namespace
 {
+
+// --- counting what Draco takes
+
+// What a thread's decoding has taken so far, and may. Where another library of the process has operators new and delete that come
+// before these (a program in C++ that links Lambent, a sanitizer), nothing is counted, and the estimate from the header is all there is.
+struct account {
+    draco_memory *memory;
+    size_t taken;
+};
+
+// A pointer alone, in the space that every thread has: other kinds of thread_local data are allocated when they are first used.
+thread_local account *counting __attribute__((tls_model("initial-exec"))) = nullptr;
+
+void *take(std::size_t size)
+{
+    account *own = counting;
+    if (own && own->memory->grant && size > own->memory->granted - own->taken) {
+        constexpr std::size_t STEP = 1 << 20;
+        const std::size_t missing = size - (own->memory->granted - own->taken);
+        if (missing > SIZE_MAX - STEP || !own->memory->grant(own->memory, (missing + STEP - 1) / STEP * STEP))
+            return nullptr;
+    }
+    void *block = std::malloc(size ? size : 1);
+    // With what the C library adds, as far as granted: the rest is less than a step.
+    if (own && block) {
+        const std::size_t held = malloc_usable_size(block), left = own->memory->granted - own->taken;
+        own->taken += held < left ? held : left;
+    }
+    return block;
+}
+
+void give_back(void *block)
+{
+    if (counting && block) {
+        const std::size_t held = malloc_usable_size(block);
+        counting->taken -= held < counting->taken ? held : counting->taken;
+    }
+    std::free(block);
+}
+
+class count_here
+{
+  public:
+    explicit count_here(draco_memory *memory) : own{memory, 0} { counting = memory ? &own : nullptr; }
+    ~count_here() { counting = nullptr; }
+    count_here(const count_here &) = delete;
+    count_here &operator=(const count_here &) = delete;
+
+  private:
+    account own;
+};
+
+// --- decoding
 
 constexpr int DECODED = 1, DAMAGED = 0, NO_MEMORY = -1;
 
@@ -19,12 +74,14 @@ int damaged(char *reason, const char *text)
     return DAMAGED;
 }
 
-int decode(const uint8_t *bytes, size_t size, void **mesh, uint32_t *vertices, uint32_t *triangles, char *reason)
+int decode(const uint8_t *bytes, size_t size, draco_memory *memory, void **mesh, uint32_t *vertices, uint32_t *triangles,
+           char *reason)
 {
     // A thread's data of the C++ runtime are made by its first exception; without memory for them the C library ends the
     // program. Here they are made while there still is some.
     volatile int pending = std::uncaught_exceptions(); // volatile: it is called, whoever needs the number
     (void)pending;
+    const count_here here(memory);
     try {
         draco::DecoderBuffer buffer;
         buffer.Init(reinterpret_cast<const char *>(bytes), size);
@@ -120,6 +177,22 @@ void free_mesh(void *mesh) { delete static_cast<draco::Mesh *>(mesh); }
 const draco_functions functions = {DRACO_MODULE_VERSION, decode, attribute, triangles, free_mesh};
 
 } // namespace
+
+// They serve this shared object and Draco's library, which was loaded for it; blocks are the C library's, so that memory may be taken by these
+// and given back by others, and the other way round.
+void *operator new(std::size_t size)
+{
+    void *block = take(size);
+    if (!block)
+        throw std::bad_alloc();
+    return block;
+}
+
+void *operator new[](std::size_t size) { return operator new(size); }
+void operator delete(void *block) noexcept { give_back(block); }
+void operator delete[](void *block) noexcept { give_back(block); }
+void operator delete(void *block, std::size_t) noexcept { give_back(block); }
+void operator delete[](void *block, std::size_t) noexcept { give_back(block); }
 
 extern "C" __attribute__((visibility("default"))) const draco_functions *lambent_draco_functions(void)
 {

@@ -11,16 +11,25 @@ extern "C" {
 #endif
 
 // Changes with every change of the functions below.
-enum { DRACO_MODULE_VERSION = 1 };
+enum { DRACO_MODULE_VERSION = 2 };
 
 enum { DRACO_REASON_SIZE = 160 };
+
+// The memory that decoding may take. A file of some kilobytes can name thousands of attributes for each of thousands of vertices:
+// what a header says bounds nothing.
+struct draco_memory {
+    size_t granted; // bytes
+    // Asks for more; 0: there is no more, and decoding ends as where memory is out. It adds what it grants to `granted`.
+    int (*grant)(struct draco_memory *memory, size_t bytes);
+    void *user;
+};
 
 struct draco_functions {
     int version;
     // Decodes a mesh: 1 and *mesh, with its numbers of vertices and triangles; 0: the bytes are damaged, and `reason` says why;
-    // −1: out of memory.
-    int (*decode)(const uint8_t *bytes, size_t size, void **mesh, uint32_t *vertices, uint32_t *triangles,
-                  char reason[DRACO_REASON_SIZE]);
+    // −1: out of memory, or of what was granted.
+    int (*decode)(const uint8_t *bytes, size_t size, struct draco_memory *memory, void **mesh, uint32_t *vertices,
+                  uint32_t *triangles, char reason[DRACO_REASON_SIZE]);
     // Writes the attribute of this unique id, `width` numbers of a glTF component type for each vertex, without gaps. Results as
     // above.
     int (*attribute)(const void *mesh, uint32_t id, int component, int width, void *out,
@@ -30,7 +39,7 @@ struct draco_functions {
     void (*free)(void *mesh);
 };
 
-// The only symbol of the shared object.
+// The only symbol of the shared object, besides C++'s operators new and delete, by which it counts what Draco takes.
 const struct draco_functions *lambent_draco_functions(void);
 
 #ifdef __cplusplus

@@ -181,22 +181,42 @@ static bool charge_claim(const struct decoding *d, const struct gltf_view *view,
     return true;
 }
 
+// What decoding may take beyond the claim's. It is asked for a megabyte at a time, which is when a long decoding can be ended.
+struct grants {
+    struct call_control *call;
+    size_t refused;
+};
+
+static int grant(struct draco_memory *memory, size_t bytes)
+{
+    struct grants *grants = memory->user;
+    if (!call_should_continue(grants->call) || !call_charge(grants->call, bytes)) {
+        grants->refused = bytes;
+        return 0;
+    }
+    memory->granted += bytes;
+    return 1;
+}
+
 static bool decode(struct decoding *d, const struct place *place, const json_t *primitive, const json_t *ids,
                    bool strip)
 {
     char reason[DRACO_REASON_SIZE];
-    size_t charged = 0;
+    struct grants grants = {.call = d->gltf->source->call};
+    struct draco_memory memory = {.grant = grant, .user = &grants};
     const struct gltf_view *view = gltf_view_at(d->gltf, d->view);
-    if (!view || !charge_claim(d, view, &charged))
+    if (!view || !charge_claim(d, view, &memory.granted))
         return false;
-    bool ok =
-        succeeded(d, d->place,
-                  d->functions->decode(view->data, view->size, &d->mesh, &d->vertices, &d->triangles, reason), reason);
+    int result = d->functions->decode(view->data, view->size, &memory, &d->mesh, &d->vertices, &d->triangles, reason);
+    bool ok = call_should_continue(grants.call) || call_error(grants.call, d->gltf->json.error);
+    if (!ok && result > 0)
+        d->functions->free(d->mesh);
+    ok = ok && (result >= 0 ? succeeded(d, d->place, result, reason) : gltf_no_memory(d->gltf, grants.refused));
     if (ok) {
         ok = decode_attributes(d, place, primitive, ids) && decode_indices(d, place, primitive, strip);
         d->functions->free(d->mesh);
     }
-    call_refund(d->gltf->source->call, charged);
+    call_refund(grants.call, memory.granted);
     return ok;
 }
 

@@ -32,8 +32,9 @@ LAM_API lam_animation *lam_animation_make(const char *format, int width, int hei
                                           lam_error *error);
 
 // Encodes the next frame, of 8 bits a channel and the animation's size. Only the smallest rectangle that holds all changes
-// since the frame before is stored. `control` may be NULL; its memory limit counts the encoded frames of a PNG too. False:
-// LAM_BAD_ARGUMENT, LAM_LIMIT, LAM_CANCELLED; the animation is then of no more use but to be freed.
+// since the frame before is stored. `control` may be NULL; its memory limit counts the encoded frames of a PNG too, and the
+// encoder's canvases of a WebP. False: LAM_BAD_ARGUMENT, LAM_LIMIT, LAM_CANCELLED; the animation is then of no more use
+// but to be freed.
 LAM_API bool lam_animation_add(lam_animation *animation, const lam_image *frame, const lam_control *control,
                                lam_error *error);
 

@@ -130,6 +130,13 @@ static bool animation_finish(void *state, const lam_save_params *params, lam_byt
     return out->data || fail_memory(error, data.size);
 }
 
+// The encoder's three canvases. How long a frame became, it says to nobody before the file is made.
+static uint64_t animation_held(const void *state)
+{
+    const struct webp_animation *animation = state;
+    return (uint64_t)3 * 4 * (uint64_t)animation->settings.width * (uint64_t)animation->settings.height;
+}
+
 #else
 
 static void *animation_start(const struct animation_settings *settings, lam_error *error)
@@ -154,13 +161,13 @@ static bool animation_finish(void *state, const lam_save_params *params, lam_byt
 
 static void animation_free(void *state) { free(state); }
 
-#endif
-
 static uint64_t animation_held(const void *state)
 {
     (void)state;
     return 0;
 }
+
+#endif
 
 const struct animation_codec animation_webp = {.start = animation_start,
                                                .add = animation_add,

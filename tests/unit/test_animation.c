@@ -198,6 +198,29 @@ static void test_memory(void **state)
     lam_image_free(&image);
 }
 
+// Of a WebP the encoder's canvases count, beside what encoding a frame takes.
+static void test_memory_webp(void **state)
+{
+    (void)state;
+    enum { CANVASES = 3 * 4 * 30 * 20, NEXT = 12 * 30 * 20 };
+    lam_error error;
+    lam_image image;
+    uint32_t seed = 1;
+    assert_true(lam_image_make(&image, 30, 20, LAM_RGBA8, &error));
+    fill_noise(&image, &seed);
+    for (int fits = 0; fits < 2; fits++) {
+        lam_animation *animation = lam_animation_make("webp", 30, 20, NULL, &error);
+        if (!animation) // no libwebpmux
+            break;
+        const lam_control control = {.memory_limit_bytes = CANVASES + NEXT - !fits};
+        assert_int_equal(lam_animation_add(animation, &image, &control, &error), fits);
+        if (!fits)
+            assert_int_equal(error.code, LAM_LIMIT);
+        lam_animation_free(animation);
+    }
+    lam_image_free(&image);
+}
+
 static void draw(const lam_scene *scene, lam_device *device, lam_image *image)
 {
     lam_error error;
@@ -290,9 +313,10 @@ static void test_rotation(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_formats),     cmocka_unit_test(test_arguments),     cmocka_unit_test(test_frames),
-        cmocka_unit_test(test_first_frame), cmocka_unit_test(test_cancelled),     cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_reset),       cmocka_unit_test(test_warnings_once), cmocka_unit_test(test_rotation),
+        cmocka_unit_test(test_formats),     cmocka_unit_test(test_arguments), cmocka_unit_test(test_frames),
+        cmocka_unit_test(test_first_frame), cmocka_unit_test(test_cancelled), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_memory_webp), cmocka_unit_test(test_reset),     cmocka_unit_test(test_warnings_once),
+        cmocka_unit_test(test_rotation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

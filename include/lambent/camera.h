@@ -30,6 +30,11 @@ LAM_API lam_camera lam_camera_default(void);
 // The matrix from world to eye space: the eye at the origin, x to the right, y up, looking along −z.
 LAM_API lam_mat4 lam_camera_view_matrix(const lam_camera *camera);
 
+// Where a point of eye space lies in a picture of width × height pixels: *x and *y in pixels from its upper left corner, outside
+// of it too. False, with nothing changed: it lies beside or behind the eye of a perspective camera.
+LAM_API bool lam_camera_project(const lam_camera *camera, int width, int height, lam_vec3 eye_position, double *x,
+                                double *y);
+
 // The side that lam_camera_fit looks from. All zero: the three-quarter view of a catalogue, 30° to the right of the
 // front and 20° above, in perspective.
 typedef struct lam_view {

@@ -149,6 +149,8 @@ LAM_API int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface
 // mesh that is up (AUTO: y). It is y in OBJ and PLY and z in STL: the coordinates are turned, so that the file shows the same
 // picture. Errors: LAM_BAD_ARGUMENT (no triangles), LAM_UNSUPPORTED (another ending), LAM_CANNOT_WRITE, LAM_LIMIT.
 LAM_API bool lam_mesh_save(const lam_mesh *mesh, const char *path, lam_up up, lam_error *error);
+// The endings that lam_mesh_save knows, from 0, without the dot: "obj". NULL: no more.
+LAM_API const char *lam_mesh_format(int index);
 
 // The triangles that are left out by the side they show.
 typedef enum lam_cull {

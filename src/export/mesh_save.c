@@ -75,8 +75,9 @@ static void add_vector(struct text *text, const char *word, lam_vec3 p)
     add_line(text, word, (double[3]){p.x, p.y, p.z}, 3);
 }
 
-static void write_obj(struct writer *w)
+static bool write_obj(struct writer *w, lam_error *error)
 {
+    (void)error;
     const lam_mesh *m = w->mesh;
     struct text *text = &w->text;
     if (m->name)
@@ -99,6 +100,7 @@ static void write_obj(struct writer *w)
         }
         text_add(text, "\n");
     }
+    return true;
 }
 
 static void add_word(struct text *text, uint32_t value)
@@ -122,8 +124,9 @@ static void add_floats(struct text *text, lam_vec3 p)
     add_float(text, p.z);
 }
 
-static void write_stl(struct writer *w)
+static bool write_stl(struct writer *w, lam_error *error)
 {
+    (void)error;
     const lam_mesh *m = w->mesh;
     char head[81];
     snprintf(head, sizeof head, "%-80.80s", m->name ? m->name : "mesh"); // not "solid", as text files begin
@@ -140,6 +143,7 @@ static void write_stl(struct writer *w)
             add_floats(&w->text, p[k]);
         text_add_part(&w->text, "\0", 2);
     }
+    return true;
 }
 
 // PLY has one number for a corner's position, normal and texture coordinate: corners with the same three share a vertex.
@@ -195,6 +199,34 @@ static bool write_ply(struct writer *w, lam_error *error)
     return ok || fail_memory(error, corners * 24);
 }
 
+// The formats, by the endings of names, and the axis that is up in them.
+static const struct format {
+    const char *ending;
+    lam_up up;
+    bool (*write)(struct writer *w, lam_error *error);
+} formats[] = {{"obj", LAM_UP_Y, write_obj}, {"stl", LAM_UP_Z, write_stl}, {"ply", LAM_UP_Y, write_ply}};
+
+enum { FORMATS = (int)(sizeof formats / sizeof *formats) };
+
+const char *lam_mesh_format(int index) { return index >= 0 && index < FORMATS ? formats[index].ending : NULL; }
+
+static const struct format *find_format(const char *path, lam_error *error)
+{
+    const char *ending = path_ending(path);
+    char list[16 * FORMATS] = "";
+    for (int i = 0; i < FORMATS; i++) {
+        if (strcmp(ending, formats[i].ending) == 0)
+            return &formats[i];
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s.%s",
+                 i == 0             ? ""
+                 : i + 1 == FORMATS ? " or "
+                                    : ", ",
+                 formats[i].ending);
+    }
+    fail(error, LAM_UNSUPPORTED, "%s: found the ending '%.20s', expected %s", path, ending, list);
+    return NULL;
+}
+
 bool lam_mesh_save(const lam_mesh *mesh, const char *path, lam_up up, lam_error *error)
 {
     if (!mesh || !path)
@@ -203,19 +235,11 @@ bool lam_mesh_save(const lam_mesh *mesh, const char *path, lam_up up, lam_error 
         return false;
     if (!mesh->triangle_count || !mesh->positions)
         return fail(error, LAM_BAD_ARGUMENT, "%s: the mesh has no triangles", path);
-    struct writer w = {.mesh = mesh, .from = up, .to = LAM_UP_Y};
-    const char *ending = path_ending(path);
-    bool ok = true;
-    if (strcmp(ending, "obj") == 0) {
-        write_obj(&w);
-    } else if (strcmp(ending, "stl") == 0) {
-        w.to = LAM_UP_Z;
-        write_stl(&w);
-    } else if (strcmp(ending, "ply") == 0) {
-        ok = write_ply(&w, error);
-    } else {
-        return fail(error, LAM_UNSUPPORTED, "%s: found the ending '%.20s', expected .obj, .stl or .ply", path, ending);
-    }
+    const struct format *format = find_format(path, error);
+    if (!format)
+        return false;
+    struct writer w = {.mesh = mesh, .from = up, .to = format->up};
+    bool ok = format->write(&w, error);
     if (ok && w.text.failed) {
         ok = false;
         if (error)

@@ -16,3 +16,15 @@ lam_mat4 lam_camera_view_matrix(const lam_camera *camera)
     float_state_leave(state);
     return view;
 }
+
+bool lam_camera_project(const lam_camera *camera, int width, int height, lam_vec3 p, double *x, double *y)
+{
+    bool flat = camera->ortho_half_height > 0;
+    if (!flat && !(p.z < 0))
+        return false;
+    double half = flat ? camera->ortho_half_height : -p.z * math_tan(camera->fovy_rad / 2);
+    double pixels = height / (2 * half); // of a model unit
+    *x = width / 2.0 + p.x * pixels;
+    *y = height / 2.0 - p.y * pixels;
+    return true;
+}

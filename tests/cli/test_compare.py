@@ -1,9 +1,14 @@
 # test_compare.py: the command `compare`: every picture of a sheet equals the one drawn with its options alone; captions, names, errors.
+import base64
 import json
+import os
 import re
 import shlex
+import xml.etree.ElementTree as xml
 
 from harness import ROOT, Case, read_png
+
+SVG = "{http://www.w3.org/2000/svg}"
 
 # The defaults of sheets about shading (tools/sheet/sheet.c).
 LIGHT = ("--light", "directional:frame=camera,direction=3/-1/-3,ambient=0.15,diffuse=0.7,specular=1")
@@ -250,6 +255,38 @@ class Compare(Case):
     def test_same_bytes(self):
         words = ("compare", "cube.obj", "-s", 64, "--no-captions", "-q", "-o", "-")
         self.assertEqual(self.good(*words, "-j", 1, "--isa", "plain").stdout, self.good(*words, "-j", 3).stdout)
+
+    def test_svg(self):
+        """A sheet as SVG: the pictures inside are those of the words of --json, text is text in any language."""
+        done = self.good("compare", "cube.obj", "--sheet", "ambient", "-s", "80x60", "-o", "s.svg", "--json", "--title", "الضوء & <b>",
+                         "--caption", "环境光", "--caption", "Łódź")
+        svg = xml.fromstring((self.folder / "s.svg").read_bytes())
+        told = json.loads(done.stdout)["pictures"]
+        self.assertEqual([t["caption"] for t in told], ["环境光", "Łódź", "Ambient red, diffuse red"])
+        self.assertEqual((svg[0].text, svg[1].text), ("الضوء & <b>", "3 pictures: 环境光; Łódź; Ambient red, diffuse red"))
+        images = list(svg.iter(SVG + "image"))
+        self.assertEqual([i.find(SVG + "title").text for i in images], [t["caption"] for t in told])
+        for image, picture in zip(images, told):
+            png = base64.b64decode(image.get("href").split("base64,")[1], validate=True)
+            self.assertTrue(png == self.good("cube.obj", "-s", "80x60", *picture["words"], "-o", "-").stdout)
+        texts = [t.text for t in svg.iter(SVG + "text")]
+        self.assertEqual(texts[0], "الضوء & <b>")
+        self.assertLessEqual({t["caption"] for t in told}, set(texts))
+        # Pictures stand beside one another, inside the page.
+        left = [float(i.get("x")) for i in images]
+        self.assertTrue(all(b - a >= 80 for a, b in zip(left, left[1:])) and left[-1] + 80 <= float(svg.get("width")))
+        self.bad(1, "compare", "cube.obj", "--caption", "a", "--caption", "b", "--caption", "c", "--sheet", "light", "--caption", "d", "--caption", "e",
+                 says=("found 5", "4 pictures"), leaves=["s.svg"])
+        self.bad(3, "compare", "cube.obj", "-s", 16, "-o", "s.png", "--caption", "环", says=("--caption", "U+73AF"), leaves=["s.svg"])
+        self.bad(1, "compare", "cube.obj", "-s", 16, "-o", "s.png", "--title", "\udcff", says="UTF-8", leaves=["s.svg"])
+        a, b = (self.png("compare", "cube.obj", "-s", 48, "--across", "shading=flat,phong", *more) for more in ([], ["--title", "Łódź — Φῶς"]))
+        self.assertEqual(a[:2], b[:2])
+        self.assertNotEqual(a[2], b[2])
+        # A byte that is no letter, of a model's name, is a replacement character.
+        name = b"c\xff.obj"
+        (self.folder / "cube.obj").rename(os.path.join(os.fsencode(self.folder), name).decode(errors="surrogateescape"))
+        self.good("compare", name.decode(errors="surrogateescape"), "-s", 16, "-o", "s.svg", "--across", "shading=flat")
+        self.assertIn("c\ufffd.obj", xml.fromstring((self.folder / "s.svg").read_bytes())[0].text)
 
     def test_errors(self):
         self.bad(1, "compare", says="missing")

@@ -40,4 +40,6 @@ class Shape(Case):
         self.bad(1, "shape", "--parametric", RIPPLE, "--u", "0..w", says="range of u, column 4: found 'w'")
         self.bad(1, "shape", "torus", "-o", "t.obj", "-s", "64", says="changes nothing in a model file")
         self.bad(5, "shape", "torus", "-o", "nowhere/t.obj", says="nowhere")
+        for name in ("w.gltf", "w.pgn"):
+            self.bad(3, "shape", "torus", "-o", name, says=(name, ".png, .ppm", "a model file is .obj, .stl or .ply"))
         self.bad(1, "cube.obj", "--parametric", RIPPLE, says="belongs to shape")

@@ -397,9 +397,30 @@ static void origins_are_exact(void **state)
     }
 }
 
+// The corners of the field of view are those of the picture, in perspective and without.
+static void points_of_eye_space_have_a_place(void **state)
+{
+    (void)state;
+    lam_camera camera = lam_camera_default();
+    const double half = 3 * tan(camera.fovy_rad / 2);
+    double x = -1, y = -1;
+    assert_true(lam_camera_project(&camera, 300, 200, (lam_vec3){1.5 * half, half, -3}, &x, &y));
+    assert_true(fabs(x - 300) < 1e-9 && fabs(y) < 1e-9);
+    assert_true(lam_camera_project(&camera, 300, 200, (lam_vec3){-0.75 * half, 0, -3}, &x, &y));
+    assert_true(fabs(x - 75) < 1e-9 && fabs(y - 100) < 1e-9);
+    x = y = -1;
+    assert_false(lam_camera_project(&camera, 300, 200, (lam_vec3){0, 0, 0}, &x, &y));
+    assert_false(lam_camera_project(&camera, 300, 200, (lam_vec3){1, 1, 2}, &x, &y));
+    assert_true(x == -1 && y == -1);
+    camera.ortho_half_height = 2;
+    assert_true(lam_camera_project(&camera, 300, 200, (lam_vec3){3, -2, 7}, &x, &y));
+    assert_true(x == 300 && y == 200);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points_of_eye_space_have_a_place),
         cmocka_unit_test(boxes_fill_the_picture),
         cmocka_unit_test(turning_boxes_are_not_cut),
         cmocka_unit_test(files_far_from_zero),

@@ -14,7 +14,7 @@ static const struct own_default compare_defaults[] = {
     {"output", "MODEL-SHEET.png"}, {"size", "480x400 each"}, {"background", SHEET_BACKGROUND}, {NULL, NULL}};
 static const struct own_default batch_defaults[] = {{"output", "{stem}.png"}, {NULL, NULL}};
 static const struct own_default journal_defaults[] = {{"output", "no merged journal"}, {NULL, NULL}};
-static const struct own_default explain_defaults[] = {{"output", NULL}, {NULL, NULL}};
+static const struct own_default explain_defaults[] = {{"output", "no figure"}, {NULL, NULL}};
 static const struct own_default check_defaults[] = {
     {"output", "no sheet"}, {"size", "128"}, {"tolerance", "2"}, {"memory-limit", "1Gi"}, {NULL, NULL}};
 static const struct own_default shader_defaults[] = {{"output", "standard output"}, {NULL, NULL}};
@@ -44,9 +44,10 @@ const struct command command_table[] = {
                          .min_operands = 1, .max_operands = 1, .defaults = compare_defaults},
     [COMMAND_explain] =
         {"explain", "MODEL X,Y",
-         "Print the calculation of one pixel: vectors, angles and terms of each light, the sum, the byte. Writes no "
-         "picture or scene file; --output and --save-scene have no effect.",
-         ALL, .min_operands = 2, .max_operands = 2, .defaults = explain_defaults},
+         "Print the calculation of one pixel: vectors, angles and terms of each light, the sum, the byte; -o FILE "
+         "(SVG, "
+         "PNG) draws it: the arrows over the picture, the point's coordinates, the terms. --save-scene has no effect.",
+         ALL | 1u << GROUP_CAPTIONS | TAKES_TITLE, .min_operands = 2, .max_operands = 2, .defaults = explain_defaults},
     [COMMAND_info] = {"info", "MODEL...",
                       "Print what is in models: size, triangles, materials, pictures, lights, cameras, animations, "
                       "extensions.",
@@ -68,7 +69,7 @@ const struct command command_table[] = {
     [COMMAND_plot] = {"plot", "attenuation|spot|highlight [CURVE...]",
                       "Plot a law of light as curves (PNG or SVG), and print its numbers.",
                       ABOUT | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
-                          TAKES_QUIET | TAKES_FILES | TAKES_TERM,
+                          TAKES_QUIET | TAKES_FILES | TAKES_TERM | TAKES_TITLE,
                       .min_operands = 1, .max_operands = -1, .defaults = plot_defaults},
     [COMMAND_lights] = {"lights", "MODEL",
                         "Print the lights of a model, or of the rig if it has none, in scene file form.",
@@ -151,6 +152,8 @@ const struct example examples[] = {
      false},
     {"lambent koala.json", "a scene file: objects, materials, lights and camera", false},
     {"lambent explain teapot 512,400", "the calculation of that pixel, number by number", false},
+    {"lambent explain teapot 512,400 -o figure.svg",
+     "the same as a figure: arrows over the picture, coordinates, terms", false},
     {"lambent check phong.frag --vertex phong.vert -o check.png", "the mistakes of a shader's lighting", false},
     {"lambent shader teapot --glsl 120 --host c -o teapot", "its shaders, and C code that sets them", false},
     {"lambent shape --parametric 'x=u*cos(v); y=u*sin(v); z=cos(3u)' --u 0..4 -o ripple.obj",

@@ -46,6 +46,13 @@ struct compare {
     bool default_material; // one of them is a material
 };
 
+// The user's caption of a picture, or the sheet's.
+static const char *caption_of(const struct compare *c, const struct cell *cell)
+{
+    int index = (int)(cell - c->sheet.cells);
+    return index < c->options->captions.count ? c->options->captions.items[index] : cell->caption;
+}
+
 // --- one picture
 
 // Sets the turns of all pictures, so that they have one camera and the model has one size.
@@ -189,8 +196,8 @@ static bool draw_inset(struct compare *c, const struct cell *cell, struct box bo
     if (!ok)
         return false;
     int below = top + c->page.cell_height + c->page.gap / 2;
-    draw_image(&c->drawing, &part, left, below);
-    ok = draw_frame(c, left, below, part.width, part.height, error) &&
+    ok = draw_image(&c->drawing, &part, left, below, caption_of(c, cell), error) &&
+         draw_frame(c, left, below, part.width, part.height, error) &&
          draw_frame(c, left + box.left, top + box.top, box.width, box.height, error);
     lam_image_free(&part);
     return ok;
@@ -239,7 +246,7 @@ static void draw_words(struct compare *c, struct point baseline, double width, c
 static void draw_caption(struct compare *c, const struct cell *cell, int left, int top)
 {
     double u = c->page.unit, middle = left + c->page.cell_width / 2.0, width = c->page.cell_width;
-    draw_fitting(&c->drawing, (struct point){middle, top + 32 * u}, 23 * u, width, INK, cell->caption);
+    draw_fitting(&c->drawing, (struct point){middle, top + 32 * u}, 23 * u, width, INK, caption_of(c, cell));
     // The options of the picture as typed.
     char line[512];
     const char *words[CELL_WORDS + 2];
@@ -247,7 +254,7 @@ static void draw_caption(struct compare *c, const struct cell *cell, int left, i
     draw_words(c, (struct point){middle, top + 55 * u}, width, line);
 }
 
-static bool lay_out(struct compare *c, lam_error *error)
+static bool lay_out(struct compare *c, const char *path, lam_error *error)
 {
     const struct options *o = c->options;
     struct page *p = &c->page;
@@ -267,7 +274,37 @@ static bool lay_out(struct compare *c, lam_error *error)
         return complain(error, LAM_LIMIT,
                         "the sheet would have %lldx%lld pixels, more than 65535; choose smaller pictures with -s",
                         (long long)width, (long long)height);
-    return drawing_open(&c->drawing, (int)width, (int)height, false, !o->no_captions, o->font, error);
+    if (!drawing_open(&c->drawing, (int)width, (int)height, drawing_is_svg(path), !o->no_captions, o->font, error))
+        return false;
+    c->drawing.compress = (lam_compress)o->compress;
+    c->drawing.quality = o->quality;
+    c->drawing.durable = o->durable;
+    return true;
+}
+
+static const char *title_of(const struct compare *c, char title[256])
+{
+    const char *slash = strrchr(c->model, '/');
+    snprintf(title, 256, "%.120s — %.100s", c->sheet.title, slash && slash[1] ? slash + 1 : c->model);
+    return title;
+}
+
+// What an SVG says of itself: the title, and what each picture is.
+static bool describe(struct compare *c, const char *title, lam_error *error)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    if (!file)
+        return complain(error, LAM_LIMIT, "out of memory");
+    fprintf(file, "%d pictures:", c->sheet.count);
+    for (int i = 0; i < c->sheet.count; i++)
+        fprintf(file, "%s %s", i ? ";" : "", caption_of(c, &c->sheet.cells[i]));
+    bool failed = ferror(file);
+    failed |= fclose(file) != 0;
+    bool ok = failed ? complain(error, LAM_LIMIT, "out of memory") : drawing_describe(&c->drawing, title, text, error);
+    free(text);
+    return ok;
 }
 
 static bool draw_sheet(struct compare *c, lam_error *error)
@@ -288,9 +325,10 @@ static bool draw_sheet(struct compare *c, lam_error *error)
         if (!ok)
             return false;
     }
-    const char *slash = strrchr(c->model, '/');
-    char title[256];
-    snprintf(title, sizeof title, "%.120s — %.100s", c->sheet.title, slash && slash[1] ? slash + 1 : c->model);
+    char own_title[256];
+    const char *title = c->options->title ? c->options->title : title_of(c, own_title);
+    if (!describe(c, title, error))
+        return false;
     double middle = c->drawing.width / 2.0, width = c->drawing.width - 2.0 * p->gap;
     draw_fitting(&c->drawing, (struct point){middle, 45 * p->unit}, 30 * p->unit, width, INK, title);
     char line[512];
@@ -303,8 +341,10 @@ static bool draw_sheet(struct compare *c, lam_error *error)
         lam_image image;
         if (!draw_cell(c, cell, 1, NULL, NULL, &image, error))
             return false;
-        draw_image(&c->drawing, &image, left, top);
+        bool ok = draw_image(&c->drawing, &image, left, top, caption_of(c, cell), error);
         lam_image_free(&image);
+        if (!ok)
+            return false;
         if (c->sheet.inset && !draw_inset(c, cell, box, left, top, error))
             return false;
         draw_caption(c, cell, left, top + p->cell_height + p->inset);
@@ -334,7 +374,7 @@ static void print_json(const struct compare *c, const char *path)
         const char *words[CELL_WORDS + 2];
         int count = words_of(c, cell, words);
         json_open(&json, NULL, '{');
-        json_text(&json, "caption", cell->caption);
+        json_text(&json, "caption", caption_of(c, cell));
         json_open(&json, "words", '[');
         for (int k = 0; k < c->default_count; k++)
             json_text(&json, NULL, c->defaults[k]);
@@ -384,9 +424,27 @@ static bool find_defaults(struct compare *c, lam_error *error)
     return true;
 }
 
-static bool check(const struct options *o, const char *model, const char *path, lam_error *error)
+// The user's words in a picture that is not an SVG.
+static bool check_words(const struct options *o, lam_error *error)
+{
+    bool has_font = o->font != NULL;
+    if (o->title && !drawing_check_text("title", o->title, has_font, error))
+        return false;
+    for (int i = 0; i < o->captions.count; i++)
+        if (!drawing_check_text("caption", o->captions.items[i], has_font, error))
+            return false;
+    return true;
+}
+
+static bool check(const struct options *o, const struct sheet *sheet, const char *model, const char *path,
+                  lam_error *error)
 {
     lam_pixel_format format;
+    if (o->captions.count > sheet->count)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--caption': found %d, but the sheet has %d pictures",
+                        o->captions.count, sheet->count);
+    if (!drawing_is_svg(path) && !o->no_captions && !check_words(o, error))
+        return false;
     if (strcmp(model, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT,
                         "compare reads the model once for each picture, so it cannot read '-' (standard input)");
@@ -394,10 +452,12 @@ static bool check(const struct options *o, const char *model, const char *path, 
         return false;
     if (strcmp(path, "-") == 0)
         return !isatty(STDOUT_FILENO) || terminal_shows() || terminal_refuse("compare MODEL", error);
+    if (drawing_is_svg(path))
+        return output_check(path, model, output_given(o->output), error);
     if (!output_format(path, &format, error))
         return false;
     if (format != LAM_RGBA8)
-        return complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .png or .ppm", path);
+        return complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .svg, .png, .jpg, .webp or .ppm", path);
     return output_check(path, model, output_is_named(o->output), error);
 }
 
@@ -411,7 +471,7 @@ int run_compare(int operand_count, char **operands, const struct options *option
     bool ok = sheet_choose(options, &c.sheet, store, &error);
     if (ok && !(path = path_of(options, c.model, c.sheet.name)))
         ok = complain(&error, LAM_LIMIT, "out of memory");
-    ok = ok && check(options, c.model, path, &error);
+    ok = ok && check(options, &c.sheet, c.model, path, &error);
     if (ok) {
         struct sandbox_paths paths = {0};
         sandbox_add_input(&paths, c.model);
@@ -421,11 +481,8 @@ int run_compare(int operand_count, char **operands, const struct options *option
     if (ok) {
         c.device = device_option_make(options, &error);
         progress_start(&c.progress, c.model, console_is_terminal() && !options->quiet);
-        ok = c.device && find_defaults(&c, &error) && lay_out(&c, &error) && draw_sheet(&c, &error);
+        ok = c.device && find_defaults(&c, &error) && lay_out(&c, path, &error) && draw_sheet(&c, &error);
         progress_end(&c.progress);
-        c.drawing.compress = (lam_compress)options->compress;
-        c.drawing.quality = options->quality;
-        c.drawing.durable = options->durable;
         ok = ok && drawing_write(&c.drawing, path, &error);
         if (ok && options->json)
             print_json(&c, path);

@@ -305,7 +305,7 @@ static bool fill(struct plot *plot, const struct kind *kind, int count, char **w
                  lam_error *error)
 {
     *plot = (struct plot){.kind = kind->name,
-                          .title = kind->title,
+                          .title = o->title ? o->title : kind->title,
                           .x_label = kind->x_label,
                           .y_label = kind->y_label,
                           .y_max = 1,
@@ -384,8 +384,7 @@ static void print_json(FILE *file, const struct plot *plot, const char *path)
 
 static bool draw_to(const struct plot *plot, const char *path, const struct options *o, lam_error *error)
 {
-    const char *dot = strrchr(path, '.');
-    bool svg = dot && strcmp(dot, ".svg") == 0, to_stdout = strcmp(path, "-") == 0;
+    bool svg = drawing_is_svg(path), to_stdout = strcmp(path, "-") == 0;
     lam_pixel_format format;
     if (!terminal_start(o, true, error))
         return false;
@@ -397,12 +396,18 @@ static bool draw_to(const struct plot *plot, const char *path, const struct opti
         return complain(error, LAM_UNSUPPORTED, "%s: a plot is written as .svg, .png or .ppm", path);
     if (!to_stdout && !output_check(path, "", output_is_named(o->output), error))
         return false;
+    if (!svg && o->title && !o->no_captions && !drawing_check_text("title", o->title, o->font != NULL, error))
+        return false;
     struct drawing drawing;
     bool sized = o->has_size;
     if (!drawing_open(&drawing, sized ? o->width : 1600, sized ? o->height : 1000, svg, !o->no_captions, o->font,
                       error))
         return false;
-    bool ok = plot_draw(plot, &drawing, error) && drawing_write(&drawing, path, error);
+    char text[300];
+    snprintf(text, sizeof text, "%d curves over the %s: %.200s%s", plot->count, plot->x_label, plot->curves[0].label,
+             plot->count > 1 ? " and others" : "");
+    bool ok = drawing_describe(&drawing, plot->title, text, error) && plot_draw(plot, &drawing, error) &&
+              drawing_write(&drawing, path, error);
     drawing_free(&drawing);
     return ok;
 }

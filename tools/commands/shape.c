@@ -7,13 +7,35 @@
 #include "console.h"
 #include "exit_codes.h"
 #include "job.h"
+#include "output.h"
+#include "page_file.h"
 #include "report.h"
 
 static bool is_model_file(const char *output)
 {
-    size_t length = output ? strlen(output) : 0;
-    const char *ending = length > 4 ? output + length - 4 : "";
-    return strcmp(ending, ".obj") == 0 || strcmp(ending, ".stl") == 0 || strcmp(ending, ".ply") == 0;
+    const char *dot = output ? strrchr(output, '.') : NULL;
+    for (int i = 0; dot && dot != output && lam_mesh_format(i); i++)
+        if (strcmp(dot + 1, lam_mesh_format(i)) == 0)
+            return true;
+    return false;
+}
+
+// Adds to the sentence about an ending that no picture has those that models have.
+static bool check_ending(const char *output, lam_error *error)
+{
+    lam_pixel_format format;
+    if (!output_is_named(output) || is_model_file(output) || page_is_named(output) ||
+        output_format(output, &format, error))
+        return true;
+    for (int i = 0; lam_mesh_format(i); i++) {
+        size_t used = strlen(error->text);
+        snprintf(error->text + used, sizeof error->text - used, "%s.%s%s", i == 0 ? "; a model file is " : "",
+                 lam_mesh_format(i),
+                 !lam_mesh_format(i + 1)  ? ""
+                 : lam_mesh_format(i + 2) ? ", "
+                                          : " or ");
+    }
+    return false;
 }
 
 // A model file has no light, no view and no pixels: what would change only these is a mistake.
@@ -68,6 +90,7 @@ int run_shape(int operand_count, char **operands, const struct options *options)
                       options->u_range   ? "u"
                       : options->v_range ? "v"
                                          : "flip");
+    ok = ok && check_ending(options->output, &error);
     char **models = options->parametric ? formula : operands;
     if (ok && !is_model_file(options->output))
         return run_render(1, models, options);

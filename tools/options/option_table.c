@@ -23,7 +23,7 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_REPORT] = "Reports",
     [GROUP_DIFF] = "Comparing pictures (diff, check)",
     [GROUP_PLOT] = "Plots (plot)",
-    [GROUP_CAPTIONS] = "Captions (compare, plot, materials, check)",
+    [GROUP_CAPTIONS] = "Captions (compare, plot, materials, check, explain)",
     [GROUP_ABOUT] = "About",
     [GROUP_LIGHTS] = "Lights",
     [GROUP_MATERIALS] = "Materials",
@@ -879,6 +879,17 @@ const struct option option_table[] = {
     {"sheet", 0, GROUP_SHEET, "NAME", "summary",
      "The sheet: summary, terms, stages, light, ambient, frames or surfaces.", NULL, sheet_words, .store = store_word,
      .others = "layout", FIELD(sheet)},
+    {"title", 0, GROUP_SHEET, "TEXT", NULL, "The title of a sheet, a plot or a figure, in any language; '' for none.",
+     "In an SVG text stays text: the viewer has the fonts, writes from right to left where a language does, and reads "
+     "it aloud. "
+     "A PNG has the letters of the font (`--font`), one after the other: Latin, Greek and Cyrillic with the default "
+     "one, Chinese, "
+     "Japanese and Korean with a font that has them. Scripts that are written from right to left or join their letters "
+     "need an SVG.",
+     .store = store_text, .single = TAKES_TITLE, .others = "heading name header", FIELD(title)},
+    {"caption", 0, GROUP_SHEET, "TEXT", NULL,
+     "The caption of a sheet's next picture, in any language, in place of its own; may be repeated.", NULL,
+     .store = store_texts, .others = "captions label labels", FIELD(captions)},
     {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL,
      "A row of pictures: shading, or shininess=10,50,1000; a second --across makes columns.",
      "OPTION is one of the options above without its dashes. Values are separated by commas, or by semicolons "

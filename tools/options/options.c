@@ -33,6 +33,7 @@ void options_free(struct options *options)
     free(options->allow_paths.items);
     free(options->lists.items);
     free(options->sweeps.items);
+    free(options->captions.items);
     free(options->look_text);
 }
 
@@ -58,6 +59,7 @@ bool options_copy(struct options *to, const struct options *from)
     ok = texts_copy(&to->allow_paths) && ok;
     ok = texts_copy(&to->lists) && ok;
     ok = texts_copy(&to->sweeps) && ok;
+    ok = texts_copy(&to->captions) && ok;
     if (!ok)
         options_free(to);
     return ok;

@@ -136,9 +136,11 @@ struct options {
     // Plots and sheets
     const char *font; // NULL: the system's
     bool no_captions;
-    int sheet;           // enum sheet_name
-    struct texts across; // as written, at most ACROSS_MAX
-    double to;           // right end of a plot's axis; 0: fitted
+    const char *title;     // of the page; NULL: its own
+    struct texts captions; // of a sheet's pictures, in their order; those that are missing are the sheet's
+    int sheet;             // enum sheet_name
+    struct texts across;   // as written, at most ACROSS_MAX
+    double to;             // right end of a plot's axis; 0: fitted
 
     // Checks of shaders
     const char *vertex;   // file; NULL: none
@@ -183,6 +185,7 @@ enum {
     TAKES_PICTURE_LIMITS = 1u << 23,
     TAKES_REPORT = 1u << 22,
     TAKES_TERM = 1u << 21,
+    TAKES_TITLE = 1u << 20,
 };
 
 // The name of a model that is made from formulas.

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base64.h"
 #include "console.h"
 #include "output.h"
 
@@ -14,10 +15,6 @@ bool drawing_open(struct drawing *d, int width, int height, bool svg, bool words
         d->svg = open_memstream(&d->svg_text, &d->svg_size);
         if (!d->svg)
             return complain(error, LAM_LIMIT, "out of memory");
-        fprintf(d->svg,
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\" "
-                "font-family=\"DejaVu Sans, Verdana, sans-serif\">\n",
-                width, height, width, height);
         draw_box(d, (struct point){0, 0}, width, height, 0xffffff);
         return true;
     }
@@ -36,11 +33,28 @@ bool drawing_open(struct drawing *d, int width, int height, bool svg, bool words
     return false;
 }
 
+bool drawing_is_svg(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && strcmp(dot, ".svg") == 0;
+}
+
+bool drawing_describe(struct drawing *d, const char *title, const char *description, lam_error *error)
+{
+    free(d->title);
+    free(d->description);
+    d->title = strdup(title);
+    d->description = strdup(description);
+    return (d->title && d->description) || complain(error, LAM_LIMIT, "out of memory");
+}
+
 void drawing_free(struct drawing *d)
 {
     if (d->svg)
         fclose(d->svg);
     free(d->svg_text);
+    free(d->title);
+    free(d->description);
     lam_font_free(d->font);
     lam_image_free(&d->image);
     *d = (struct drawing){0};
@@ -199,14 +213,84 @@ bool draw_dot(struct drawing *d, struct point middle, double radius, uint32_t co
     return true;
 }
 
-static void svg_letters(FILE *file, const char *text)
+// The bytes of the letter of UTF-8 that a text begins with; 0: it is none, or one that XML cannot hold.
+static int letter_bytes(const char *text)
 {
-    for (; *text; text++)
+    const unsigned char *at = (const unsigned char *)text;
+    int bytes = at[0] < 0x80 ? 1 : at[0] < 0xC2 ? 0 : at[0] < 0xE0 ? 2 : at[0] < 0xF0 ? 3 : at[0] < 0xF5 ? 4 : 0;
+    for (int i = 1; i < bytes; i++)
+        if ((at[i] & 0xC0) != 0x80)
+            return 0;
+    bool low = (at[0] == 0xE0 && at[1] < 0xA0) || (at[0] == 0xF0 && at[1] < 0x90);
+    bool high = (at[0] == 0xED && at[1] > 0x9F) || (at[0] == 0xF4 && at[1] > 0x8F);
+    bool none = at[0] == 0xEF && at[1] == 0xBF && at[2] >= 0xBE; // U+FFFE, U+FFFF
+    return low || high || none || (at[0] < 32 && at[0] != '\t' && at[0] != '\n') ? 0 : bytes;
+}
+
+// Text of an element, and the end of it. What XML cannot hold becomes U+FFFD.
+static void svg_letters(FILE *file, const char *text, const char *element)
+{
+    while (*text) {
+        int bytes = letter_bytes(text);
         if (*text == '&' || *text == '<' || *text == '>')
             fprintf(file, *text == '&' ? "&amp;" : *text == '<' ? "&lt;" : "&gt;");
+        else if (bytes)
+            fwrite(text, 1, (size_t)bytes, file);
         else
-            putc(*text, file);
-    fprintf(file, "</text>\n");
+            fprintf(file, "\xEF\xBF\xBD");
+        text += bytes ? bytes : 1;
+    }
+    fprintf(file, "</%s>\n", element);
+}
+
+// Scripts whose letters stand one after the other from the left, each as the font has it: ranges of Unicode
+// (https://www.unicode.org/Public/UCD/latest/ucd/Blocks.txt). The first ones are in the default font.
+static const struct {
+    uint32_t first, last;
+    bool own_font; // the default font has none of them
+} plain_scripts[] = {
+    {0x20, 0x052F, false},   // Latin, Greek, Cyrillic
+    {0x1E00, 0x1FFF, false}, // Latin and Greek with more marks
+    {0x2000, 0x2BFF, false}, // punctuation, symbols, arrows, formulas
+    {0x0530, 0x058F, true},  // Armenian
+    {0x10A0, 0x11FF, true},  // Georgian, Hangul's parts
+    {0x2C00, 0xD7FF, true},  // Chinese, Japanese, Korean and others
+    {0xF900, 0xFAFF, true},  {0xFE10, 0xFE6F, true}, {0xFF00, 0xFFEF, true}, {0x20000, 0x3FFFF, true},
+};
+
+// The number of a letter of UTF-8.
+static uint32_t letter_number(const char *text, int bytes)
+{
+    uint32_t number = (unsigned char)*text & (bytes == 1 ? 0x7Fu : 0xFFu >> (bytes + 1));
+    for (int i = 1; i < bytes; i++)
+        number = number << 6 | ((unsigned char)text[i] & 0x3Fu);
+    return number;
+}
+
+bool drawing_check_text(const char *option, const char *text, bool has_font, lam_error *error)
+{
+    for (int bytes; *text; text += bytes) {
+        bytes = letter_bytes(text);
+        if (!bytes)
+            return complain(error, LAM_BAD_ARGUMENT, "option '--%s': found a byte that is no letter, expected UTF-8",
+                            option);
+        uint32_t letter = letter_number(text, bytes);
+        bool known = false, own_font = false;
+        for (size_t i = 0; i < sizeof plain_scripts / sizeof *plain_scripts; i++)
+            if (letter >= plain_scripts[i].first && letter <= plain_scripts[i].last) {
+                known = true;
+                own_font = plain_scripts[i].own_font;
+            }
+        if (!known || (own_font && !has_font))
+            return complain(
+                error, LAM_UNSUPPORTED,
+                "option '--%s': the letter '%.*s' (U+%04X) %s; write an SVG, -o FILE.svg, whose viewer draws every "
+                "language",
+                option, bytes, text, (unsigned)letter,
+                known ? "is not in the default font, --font names one that has it"
+                      : "is of a script that PNGs have not");
+    }
+    return true;
 }
 
 void draw_text(struct drawing *d, struct point baseline, double size, enum align align, uint32_t color,
@@ -218,7 +302,7 @@ void draw_text(struct drawing *d, struct point baseline, double size, enum align
         static const char *const anchors[] = {"start", "middle", "end"};
         fprintf(d->svg, "<text x=\"%.2f\" y=\"%.2f\" font-size=\"%.2f\" text-anchor=\"%s\" fill=\"#%06x\">", baseline.x,
                 baseline.y, size, anchors[align], color);
-        svg_letters(d->svg, text);
+        svg_letters(d->svg, text, "text");
         return;
     }
     double back = align == ALIGN_LEFT ? 0 : text_width(d, size, text) * (align == ALIGN_RIGHT ? 1 : 0.5);
@@ -236,7 +320,7 @@ bool draw_text_upwards(struct drawing *d, struct point baseline, double size, ui
                 "<text transform=\"translate(%.2f %.2f) rotate(-90)\" font-size=\"%.2f\" "
                 "text-anchor=\"middle\" fill=\"#%06x\">",
                 baseline.x, baseline.y, size, color);
-        svg_letters(d->svg, text);
+        svg_letters(d->svg, text, "text");
         return true;
     }
     // Draws the text horizontally on a strip, then paints the strip's alpha rotated.
@@ -267,26 +351,78 @@ double text_width(const struct drawing *d, double size, const char *text)
     return letters * size * 0.62; // the mean width of DejaVu Sans, with a margin
 }
 
-void draw_image(struct drawing *d, const lam_image *image, int left, int top)
+static bool svg_image(struct drawing *d, const lam_image *image, int left, int top, const char *label, lam_error *error)
 {
+    lam_bytes png = {0};
+    size_t length;
+    if (!lam_image_encode(image, "png", &(lam_save_params){.compress = d->compress}, &png, error))
+        return false;
+    char *text = base64_encode(png.data, png.size, &length);
+    lam_bytes_free(&png);
+    if (!text)
+        return complain(error, LAM_LIMIT, "out of memory");
+    fprintf(d->svg, "<image x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" href=\"data:image/png;base64,", left, top,
+            image->width, image->height);
+    fwrite(text, 1, length, d->svg);
+    fprintf(d->svg, "\"><title>");
+    svg_letters(d->svg, label, "title");
+    fprintf(d->svg, "</image>\n");
+    free(text);
+    return true;
+}
+
+bool draw_image(struct drawing *d, const lam_image *image, int left, int top, const char *label, lam_error *error)
+{
+    if (d->svg)
+        return svg_image(d, image, left, top, label, error);
     int columns = image->width < d->width - left ? image->width : d->width - left;
-    for (int y = 0; y < image->height && top + y < d->height && columns > 0; y++)
-        memcpy(pixel_at(d, left, top + y), (const uint8_t *)image->pixels + 4 * (size_t)y * (size_t)image->width,
-               4 * (size_t)columns);
+    const uint8_t *from = image->pixels;
+    for (int y = 0; y < image->height && top + y < d->height; y++)
+        for (int x = 0; x < columns; x++) {
+            const uint8_t *pixel = from + 4 * ((size_t)y * (size_t)image->width + (size_t)x);
+            blend(pixel_at(d, left + x, top + y), (uint32_t)(pixel[0] << 16 | pixel[1] << 8 | pixel[2]),
+                  pixel[3] / 255.0);
+        }
+    return true;
 }
 
 // --- writing
+
+static bool write_svg(struct drawing *d, const char *path, lam_error *error)
+{
+    lam_bytes bytes = {0};
+    char *text = NULL;
+    size_t size = 0;
+    uint64_t written;
+    FILE *file = fflush(d->svg) == 0 && !ferror(d->svg) ? open_memstream(&text, &size) : NULL;
+    if (!file)
+        return complain(error, LAM_LIMIT, "out of memory");
+    fprintf(file,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\"%s "
+            "font-family=\"DejaVu Sans, Verdana, sans-serif\">\n",
+            d->width, d->height, d->width, d->height, d->title ? " role=\"img\" aria-labelledby=\"title desc\"" : "");
+    if (d->title) {
+        fprintf(file, "<title id=\"title\">");
+        svg_letters(file, d->title, "title");
+        fprintf(file, "<desc id=\"desc\">");
+        svg_letters(file, d->description, "desc");
+    }
+    fwrite(d->svg_text, 1, d->svg_size, file);
+    fprintf(file, "</svg>\n");
+    bool failed = ferror(file);
+    failed |= fclose(file) != 0;
+    bytes = (lam_bytes){text, size};
+    bool ok = failed ? complain(error, LAM_LIMIT, "out of memory")
+                     : output_save_bytes(&bytes, path, d->durable, &written, error);
+    free(text);
+    return ok;
+}
 
 bool drawing_write(struct drawing *d, const char *path, lam_error *error)
 {
     lam_save_params params = {.compress = d->compress, .quality = d->quality, .durable = d->durable};
     uint64_t size;
-    if (d->svg) {
-        fprintf(d->svg, "</svg>\n");
-        if (fflush(d->svg) != 0 || ferror(d->svg))
-            return complain(error, LAM_LIMIT, "out of memory");
-        lam_bytes bytes = {d->svg_text, d->svg_size};
-        return output_replace(path, &bytes, error);
-    }
+    if (d->svg)
+        return write_svg(d, path, error);
     return output_save(&d->image, path, &params, &size, error);
 }

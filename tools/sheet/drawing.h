@@ -12,11 +12,12 @@ struct drawing {
     lam_image image;   // PNG: the page so far
     lam_font *font;    // PNG; NULL: no text
     FILE *svg;         // SVG: the file so far; NULL: PNG
-    char *svg_text;
+    char *svg_text;    // what stands in it, without the first and last lines
     size_t svg_size;
-    bool words;            // false: no text is drawn
-    lam_compress compress; // of a PNG
-    int quality;           // of a JPEG or WebP; 0: the format's own
+    char *title, *description; // of an SVG, for those who hear it; NULL: none
+    bool words;                // false: no text is drawn
+    lam_compress compress;     // of a PNG
+    int quality;               // of a JPEG or WebP; 0: the format's own
     bool durable;
 };
 
@@ -31,6 +32,9 @@ enum align { ALIGN_LEFT, ALIGN_MIDDLE, ALIGN_RIGHT };
 bool drawing_open(struct drawing *drawing, int width, int height, bool svg, bool words, const char *font,
                   lam_error *error);
 void drawing_free(struct drawing *drawing);
+
+// Sets what an SVG says of itself to those who hear it; a PNG holds pixels alone. False: out of memory.
+bool drawing_describe(struct drawing *drawing, const char *title, const char *description, lam_error *error);
 
 // Colours are 0xrrggbb, sRGB. Widths and sizes are in pixels. False: out of memory.
 void draw_box(struct drawing *drawing, struct point corner, double width, double height, uint32_t color);
@@ -47,8 +51,17 @@ bool draw_text_upwards(struct drawing *drawing, struct point baseline, double si
 // The width of a text: exact for PNG, an estimate for SVG, whose viewer selects the font.
 double text_width(const struct drawing *drawing, double size, const char *text);
 
-// Copies a picture onto the page (PNG only), clipped at the edges.
-void draw_image(struct drawing *drawing, const lam_image *image, int left, int top);
+// Lays a picture (LAM_RGBA8) onto the page, clipped at its edges; in an SVG it is a PNG with the label as its title. False: out of
+// memory.
+bool draw_image(struct drawing *drawing, const lam_image *image, int left, int top, const char *label,
+                lam_error *error);
+
+// True if the path names an SVG.
+bool drawing_is_svg(const char *path);
+
+// Whether a PNG's page can show a text that the user gave: letter by letter, from the left, with the default font (or one that the
+// user names: `has_font`). Error: LAM_UNSUPPORTED, which names the letter and the way out, an SVG.
+bool drawing_check_text(const char *option, const char *text, bool has_font, lam_error *error);
 
 // Writes the page: a file completely or not at all, "-" or a pipe directly.
 bool drawing_write(struct drawing *drawing, const char *path, lam_error *error);

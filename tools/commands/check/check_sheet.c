@@ -34,9 +34,9 @@ static bool put(struct drawing *d, const lam_image *image, int left, int top, la
     lam_image bytes;
     if (!to_bytes(image, &bytes, error))
         return false;
-    draw_image(d, &bytes, left, top);
+    bool ok = draw_image(d, &bytes, left, top, "", error);
     lam_image_free(&bytes);
-    return true;
+    return ok;
 }
 
 static bool put_difference(struct drawing *d, const lam_check_scene *s, double gain, int left, int top,
@@ -45,8 +45,7 @@ static bool put_difference(struct drawing *d, const lam_check_scene *s, double g
     lam_image theirs, reference, where = {0};
     bool a = to_bytes(&s->theirs, &theirs, error), b = a && to_bytes(&s->reference, &reference, error);
     bool ok = b && lam_image_difference(&theirs, &reference, (float)gain, &where, error);
-    if (ok)
-        draw_image(d, &where, left, top);
+    ok = ok && draw_image(d, &where, left, top, "", error);
     if (a)
         lam_image_free(&theirs);
     if (b)

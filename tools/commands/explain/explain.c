@@ -1,17 +1,22 @@
-// explain.c: the command `explain`: every number of one pixel, from its triangles to its bytes.
+// explain.c: the command `explain`: every number of one pixel, from its triangles to its bytes; with -o, a figure of them.
 #include "explain.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "command.h"
 #include "console.h"
 #include "device_option.h"
+#include "drawing.h"
+#include "explain_figure.h"
 #include "interrupt.h"
-#include "job.h"
+#include "job_steps.h"
+#include "output.h"
 #include "report.h"
 #include "sandbox_start.h"
+#include "terminal.h"
 
 // Reads digits up to the character `end`; returns the text after it, NULL if there are no digits or too many.
 static const char *read_pixel_number(const char *text, char end, int *value)
@@ -46,48 +51,136 @@ static int report_job_failure(const struct job *job, lam_error *error)
     return report_failure(error, job->options);
 }
 
-int run_explain(int operand_count, char **operands, const struct options *given)
+// --- the figure
+
+// Where the figure goes; NULL without an error: there is none. `*failed`: memory was out.
+static char *figure_path(const struct options *o, const char *model, bool *failed)
+{
+    *failed = false;
+    if (!o->output && !terminal_shows())
+        return NULL;
+    char *path = output_path(o->output ? o->output : "-", model, "-explained.svg");
+    *failed = !path;
+    return path;
+}
+
+static bool check_figure(const char *path, const struct options *o, const char *model, lam_error *error)
+{
+    lam_pixel_format format;
+    bool to_stdout = strcmp(path, "-") == 0;
+    if (to_stdout && isatty(STDOUT_FILENO) && !terminal_shows())
+        return terminal_refuse("explain MODEL X,Y", error);
+    if (to_stdout && o->json)
+        return complain(error, LAM_BAD_ARGUMENT, "options '--json' and '-o -' both write to standard output");
+    if (!drawing_is_svg(path) && o->title && !o->no_captions &&
+        !drawing_check_text("title", o->title, o->font != NULL, error))
+        return false;
+    if (!to_stdout && !drawing_is_svg(path)) {
+        if (!output_format(path, &format, error))
+            return false;
+        if (format != LAM_RGBA8)
+            return complain(error, LAM_UNSUPPORTED, "%s: a figure is written as .svg, .png, .jpg, .webp or .ppm", path);
+    }
+    return to_stdout || output_check(path, model, output_given(o->output), error);
+}
+
+// Draws the picture of the job that was explained.
+static bool draw_picture(struct job *job, struct progress *progress, lam_error *error)
+{
+    lam_frame_report report;
+    return job_make_image(job, LAM_RGBA8, error) && job_draw_frames(job, 0.75, 0.25, 1, &report, progress, error);
+}
+
+static bool write_figure(struct job *job, const lam_explanation *e, const char *path, lam_error *error)
+{
+    const struct options *o = job->options;
+    struct explain_figure figure = {
+        .explanation = e, .camera = &job->camera, .picture = &job->image, .model = job->model, .title = o->title};
+    struct drawing drawing;
+    int width, height;
+    explain_figure_size(&figure, &width, &height);
+    if (!drawing_open(&drawing, width, height, drawing_is_svg(path), !o->no_captions, o->font, error))
+        return false;
+    drawing.compress = (lam_compress)o->compress;
+    drawing.quality = o->quality;
+    drawing.durable = o->durable;
+    bool ok = explain_figure_draw(&figure, &drawing, error) && drawing_write(&drawing, path, error);
+    if (ok && strcmp(path, "-") != 0 && !o->quiet)
+        say_plain("%s  %dx%d\n", path, width, height);
+    drawing_free(&drawing);
+    return ok;
+}
+
+// --- the command
+
+static void print(const lam_explanation *explanation, const struct job *job)
+{
+    if (job->options->json)
+        explain_json(explanation, job->model);
+    else
+        explain_text(explanation, job->model);
+}
+
+// Explains the pixel, prints it unless standard output is taken, and draws its figure where one is wanted.
+static int explain(struct job *job, int x, int y, const char *figure)
+{
+    lam_error error = {0};
+    struct progress progress;
+    job->times.start = clock_ms();
+    progress_start(&progress, job->model, console_is_terminal() && !job->options->quiet);
+    lam_explanation *explanation = job_explain(job, x, y, &progress, &error);
+    bool ok = explanation && (!figure || draw_picture(job, &progress, &error));
+    progress_end(&progress);
+    bool taken = figure && strcmp(figure, "-") == 0 && !terminal_shows();
+    if (ok && !taken)
+        print(explanation, job);
+    fflush(stdout); // the figure may follow there
+    ok = ok && (!figure || write_figure(job, explanation, figure, &error));
+    lam_explanation_free(explanation);
+    return ok ? 0 : report_job_failure(job, &error);
+}
+
+static bool check(const struct job *job, const char *pixel, int *x, int *y, lam_error *error)
+{
+    const struct options *o = job->options;
+    if (!*job->model)
+        return complain(error, LAM_BAD_ARGUMENT, "a model's name is empty");
+    if (strcmp(job->model, "-") == 0 && isatty(STDIN_FILENO))
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "standard input is a terminal, expected a model: lambent explain - X,Y < FILE");
+    if (o->dry_run)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--dry-run' does not go with explain");
+    if (o->show)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--show' has no effect on explain, which prints all terms of a pixel");
+    // A figure is wanted by its name, or by a --term that is none of auto and off.
+    return read_pixel(pixel, o, x, y, error) &&
+           terminal_start(o, o->output || (o->term != TERM_AUTO && o->term != TERM_OFF), error);
+}
+
+int run_explain(int operand_count, char **operands, const struct options *options)
 {
     (void)operand_count;
-    struct options options = *given;
-    options.output = NULL; // --output has no effect
-    struct job job = {.options = &options, .model = operands[0]};
+    struct job job = {.options = options, .model = operands[0]};
     int x = 0, y = 0;
     lam_error error = {0};
-    if (!*job.model)
-        complain(&error, LAM_BAD_ARGUMENT, "a model's name is empty");
-    else if (strcmp(job.model, "-") == 0 && isatty(STDIN_FILENO))
-        complain(&error, LAM_BAD_ARGUMENT,
-                 "standard input is a terminal, expected a model: lambent explain - X,Y < FILE");
-    else if (options.dry_run)
-        complain(&error, LAM_BAD_ARGUMENT, "option '--dry-run' has no effect on explain, which writes nothing");
-    else if (options.show)
-        complain(&error, LAM_BAD_ARGUMENT,
-                 "option '--show' has no effect on explain, which prints all terms of a pixel");
-    else
-        read_pixel(operands[1], &options, &x, &y, &error);
-    if (error.code)
-        return report_failure(&error, &options);
+    bool failed = false;
+    bool ok = check(&job, operands[1], &x, &y, &error);
+    char *figure = ok ? figure_path(options, job.model, &failed) : NULL;
+    ok = ok && (!failed || complain(&error, LAM_LIMIT, "out of memory"));
+    ok = ok && (!figure || check_figure(figure, options, job.model, &error));
+    int code = ok ? 0 : report_failure(&error, options);
     interrupt_start();
-    struct sandbox_paths paths = {0};
-    sandbox_add_input(&paths, job.model);
-    job.device = sandbox_start(&options, &paths, &error) ? device_option_make(&options, &error) : NULL;
-    if (!job.device)
-        return report_failure(&error, &options);
-    job.times.start = clock_ms();
-    struct progress progress;
-    progress_start(&progress, job.model, console_is_terminal() && !options.quiet);
-    lam_explanation *explanation = job_explain(&job, x, y, &progress, &error);
-    progress_end(&progress);
-    int code = 0;
-    if (!explanation)
-        code = report_job_failure(&job, &error);
-    else if (options.json)
-        explain_json(explanation, job.model);
-    else
-        explain_text(explanation, job.model);
-    lam_explanation_free(explanation);
-    lam_scene_free(job.scene);
+    if (ok) {
+        struct sandbox_paths paths = {0};
+        sandbox_add_input(&paths, job.model);
+        if (figure)
+            sandbox_add_output(&paths, figure);
+        job.device = sandbox_start(options, &paths, &error) ? device_option_make(options, &error) : NULL;
+        code = job.device ? explain(&job, x, y, figure) : report_failure(&error, options);
+    }
+    free(figure);
+    job_free(&job);
     lam_device_free(job.device);
     if (interrupted()) {
         fflush(stdout);

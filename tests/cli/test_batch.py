@@ -104,6 +104,33 @@ class Sources(Batch):
         self.run_program("batch", "in/a/", self.folder / "in/b", "-s", 24, "-o", "two/{dir}/{stem}.png")
         self.assertEqual(set(self.pictures("two")), {"m0.png", "m1.png", "m2.png", "m3.png", "deep/c.png"})
 
+    def test_links_of_a_folder(self):
+        """A link that leads out of the folder fails, unless its folder is allowed; what leads nowhere and what is no file fail too."""
+        self.cube("in/deep/a.obj", "cube.obj")
+        self.cube("elsewhere/secret.obj", "cube.obj")
+        os.symlink("deep/a.obj", self.folder / "in/inside.obj")
+        os.symlink("../elsewhere/secret.obj", self.folder / "in/out.obj")
+        os.symlink("nowhere.obj", self.folder / "in/gone.obj")
+        os.symlink("circle.obj", self.folder / "in/circle.obj")
+        os.mkfifo(self.folder / "in/pipe.obj")
+        for sandbox in ("auto", "off"):
+            for several in ((), ("--views", "front,left")):
+                done = self.run_program("batch", "in", "-s", 8, "--sandbox", sandbox, *several, "-o", "o/{stem}-{view}.png" if several else "o/")
+                said = done.stderr.decode()
+                self.assertEqual(done.returncode, 7, said)
+                self.assertIn("in/out.obj: a link that leads out of the folder that was given; name the file, or allow its folder (--allow-path)", said)
+                for name, why in (("gone", "No such file"), ("circle", "Too many levels"), ("pipe", "is a pipe, expected a regular file")):
+                    self.assertRegex(said, f"in/{name}.obj: .*{why}")
+                self.assertEqual(sorted({p.name.split("-")[0].split(".")[0] for p in (self.folder / "o").glob("*.png")}), ["a", "inside"])
+                for path in (self.folder / "o").iterdir():
+                    path.unlink()
+        # A file that is named is read, and one in a folder that is allowed.
+        self.good("batch", "in/out.obj", "-s", 8, "-o", "o/")
+        done = self.run_program("batch", "in", "-s", 8, "--allow-path", "elsewhere", "-o", "o/")
+        self.assertEqual(done.returncode, 7)
+        self.assertNotIn("out.obj", done.stderr.decode())
+        self.assertTrue((self.folder / "o/out.png").exists())
+
     def test_lists(self):
         names = self.tree(4)
         (self.folder / "list").write_text("\r\n".join(names[:2]) + "\n\n")

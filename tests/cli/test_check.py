@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import unittest
 
 from harness import ROOT, Case, PROGRAM, check_value, read_png
 
@@ -22,6 +23,8 @@ from mistakes import MISTAKES  # noqa: E402
 SHADERS = ROOT / "tests" / "check"
 EVERY = int(os.environ.get("LAMBENT_CHECK_EVERY", "1"))  # only every n-th mistake and correct style; make test-long has all
 SCHEMA = json.loads((ROOT / "docs" / "check.schema.json").read_text())
+# A search draws thousands of pictures with the same code; sanitized, the tests without one reach all of it.
+searches = unittest.skipIf("LAMBENT_SANITIZED" in os.environ, "a long search: builds without sanitizers run it")
 
 
 def gl_missing():
@@ -452,21 +455,23 @@ class Unruly(CheckTest):
                                 "--scenes", "highlight", code=6)
         self.assertIn("did you mean 'shininess'", " ".join(self.notes(report, "unknown")))
 
+    @searches
     def test_none_known(self):
         report = self.report_of(*self.shader("oregon", [("frag", "vec4(color, 1.0)", "vec4(color.bgr * gl_FragCoord.y / 60.0, 1.0)")]),
                                 "--scenes", "all,diffuse,gate", code=6)
         self.assertEqual((report["verdict"], report["mistakes"]), ("differs", []))
         self.assertIn("No known mistake", self.run_program("check", "s.frag", "-s", 32, "--scenes", "all").stdout.decode())
 
+    @searches
     def test_search_limit(self):
         """The search ends at its limit, and says so; where it is long enough, the limit changes nothing."""
         words = self.shader("oregon", [("frag", "vec4(color, 1.0)", "vec4(color.bgr * gl_FragCoord.y / 60.0, 1.0)")])
-        told = [self.report_of(*words, "--search-limit", n, code=6) for n in (100, 20000, 10000)]
+        told = [self.report_of(*words, "--scenes", "all", "--search-limit", n, size=48, code=6) for n in (100, 20000, 10000)]
         self.assertEqual([(r["verdict"], r["mistakes"]) for r in told], [("differs", [])] * 3)
         self.assertEqual([r["search_stopped"] for r in told], [1, 0, 0])
         self.assertEqual(told[1]["tried"], told[2]["tried"])
         self.assertTrue(1 <= told[0]["tried"] <= 100 < told[1]["tried"], [r["tried"] for r in told])
-        text = self.run_program("check", *words, "-s", 64, "--search-limit", 100).stdout.decode()
+        text = self.run_program("check", *words, "--scenes", "all", "-s", 48, "--search-limit", 100).stdout.decode()
         self.assertIn(f"No explanation among {told[0]['tried']} mistakes and sets of them; there the search ended, and --search-limit", text)
         words = self.shader("oregon", [("frag", "dot(n, l) > 0.0 ?", "true ?")])
         for limit, ids in ((1, []), (10000, ["no-gate"])):
@@ -480,6 +485,7 @@ class Unruly(CheckTest):
                                 "--scenes", "all,diffuse,coarse,near", code=6)
         self.assertEqual({m["id"] for m in report["mistakes"]}, {"normal-not-unit", "specular-not-attenuated"})
 
+    @searches
     def test_every_size(self):
         """Pictures with mistakes are drawn at every second or third pixel of large ones: the names are the same."""
         words = self.shader("pittsburgh", [("frag", "0.0), shininess)", "0.0), 2.0 * shininess)")])
@@ -701,6 +707,7 @@ class Contracts(CheckTest):
                                     ("vert", "vec3(1.0, 1.0, 1.0)", "vec3(0.5)")])
         self.assertEqual(self.report_of(*words)["verdict"], "passes")
 
+    @searches
     def test_numbers_without_names(self):
         """Where the text does not say which of its numbers is which, those that fit are taken; a mistake is still found."""
         edits = [("frag", "    float ambientStrength = 0.1;\n", ""), ("frag", "    float specularStrength = 0.5;\n", ""),

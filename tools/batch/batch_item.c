@@ -299,12 +299,21 @@ static void finish_picture(struct reading *r, struct job *job, int view, bool ok
     r->result->records[view] = record_of(r->item, view, job, error, &r->files);
 }
 
+static bool may_read(const struct batch_item *item, lam_error *error)
+{
+    return !item->leads_out ||
+           complain(error, LAM_CANNOT_READ,
+                    "%.400s: a link that leads out of the folder that was given; name the file, or allow "
+                    "its folder (--allow-path)",
+                    item->model);
+}
+
 static void run_views(struct reading *r, struct job *job, struct progress *progress)
 {
     lam_error error = {0};
     job->output = r->item->outputs[0];
-    bool read = (!page_wanted(job) || page_refuse_several(&error)) && job_load(job, progress, &error) &&
-                job_arrange(job, progress, &error);
+    bool read = may_read(r->item, &error) && (!page_wanted(job) || page_refuse_several(&error)) &&
+                job_load(job, progress, &error) && job_arrange(job, progress, &error);
     for (int i = 0; i < job->view_count; i++) {
         job->output = r->item->outputs[i];
         job->picture_bytes = r->item->contents ? &r->item->contents[i] : NULL;
@@ -346,9 +355,10 @@ static void draw(struct reading *r)
     } else {
         lam_error error = {0};
         job.output = item->outputs[0];
-        bool ok = animation_wanted(job.options) ? animation_run(&job, &progress, &error)
-                  : page_wanted(&job)           ? page_run(&job, &progress, &error)
-                                                : job_run(&job, &progress, &error);
+        bool ok = may_read(item, &error);
+        ok = ok && (animation_wanted(job.options) ? animation_run(&job, &progress, &error)
+                    : page_wanted(&job)           ? page_run(&job, &progress, &error)
+                                                  : job_run(&job, &progress, &error));
         progress_end(&progress);
         finish_picture(r, &job, 0, ok, &error);
     }

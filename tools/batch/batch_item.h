@@ -13,6 +13,7 @@ struct batch_item {
     const char *options_text; // batch_options_text, for the keys; NULL: records have none
     bool has_records;         // they are wanted
     const char *model;
+    bool leads_out;               // it is a link that nobody may follow (batch_plan.h)
     const lam_bytes *model_bytes; // the model itself, which `model` is then a name for; NULL: a file
     const struct job_view *views; // its pictures
     char *const *outputs;         // and their paths

@@ -81,7 +81,8 @@ bool batch_reach_enter(const struct batch *b, const char *journal, size_t first,
     struct sandbox_paths paths = {0};
     const struct batch_model *models = b->plan->models;
     for (size_t i = first; i < first + count; i++) {
-        if (!is_within_reach(models[i].path, i > first ? models[i - 1].path : NULL))
+        const char *before = i > first && !models[i - 1].leads_out ? models[i - 1].path : NULL;
+        if (!models[i].leads_out && !is_within_reach(models[i].path, before))
             sandbox_add_input(&paths, models[i].path);
         for (int k = 0; !takes_folder(b) && k < b->plan->view_count; k++) {
             char *output = batch_plan_output(b->plan, i, k);

@@ -171,6 +171,7 @@ static struct batch_item item_of(const struct batch_unit *u, const struct batch 
                                .options_text = task->options_text,
                                .has_records = b->options_text || task->job,
                                .model = task->plan->models[task->model].path,
+                               .leads_out = task->plan->models[task->model].leads_out,
                                .model_bytes = task->job && task->job->bytes.data ? &task->job->bytes : NULL,
                                .views = views,
                                .outputs = outputs,

@@ -84,7 +84,7 @@ bool batch_plan_add(struct batch_plan *plan, const char *path, const char *root,
         plan->capacity = capacity;
     }
     struct batch_model *model = &plan->models[plan->count];
-    *model = (struct batch_model){strdup(path), root ? strdup(root) : NULL};
+    *model = (struct batch_model){.path = strdup(path), .root = root ? strdup(root) : NULL};
     if (model->path && (model->root || !root)) {
         plan->count++;
         return true;

@@ -8,6 +8,9 @@
 struct batch_model {
     char *path; // from malloc
     char *root; // {dir} is below this folder; from malloc; NULL: the path's own folder
+    // A link found in a folder, to a file that lies neither below that folder nor below one of --allow-path: it is an error,
+    // since nobody named the file.
+    bool leads_out;
 };
 
 struct batch_plan {

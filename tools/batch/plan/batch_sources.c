@@ -34,6 +34,40 @@ static int by_name(const struct dirent **a, const struct dirent **b) { return st
 // Names that begin with a dot are hidden.
 static int is_visible(const struct dirent *entry) { return entry->d_name[0] != '.'; }
 
+static bool is_below(const char *real, const char *folder)
+{
+    char *top = realpath(folder, NULL);
+    size_t length = top ? strlen(top) : 0;
+    bool below = length && strncmp(real, top, length) == 0 && (real[length] == '/' || top[length - 1] == '/');
+    free(top);
+    return below;
+}
+
+// Whether a link leads to a file that is neither below the folder that was given nor below one of --allow-path. One that leads
+// nowhere does not.
+static bool leads_out(const struct batch_plan *plan, const char *path, const char *root)
+{
+    const struct texts *allowed = &plan->options->allow_paths;
+    char *real = realpath(path, NULL);
+    bool out = real && !is_below(real, root);
+    for (int i = 0; i < allowed->count && out; i++)
+        out = !is_below(real, allowed->items[i]);
+    free(real);
+    return out;
+}
+
+// Whatever a model's name stands for is added: that it is a pipe or a link that leads nowhere is said when it is read.
+static bool add_file(struct batch_plan *plan, const char *path, const char *root, bool is_link, lam_error *error)
+{
+    struct stat target;
+    if (!is_model(path) || (is_link && stat(path, &target) == 0 && S_ISDIR(target.st_mode)))
+        return true;
+    if (!batch_plan_add(plan, path, root, error))
+        return false;
+    plan->models[plan->count - 1].leads_out = is_link && leads_out(plan, path, root);
+    return true;
+}
+
 // Adds the models of a folder and of those below it, in alphabetical order. Links to folders are not followed: they
 // may lead in a circle.
 static bool add_folder(struct batch_plan *plan, const char *folder, const char *root, lam_error *error)
@@ -45,7 +79,7 @@ static bool add_folder(struct batch_plan *plan, const char *folder, const char *
     bool ok = true;
     for (int i = 0; i < count; i++) {
         char *path = NULL;
-        struct stat own, target;
+        struct stat own;
         bool slash = folder[strlen(folder) - 1] != '/';
         if (ok && asprintf(&path, "%s%s%s", folder, slash ? "/" : "", entries[i]->d_name) < 0) {
             path = NULL;
@@ -54,8 +88,8 @@ static bool add_folder(struct batch_plan *plan, const char *folder, const char *
         if (ok && lstat(path, &own) == 0) {
             if (S_ISDIR(own.st_mode))
                 ok = add_folder(plan, path, root, error);
-            else if (is_model(path) && stat(path, &target) == 0 && S_ISREG(target.st_mode))
-                ok = batch_plan_add(plan, path, root, error);
+            else
+                ok = add_file(plan, path, root, S_ISLNK(own.st_mode), error);
         }
         free(path);
         free(entries[i]);

@@ -2,7 +2,7 @@
 #include "device_type.h"
 
 #include "cpu_frame.h"
-#include "environment_light.h"
+#include "environment_lamp.h"
 #include "fail.h"
 #include "hierarchy.h"
 #include "isa.h"
@@ -138,8 +138,8 @@ static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memor
 {
     const struct frame *frame = cpu->shade.frame;
     if (!frame->reference) {
-        cpu->shade.environment_light =
-            environment_light(frame->environment, environment_parts_of(&cpu->shade), cpu->pool, cpu->call, error);
+        cpu->shade.environment_light = (frame->lamp_apart ? environment_light_without_lamp : environment_light)(
+            frame->environment, environment_parts_of(&cpu->shade), cpu->pool, cpu->call, error);
         return cpu->shade.environment_light != NULL;
     }
     cpu->shade.reference = &memory->samples;

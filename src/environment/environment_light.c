@@ -214,8 +214,11 @@ static bool fill(struct environment_light *light, unsigned parts, struct pool *p
 
 void environment_light_free(struct environment_light *light)
 {
-    if (light)
+    if (light) {
         free(light->texels);
+        free(light->lamp);
+        environment_light_free(light->without_lamp);
+    }
     free(light);
 }
 

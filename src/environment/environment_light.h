@@ -22,6 +22,9 @@ struct environment_light {
     struct lam_environment irradiance;
     float *texels; // of all but level[0], in whole rows of ENVIRONMENT_LIGHT_WIDTH texels
     unsigned made; // bit i: level i; bit ENVIRONMENT_LEVELS: the irradiance. Accessed atomically
+    // environment_lamp.h; NULL until they are asked for. The latter has the levels of this one.
+    struct environment_lamp *lamp;
+    struct environment_light *without_lamp;
 };
 enum { ENVIRONMENT_LIGHT_ALL = (2 << ENVIRONMENT_LEVELS) - 1 };
 

@@ -2,6 +2,7 @@
 #include "frame.h"
 
 #include "cube_map.h"
+#include "environment_lamp.h"
 #include "environment_samples.h"
 #include "fail.h"
 #include "fields.h"
@@ -373,7 +374,7 @@ static bool add_ground(struct frame *frame, const lam_draw_params *params, uint6
 static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct call_control *call, lam_error *error)
 {
     size_t objects = (size_t)scene->objects.count + 1, ranges = 1, strokes = 0, // with the ground
-        lights = (size_t)scene->lights.count + LAM_RIG_LIGHTS_MAX;
+        lights = (size_t)scene->lights.count + LAM_RIG_LIGHTS_MAX + 1;
     for (int i = 0; i < scene->objects.count; i++) {
         const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
         ranges += mesh->part_count ? mesh->part_count : 1;
@@ -414,12 +415,13 @@ static bool uses_physical(const struct frame *frame)
 
 // Sets the environment and the matrix from directions in eye space to the environment's axes: eye space to world space, the scene's up axis
 // to +Y (as the fitted camera), then the inverse of the environment's rotation.
-static bool build_environment(struct frame *frame, const lam_scene *scene, lam_rig rig, const lam_mat4 *view,
+static bool build_environment(struct frame *frame, const lam_scene *scene, lam_rig rig, bool lamp, const lam_mat4 *view,
                               lam_error *error)
 {
     frame->environment = scene->environment;
     if (!frame->environment && rig == LAM_RIG_AUTO && scene_lit_by_environment(scene) && uses_physical(frame) &&
-        shows_reflection(frame->output) && !(frame->environment = lazy_environment_studio(scene->studio, error)))
+        (shows_reflection(frame->output) || (lamp && lam_output_is_light(frame->output))) &&
+        !(frame->environment = lazy_environment_studio(scene->studio, error)))
         return false;
     double s = math_sin(scene->environment_rotation_rad), c = math_cos(scene->environment_rotation_rad);
     for (int j = 0; j < 3; j++) {
@@ -430,6 +432,42 @@ static bool build_environment(struct frame *frame, const lam_scene *scene, lam_r
             frame->to_environment[i][j] = rounded(turned[i]);
     }
     return true;
+}
+
+// Where the environment lights all that is lit, and shadows are asked for, takes its brightest lamp as a light of its own. In a picture
+// of one light it is none.
+static bool add_lamp(struct frame *frame, const lam_scene *scene, const lam_draw_params *params, const lam_mat4 *view,
+                     struct call_control *call, lam_error *error)
+{
+    bool wanted = (params->shadows || params->ground) && frame->environment && !frame->reference;
+    wanted &= lam_output_is_light(frame->output) && !output_is_one_light(frame->output);
+    bool lit = false;
+    for (int i = 0; i < frame->range_count && wanted; i++) {
+        lam_reflection model = frame->ranges[i].reflection;
+        lit |= frame_is_physical(model);
+        wanted &= frame_is_physical(model) || model == LAM_REFLECTION_NONE;
+    }
+    struct environment_lamp lamp = {.present = false};
+    if (wanted && lit && !environment_lamp(frame->environment, &lamp, call, error))
+        return false;
+    if (!lamp.present)
+        return true;
+    lam_light *light = &frame->rig[frame->rig_count];
+    *light = lam_light_default(LAM_LIGHT_DIRECTIONAL);
+    light->name = "the environment's lamp";
+    light->frame = LAM_FRAME_CAMERA;
+    double d[3];
+    for (int j = 0; j < 3; j++)
+        d[j] = -(((double)frame->to_environment[0][j] * lamp.direction[0] +
+                  (double)frame->to_environment[1][j] * lamp.direction[1]) +
+                 (double)frame->to_environment[2][j] * lamp.direction[2]);
+    light->direction = v3(d[0], d[1], d[2]);
+    light->diffuse = (lam_rgb){lamp.color[0], lamp.color[1], lamp.color[2]};
+    light->specular = (lam_rgb){0, 0, 0};
+    light->angular_radius_rad = lamp.angular_radius_rad;
+    light->occluded = 0.5f;
+    frame->lamp_apart = true;
+    return add_light(frame, scene, light, -1, view, error);
 }
 
 // Decides about ambient occlusion, once the lights are known.
@@ -529,7 +567,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     lam_mat4 projection = frame->orthographic
                               ? mat4_orthographic(camera->ortho_half_height, aspect, near_plane, far_plane)
                               : mat4_perspective(camera->fovy_rad, aspect, near_plane, far_plane);
-    if (!build_environment(frame, scene, params->rig, &view, error))
+    if (!build_environment(frame, scene, params->rig, params->shadows || params->ground, &view, error))
         return false;
     lam_mat4 pixel = to_pixels(&projection, width, height);
 
@@ -579,6 +617,9 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     bool by_rig = params->rig == LAM_RIG_AUTO && !scene->lights.count && !uses_physical(frame);
     if (!build_lights(frame, scene, by_rig ? LAM_RIG_STUDIO : params->rig,
                       output_is_one_light(frame->output) ? params->output_light : -1, &view, error))
+        return false;
+    frame->lamp_apart = false;
+    if (!add_lamp(frame, scene, params, &view, call, error))
         return false;
     frame->shadows = (params->shadows || params->ground) &&
                      (lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_CLIPPED);

@@ -167,7 +167,10 @@ struct frame {
     bool environment_lights;            // it lights a range of a physical model (environment_light.h)
     float to_environment[3][3];         // directions in eye space to the environment's axes
 
-    lam_light rig[LAM_RIG_LIGHTS_MAX];
+    // Its brightest lamp is a light of its own that casts shadows: rig[rig_count], and not in the environment's diffuse light.
+    bool lamp_apart;
+
+    lam_light rig[LAM_RIG_LIGHTS_MAX + 1];
     int rig_count;
     lam_material default_material;
     struct frame_ground ground;

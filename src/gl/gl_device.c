@@ -2,7 +2,7 @@
 #include "gl_device.h"
 
 #include "cube_map.h"
-#include "environment_light.h"
+#include "environment_lamp.h"
 #include "fail.h"
 #include "srgb.h"
 
@@ -184,7 +184,8 @@ static bool set_up(struct gl_frame *f, lam_error *error)
     if (!frame->range_count)
         return true;
     if (frame->environment_lights &&
-        !(f->environment_light = environment_light(frame->environment, ENVIRONMENT_LIGHT_ALL, NULL, f->call, error)))
+        !(f->environment_light = (frame->lamp_apart ? environment_light_without_lamp : environment_light)(
+              frame->environment, ENVIRONMENT_LIGHT_ALL, NULL, f->call, error)))
         return false;
     if (frame->shadows && !shadows_send(f, error))
         return false;

@@ -26,11 +26,12 @@ struct scene_extent {
     bool translucent;       // some colour has an alpha below 1
 };
 
-// The source of meshes, for writing a scene file: a model file or a built-in shape, and the parameters it was
+// The source of meshes, for writing a scene file: a model file, a built-in shape or a formula, and the parameters it was
 // read with.
 struct scene_origin {
-    const char *path;  // that opens the file; NULL: a shape, or a file from memory
-    const char *shape; // its name; NULL: a file
+    const char *path;           // that opens the file; NULL: a shape, a formula, or a file from memory
+    const char *shape;          // its name; NULL: none
+    const lam_formula *formula; // NULL: none
     lam_shape_params segments;
     lam_normals normals;
     double crease_angle_rad; // 0: the default
@@ -135,6 +136,7 @@ bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int 
 // Adds a built-in shape as a mesh, charged to the call of the scene's arena. Returns its index; −1 on failure.
 int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params,
                     struct call_control *call, lam_error *error);
+int scene_add_formula(struct lam_scene *scene, const lam_formula *formula, struct call_control *call, lam_error *error);
 
 // Prepares every mesh for drawing: computes normals that are missing, or all of them if `normals` asks for it.
 bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_angle_rad, struct pool *pool,

@@ -1,4 +1,4 @@
-// scene_models.c: the models that the objects of a scene file show: built-in shapes, and files that other importers read.
+// scene_models.c: the models that the objects of a scene file show: built-in shapes, formulas, and files that other importers read.
 //
 // A model is read once for each way to make its normals, however many objects show it and however they spell its name.
 // Objects that change nothing of it share its meshes and materials, and so do objects that make the same changes; an
@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { KEY_SIZE = COMPANION_NAME_SIZE + 160, VARIANTS = 8 };
+enum { KEY_SIZE = COMPANION_NAME_SIZE + 4096, VARIANTS = 8 };
 
 // A way in which the model is in the scene.
 struct variant {
@@ -40,16 +40,19 @@ static bool make_shape(struct scene_reader *r, const struct model_wanted *wanted
 {
     lam_error reason = {0};
     lam_object object = lam_object_default();
-    object.name = wanted->shape;
-    object.mesh = scene_add_shape(&model->inner, wanted->shape, &wanted->segments, r->source->call, &reason);
+    object.name = wanted->formula ? "parametric" : wanted->shape;
+    object.mesh = wanted->formula
+                      ? scene_add_formula(&model->inner, wanted->formula, r->source->call, &reason)
+                      : scene_add_shape(&model->inner, wanted->shape, &wanted->segments, r->source->call, &reason);
     if (object.mesh < 0) {
-        if (reason.code == LAM_BAD_ARGUMENT)
+        if (reason.code == LAM_BAD_ARGUMENT) // also of a formula: what stands in it
             return fail_place(r, KEY_OF(wanted->place, "shape"), "%s", reason.text);
         *r->error = reason;
         return false;
     }
     const struct scene_origin *made = model->inner.origins.items;
     model->origin.shape = made->shape;
+    model->origin.formula = made->formula;
     model->origin.segments = made->segments;
     return scene_adopt_object(&model->inner, &object, r->error) >= 0;
 }
@@ -148,9 +151,21 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
 
 // --- finding
 
-// The text that identifies a model: how its normals are made, and the shape or the file.
+// The text that identifies a formula's surface. False: it is too long.
+static bool key_of_formula(const struct model_wanted *wanted, char key[KEY_SIZE])
+{
+    const lam_formula *f = wanted->formula;
+    int length =
+        snprintf(key, KEY_SIZE, "formula %d %a %d %d %d %s\n%s\n%s", (int)wanted->normals, wanted->crease_angle_rad,
+                 f->u_segments, f->v_segments, f->flip, f->u ? f->u : "", f->v ? f->v : "", f->text);
+    return length > 0 && length < KEY_SIZE;
+}
+
+// The text that identifies a model: how its normals are made, and the shape, the formula or the file.
 static bool key_of(const struct model_wanted *wanted, const char *file, char key[KEY_SIZE])
 {
+    if (wanted->formula)
+        return key_of_formula(wanted, key);
     const lam_shape_params *s = &wanted->segments;
     int length = file ? snprintf(key, KEY_SIZE, "file %d %a %a %s\n%s\n%s\n%s", (int)wanted->normals,
                                  wanted->crease_angle_rad, wanted->time_s, file, wanted->scene ? wanted->scene : "",
@@ -197,7 +212,8 @@ static struct model *find_model(struct scene_reader *r, const struct model_wante
 {
     char key[KEY_SIZE];
     if (!key_of(wanted, wanted->file, key)) {
-        fail_place(r, KEY_OF(wanted->place, wanted->file ? "file" : "shape"), "the name is too long");
+        fail_place(r, KEY_OF(wanted->place, wanted->file ? "file" : "shape"),
+                   wanted->formula ? "the formula is too long" : "the name is too long");
         return NULL;
     }
     struct model *model = known(r, key);

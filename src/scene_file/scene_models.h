@@ -7,7 +7,8 @@
 // What an object asks for.
 struct model_wanted {
     const struct place *place; // of the object
-    const char *file, *shape;  // one of them; the file as the scene names it
+    const char *file, *shape;  // one of them, or the formula; the file as the scene names it
+    const lam_formula *formula;
     lam_shape_params segments; // of a shape
     lam_normals normals;
     double crease_angle_rad; // 0: the default

@@ -150,6 +150,39 @@ static bool finish(struct scene_reader *r, const struct place *place, const json
     return true;
 }
 
+// "shape": {"parametric": {"formula": "x=…; y=…; z=…", "u": "0..2pi", "v": "0..pi", "segments": [64, 32], "flip": true}}.
+static bool read_formula(struct scene_reader *r, const struct place *place, const json_t *value, lam_formula *formula)
+{
+    static const char *const outer[] = {"parametric", NULL};
+    static const char *const inner[] = {"formula", "u", "v", "segments", "flip", NULL};
+    const json_t *parametric = json_object_get(value, "parametric");
+    const struct place *at = KEY_OF(place, "parametric");
+    if (!check_keys(r, place, value, outer))
+        return false;
+    if (!json_is_object(parametric)) {
+        char kind[JSON_KIND_SIZE];
+        return fail_place(r, at, "found %s, expected an object with the key formula", json_kind(parametric, kind));
+    }
+    const json_t *list = json_object_get(parametric, "segments");
+    if (!check_keys(r, at, parametric, inner) || !take_text(r, at, parametric, "formula", &formula->text) ||
+        !take_text(r, at, parametric, "u", &formula->u) || !take_text(r, at, parametric, "v", &formula->v) ||
+        !take_bool(r, at, parametric, "flip", &formula->flip))
+        return false;
+    if (!formula->text)
+        return fail_place(r, at, "'formula' is missing, expected a text such as \"x=u; y=v; z=sin(u)\"");
+    if (!list)
+        return true;
+    int *const counts[2] = {&formula->u_segments, &formula->v_segments};
+    for (size_t i = 0; i < 2; i++) {
+        const json_t *number = json_array_get(list, i);
+        json_int_t count = json_is_integer(number) ? json_integer_value(number) : -1;
+        if (json_array_size(list) != 2 || count < 0 || count > 16384)
+            return fail_place(r, KEY_OF(at, "segments"), "expected two whole numbers from 0 to 16384, along u and v");
+        *counts[i] = (int)count;
+    }
+    return true;
+}
+
 static bool read_object(struct scene_reader *r, const struct place *place, const json_t *value)
 {
     const char *shape = NULL, *file = NULL, *name = NULL, *inner = NULL, *variant = NULL, *animation = NULL;
@@ -164,7 +197,17 @@ static bool read_object(struct scene_reader *r, const struct place *place, const
         return fail_place(r, place,
                           is_file ? "has both shape and file, expected one of them"
                                   : "has neither shape nor file, expected one of them");
-    if (!take_text(r, place, value, "shape", &shape) || !take_text(r, place, value, "file", &file) ||
+    const json_t *computed = json_object_get(value, "shape");
+    lam_formula formula = {0};
+    bool is_formula = is_shape && json_is_object(computed);
+    if (is_formula && !read_formula(r, KEY_OF(place, "shape"), computed, &formula))
+        return false;
+    static const char *const of_shapes[] = {"radius", "slices", "stacks"};
+    for (size_t i = 0; is_formula && i < sizeof of_shapes / sizeof *of_shapes; i++)
+        if (json_object_get(value, of_shapes[i]))
+            return fail_place(r, KEY_OF(place, of_shapes[i]),
+                              "is a key of built-in shapes, and the shape is a formula");
+    if ((!is_formula && !take_text(r, place, value, "shape", &shape)) || !take_text(r, place, value, "file", &file) ||
         !take_text(r, place, value, "name", &name) || !take_text(r, place, value, "scene", &inner) ||
         !take_text(r, place, value, "variant", &variant) || !take_text(r, place, value, "animation", &animation) ||
         !take_number(r, place, value, "time", -1e9, 1e9, &time_s) ||
@@ -176,6 +219,7 @@ static bool read_object(struct scene_reader *r, const struct place *place, const
         .place = place,
         .file = file,
         .shape = shape,
+        .formula = is_formula ? &formula : NULL,
         .normals = (lam_normals)normals,
         // The importers take 0 for their own angle: a negligible one splits at every edge.
         .crease_angle_rad = crease_deg < 0   ? 0

@@ -334,6 +334,22 @@ static bool common_change(const struct scene_writer *w, const struct scene_origi
     return (material || !changed[0]) && (back || !changed[1]) && (sides || !changed[2]) && (cull || !changed[3]);
 }
 
+static json_t *formula_json(struct scene_writer *w, const lam_formula *formula)
+{
+    json_t *shape = json_object(), *out = json_object();
+    put(w, out, "formula", json_string(formula->text));
+    if (formula->u)
+        put(w, out, "u", json_string(formula->u));
+    if (formula->v)
+        put(w, out, "v", json_string(formula->v));
+    if (formula->u_segments || formula->v_segments)
+        put(w, out, "segments", json_pack("[ii]", formula->u_segments, formula->v_segments));
+    if (formula->flip)
+        put(w, out, "flip", json_true());
+    put(w, shape, "parametric", out);
+    return shape;
+}
+
 static bool put_object(struct scene_writer *w, json_t *list, const lam_object *object,
                        const struct scene_origin *origin, const struct change *change)
 {
@@ -345,7 +361,9 @@ static bool put_object(struct scene_writer *w, json_t *list, const lam_object *o
     const char *own_name = origin->object_count > 1 ? origin->objects[0].name : NULL;
     if (!own_name || !object->name || strcmp(own_name, object->name) != 0)
         put_name(w, entry, "name", object->name);
-    if (origin->shape) {
+    if (origin->formula) {
+        put(w, entry, "shape", formula_json(w, origin->formula));
+    } else if (origin->shape) {
         put(w, entry, "shape", json_string(origin->shape));
         if (origin->segments.radius > 0)
             put(w, entry, "radius", number(origin->segments.radius));
@@ -393,11 +411,10 @@ static bool put_objects(struct scene_writer *w, json_t *root)
         const lam_object *object = lam_scene_object(w->scene, i);
         const struct scene_origin *origin = origin_of(w->scene, object->mesh);
         char shown[SHOWN_NAME_SIZE];
-        if (!origin || (!origin->path && !origin->shape))
+        if (!origin || (!origin->path && !origin->shape && !origin->formula))
             return fail(w->error, LAM_UNSUPPORTED,
                         "%s: the mesh of object %d ('%s') came neither from a file nor is a built-in "
-                        "shape, so a scene file "
-                        "cannot name it",
+                        "shape or a formula's, so a scene file cannot name it",
                         w->path, i, shown_name(object->name ? object->name : "", shown));
         const lam_object plain = lam_object_default();
         bool several = origin->object_count > 1; // one entry stands for all objects of a file

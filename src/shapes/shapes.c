@@ -531,6 +531,32 @@ int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const 
     return end(scene, state, add_mesh(scene, made, &mesh, error));
 }
 
+// A copy in the scene's arena. NULL: out of memory.
+static const lam_formula *copy_formula(struct lam_scene *scene, const lam_formula *formula)
+{
+    lam_formula *copy = arena_alloc_zeroed(&scene->arena, sizeof *copy);
+    if (!copy)
+        return NULL;
+    *copy = *formula;
+    copy->text = arena_string(&scene->arena, formula->text);
+    copy->u = formula->u ? arena_string(&scene->arena, formula->u) : NULL;
+    copy->v = formula->v ? arena_string(&scene->arena, formula->v) : NULL;
+    return copy->text && !copy->u == !formula->u && !copy->v == !formula->v ? copy : NULL;
+}
+
+int scene_add_formula(struct lam_scene *scene, const lam_formula *formula, struct call_control *call, lam_error *error)
+{
+    lam_mesh mesh = {0};
+    bool made = tessellate_formula(formula, &scene->arena, call, &mesh, error);
+    struct scene_origin origin = {.first_mesh = scene->meshes.count, .first_material = scene->materials.count};
+    if (made && !(origin.formula = copy_formula(scene, formula))) {
+        call_memory_error(call, strlen(formula->text), error);
+        return -1;
+    }
+    int index = add_mesh(scene, made, &mesh, error);
+    return index < 0 || scene_note_origin(scene, origin, scene->objects.count, error) ? index : -1;
+}
+
 int lam_scene_add_formula(lam_scene *scene, const lam_formula *formula, const lam_control *control, lam_error *error)
 {
     if (!scene || !formula || !formula->text) {
@@ -544,7 +570,5 @@ int lam_scene_add_formula(lam_scene *scene, const lam_formula *formula, const la
         return -1;
     struct call_control call;
     uint64_t state = begin(scene, &call, control);
-    lam_mesh mesh = {0};
-    bool made = tessellate_formula(formula, &scene->arena, &call, &mesh, error);
-    return end(scene, state, add_mesh(scene, made, &mesh, error));
+    return end(scene, state, scene_add_formula(scene, formula, &call, error));
 }

@@ -117,6 +117,36 @@ class Scene(Case):
         self.good("sub/saved.json", "-o", "b.png", "--save-scene", "sub/twice.json")
         self.assertEqual((self.folder / "sub/saved.json").read_bytes(), (self.folder / "sub/twice.json").read_bytes())
 
+    def test_formulas(self):
+        """--save-scene of a formula's picture, and the keys of the object."""
+        ripple = "x=u*cos(v); y=u*sin(v); z=cos(3u)"
+        for words, want in ((["--u", "0..4", "--segments", "40x60"], {"u": "0..4", "segments": [40, 60]}), (["--v", "0..pi", "--flip", "--cull", "back"], {"v": "0..pi", "flip": True}),
+                            (["--rotate", "x:20", "--normals", "facet", "--segments", "30"], {"segments": [30, 30]}),
+                            (["--up", "y", "--material", "gold", "--view", "front"], {}), (["--environment", "sky", "--reflectivity", "0.4"], {})):
+            saved = self.again("shape", "--parametric", ripple, *words, "-s", "64")
+            [thing] = saved["objects"]
+            self.assertEqual(thing["shape"], {"parametric": {"formula": ripple, **want}}, words)
+        # The same surface many times is one mesh; another formula, range or division is another.
+        flat = {"parametric": {"formula": "x=u; y=v; z=0", "u": "0..1", "v": "0..1", "segments": [2, 3]}}
+        others = [{"parametric": {**flat["parametric"], **change}} for change in ({"u": "0..2"}, {"v": "0..2"}, {"flip": True}, {"segments": [2, 4]}, {"formula": "x=u; y=v; z=1"})]
+        scene = {"lambent": 1, "objects": [{"shape": shape} for shape in (flat, flat, *others, flat)]}
+        self.assertIsNone(misfit(scene, SCHEMA))
+        self.write(scene, "formulas.json")
+        self.given |= {"formulas.json"}
+        told = json.loads(self.good("info", "formulas.json", "--json").stdout)["counts"]
+        self.assertEqual((told["meshes"], told["objects"], told["triangles"]), (6, 8, 12 * 3 + 12 * 4 + 16))
+        for shape, says in (({"parametric": {"formula": "x=u; y=v; z=w"}}, ("objects[0].shape", "'w'")), ({"parametric": {"u": "0..1"}}, ("objects[0].shape.parametric", "'formula' is missing")),
+                            ({"parametric": "x=u"}, ("objects[0].shape.parametric", "expected an object")), ({"parametrics": {}}, ("parametrics", "parametric")),
+                            ({"parametric": {**flat["parametric"], "segments": [2]}}, ("segments", "two whole numbers")),
+                            ({"parametric": {**flat["parametric"], "segments": [2, 20000]}}, ("segments", "two whole numbers")),
+                            ({"parametric": {**flat["parametric"], "u": "0..x"}}, ("objects[0].shape", "range of u"))):
+            self.write({"lambent": 1, "objects": [{"shape": shape}]}, "formulas.json")
+            self.bad(2, "formulas.json", "-s", 8, says=("formulas.json", *says), leaves=self.new_files())
+        self.write({"lambent": 1, "objects": [{"shape": {"parametric": {"formula": "x=u; y=v; z=" + "0+" * 4000 + "0"}}}]}, "formulas.json")
+        self.bad(4, "formulas.json", "-s", 8, says=("formulas.json", "at most 4096"), leaves=self.new_files())
+        self.write({"lambent": 1, "objects": [{"shape": flat, "radius": 2}]}, "formulas.json")
+        self.bad(2, "formulas.json", "-s", 8, says="radius", leaves=self.new_files())
+
     def test_saved_scenes_of_real_models(self):
         models = [m for kind in ("obj", "stl", "ply") for m in sorted(SHARED_MODELS.glob(f"{kind}/**/*.{kind}"))
                   if m.stat().st_size < 400000][::9]

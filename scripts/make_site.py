@@ -75,7 +75,7 @@ def model_of(word):
 def pictures_of(program, command):
     """[caption, words of the Lab] of each picture that a figure's command draws. None are of a diagram."""
     words = shlex.split(command, comments=True)[1:]
-    if words[0] in NO_PICTURE:
+    if words[0] in NO_PICTURE or any("mistake=" in word for word in words):  # the Lab draws no mistakes
         return []
     if words[0] != "compare":
         own = option_words(words[1:])

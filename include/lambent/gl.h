@@ -40,7 +40,11 @@ typedef struct lam_gl_params {
     bool debug;
     // Path of the EGL library that is loaded without a window. NULL: "libEGL.so.1".
     const char *library;
-    LAM_RESERVED(8);
+    // Draw with shaders of the lecture style (lam_shader_style); a draw fails with LAM_UNSUPPORTED where it does not have what
+    // the scene asks for.
+    bool lecture;
+    const char *mistake; // of that style, by its id; NULL: none
+    LAM_RESERVED(6);
 } lam_gl_params;
 
 // Makes an OpenGL device; lam_device_free frees it. `params` may be NULL. NULL on failure: LAM_UNSUPPORTED where a

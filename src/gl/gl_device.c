@@ -4,6 +4,7 @@
 #include "cube_map.h"
 #include "environment_lamp.h"
 #include "fail.h"
+#include "lecture.h"
 #include "srgb.h"
 
 #include <stdio.h>
@@ -46,6 +47,8 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
         c->stage = LAM_STAGE_FRAGMENT;
         return;
     }
+    c->lecture = f->device->lecture && !output_is_value(c->output);
+    c->mistake = c->lecture ? f->device->mistake : 0;
     if (c->stage == LAM_STAGE_APPLICATION) {
         if (!output_is_vector(c->output))
             c->output = LAM_OUTPUT_PICTURE;
@@ -428,6 +431,12 @@ lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
         fail(error, LAM_BAD_ARGUMENT, "OpenGL: api is %d, expected LAM_GL_CORE or LAM_GL_ES", params->api);
         return NULL;
     }
+    int mistake = mistake_find(params->mistake);
+    if (params->mistake && (!params->lecture || !mistake)) {
+        fail(error, LAM_BAD_ARGUMENT, "OpenGL: mistake '%.60s': %s", params->mistake,
+             mistake ? "it is one of the lecture style; expected that style" : "it is not known");
+        return NULL;
+    }
     struct gl_device *device = calloc(1, sizeof *device);
     if (!device) {
         fail_memory(error, sizeof *device);
@@ -435,6 +444,8 @@ lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
     }
     device->base.type = &type;
     device->external_context = params->get_proc_address != NULL;
+    device->lecture = params->lecture;
+    device->mistake = mistake;
     for (int i = 0; i < 256; i++)
         device->decode_srgb[i] = (float)srgb_linear(i / 255.0);
     gl_state_invalidate(device);

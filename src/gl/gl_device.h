@@ -197,6 +197,8 @@ struct gl_device {
     struct lam_device base;
     struct gl_context context;
     bool external_context; // the context is the caller's
+    bool lecture;          // lam_gl_params
+    int mistake;           // as glsl_choices.mistake
     GLint block_size_max, block_alignment, texture_size_max;
     GLint unit_count;    // texture units of the fragment shader that are used, up to UNIT_COUNT
     bool has_norm16;     // textures of 16 bits for 0…1

@@ -20,7 +20,7 @@ struct edit {
     const char *before, *after;
 };
 
-// Rows of one id are forms of one mistake and stand together: the first that applies is taken.
+// Rows of one id are forms of one mistake and stand together: the first that applies is taken. The first has the sentences.
 struct mistake {
     const char *id, *looks, *needs;
     struct edit edits[EDITS_MAX];
@@ -35,7 +35,6 @@ struct mistake {
 #define FALLOFF      "a light with attenuation"
 #define PLACE        "a light at a place: point or spot"
 #define SEVERAL      "more than one light"
-#define MATERIALS    "materials as uniforms, without '--products'"
 #define NORMAL       "normal_matrix * normal"
 #define SUM          "attenuation * (diffuse + specular)"
 
@@ -146,17 +145,24 @@ static const struct mistake mistakes[] = {
      {{" * S;", " * S * max(dot(N, L), 0.0);"}}},
     {"specular-tinted",
      "The highlight has the colour of the paint: plastic looks like metal.",
-     A_HIGHLIGHT " and " MATERIALS,
+     A_HIGHLIGHT,
      {{"vec3 specular = ks", "vec3 specular = ks * kd"}}},
+    {"specular-tinted", NULL, NULL, {{"specular_product[i].rgb", "specular_product[i].rgb * diffuse_product[i].rgb"}}},
     {"specular-in-diffuse-colour",
      "The highlight has the colour and the strength of the paint.",
-     A_HIGHLIGHT " and " MATERIALS,
+     A_HIGHLIGHT,
      {{"vec3 specular = ks", "vec3 specular = kd"}}},
+    {"specular-in-diffuse-colour", NULL, NULL, {{"specular_product[i].rgb", "diffuse_product[i].rgb"}}},
     {"kd-ks-swapped",
      "The body has the highlight's colour, and the highlight the body's.",
-     A_HIGHLIGHT " and " MATERIALS,
+     A_HIGHLIGHT,
      {{"kd * lights[i].diffuse.rgb", "ks * lights[i].diffuse.rgb"},
       {"ks * lights[i].specular.rgb", "kd * lights[i].specular.rgb"}}},
+    {"kd-ks-swapped",
+     NULL,
+     NULL,
+     {{"diffuse_product[i].rgb * max", "specular_product[i].rgb * max"},
+      {"specular_product[i].rgb * S", "diffuse_product[i].rgb * S"}}},
     // --- Lambert
     {"no-clamp",
      "The unlit side is black: there the diffuse term takes ambient and other light away.",
@@ -223,11 +229,18 @@ static const struct mistake mistakes[] = {
      {{"i < @lights@; i++) {\n        vec3 way", "i < 1; i++) {\n        vec3 way"}}},
     {"last-light-only",
      "All lights but the last have no effect.",
-     SEVERAL " and " MATERIALS,
+     SEVERAL,
      {{"color += ", "color = material.emission.rgb + ambient + "}},
      "material.emission.rgb + ambient;",
      MORE_LIGHTS},
+    {"last-light-only",
+     NULL,
+     NULL,
+     {{"color += ", "color = emission.rgb + ambient + "}},
+     "vec3 color = emission.rgb + ambient;",
+     MORE_LIGHTS},
     {"alpha-one", "Glass is opaque.", PER_FRAGMENT " of a translucent material", {{"material.diffuse.a)", "1.0)"}}},
+    {"alpha-one", NULL, NULL, {{"), diffuse.a)", "), 1.0)"}}},
 };
 enum { MISTAKES = sizeof mistakes / sizeof *mistakes };
 

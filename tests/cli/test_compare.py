@@ -20,6 +20,56 @@ def part(picture, left, top, width, height):
     return b"".join(data[4 * (y * page + left):4 * (y * page + left + width)] for y in range(top, top + height))
 
 
+class Mistakes(Case):
+    """Sheets of `--across mistake`, which OpenGL draws."""
+
+    def sheet(self, *words):
+        done = self.run_program("compare", "sphere", *words, "-s", "60x50", "-o", "sheet.png", "--json", timeout=None)
+        if done.returncode == 3 and b"mistakes are drawn by OpenGL: " in done.stderr:
+            self.skipTest(done.stderr.decode())
+        self.assertEqual(done.returncode, 0, done.stderr.decode())
+        return json.loads(done.stdout[done.stdout.index(b"{"):])["pictures"], done
+
+    def test_named(self):
+        pictures, _ = self.sheet("--across", "mistake=no-ambient,normal-by-model-view,no-gate")
+        self.assertEqual([p["mistake"] for p in pictures], [None, "no-ambient", "normal-by-model-view", "no-gate"])
+        means = [p["mean_difference"] for p in pictures]
+        self.assertEqual((means[0], means[2]), (0, 0))  # the matrix is wrong for stretched objects alone
+        self.assertGreater(means[1], 0.01)
+        self.assertGreater(means[3], 0)
+        width, _, data = read_png((self.folder / "sheet.png").read_bytes())
+        self.assertEqual(width, 4 * (60 + 4) + 4)
+
+    def test_the_first_picture_is_that_of_the_cpu(self):
+        """Shaders of the lecture style draw what the CPU draws, but at edges, where the devices antialias alike."""
+        light = ("--light", "point:position=1/2/3,attenuation=0.5/0.1/0.1", "--light", "spot:position=-1/2/3,target=0/0/0,cutoff=20,exponent=3")
+        self.sheet(*light, "--across", "mistake=no-cone", "--no-captions")
+        page = read_png((self.folder / "sheet.png").read_bytes())
+        alone = self.png("sphere", *light, "--material", "ambient=0.3/0.12/0.08,diffuse=0.75/0.3/0.2,specular=0.5,shininess=20", "--ao", "off", "-s", "60x50",
+                         "-b", "white", "-q")[2]
+        shown = part(page, 4, 4, 60, 50)
+        far = sum(abs(a - b) > 1 for a, b in zip(shown, alone))
+        self.assertLess(far, len(alone) / 200)
+
+    def test_all(self):
+        pictures, done = self.sheet("--across", "mistake=all", "--light", "directional:direction=-1/-1/-1", "--reflection", "phong")
+        names = [p["mistake"] for p in pictures]
+        left_out = re.search(r"left out, since the scene has nothing that they spoil: (.*)", (done.stdout + done.stderr).decode())[1].split(", ")
+        known = [row["mistake"] for row in json.loads(self.good("shader", "--mistake", "list", "--json").stdout)]
+        self.assertEqual(sorted([n for n in names if n] + left_out), sorted(known))
+        self.assertIn("direction-reversed", names)
+        self.assertIn("reflect-sign", names)
+        self.assertIn("no-cone", left_out)
+        self.assertIn("no-attenuation", left_out)
+
+    def test_errors(self):
+        self.bad(1, "compare", "sphere", "--across", "mistake=nogate", says="did you mean 'no-gate'?")
+        self.bad(3, "compare", "sphere", "--across", "mistake=no-cone", says="mistake 'no-cone': the shader does not have what it spoils; expected a spotlight")
+        self.bad(3, "compare", "sphere", "--across", "mistake=no-gate", "--reflection", "ggx", says="'--style lecture' does not have '--reflection ggx'")
+        self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--device", "cpu", says="mistakes are edits of shaders, which OpenGL draws")
+        self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--across", "shading", says="mistakes stand alone")
+
+
 class Compare(Case):
     def alone(self, *words):
         return self.png(*words, "-b", "white", "-q")[2]

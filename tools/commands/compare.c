@@ -14,6 +14,7 @@
 #include "json.h"
 #include "output.h"
 #include "report.h"
+#include "shader.h"
 #include "terminal.h"
 #include "sheet.h"
 #include "sheet_defaults.h"
@@ -30,6 +31,10 @@ struct page {
     int rows;
 };
 
+struct difference {
+    double mean, largest; // of a channel, 0...1
+};
+
 struct compare {
     const struct options *options;
     const char *model;
@@ -38,8 +43,10 @@ struct compare {
     struct sheet sheet;
     struct page page;
     struct drawing drawing;
-    int done;             // pictures drawn so far
-    bool exposure_fitted; // for the first picture; the others have the same
+    int done;                                 // pictures drawn so far
+    lam_image right;                          // of a sheet of mistakes: its first picture
+    struct difference differences[CELLS_MAX]; // from that
+    bool exposure_fitted;                     // for the first picture; the others have the same
     double exposure;
     const char *defaults[2 * SHEET_DEFAULTS_MAX]; // words of every picture that the command line does not have
     int default_count;
@@ -83,17 +90,12 @@ static int words_of(const struct compare *c, const struct cell *cell, const char
     return count;
 }
 
-// Draws a cell's picture, `enlarge` times as large, with two additional words of the command line (NULL: none).
-static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, const char *more, const char *value,
-                      lam_image *image, lam_error *error)
+// Makes the options of a cell's picture, with two additional words of the command line (NULL: none). False: nothing to free.
+static bool cell_options(const struct compare *c, const struct cell *cell, const char *more, const char *value,
+                         struct options *options, lam_error *error)
 {
-    struct options options;
-    if (!options_copy(&options, c->options))
+    if (!options_copy(options, c->options))
         return complain(error, LAM_LIMIT, "out of memory");
-    if (!share_rotations(&c->sheet, &options)) {
-        options_free(&options);
-        return complain(error, LAM_LIMIT, "out of memory");
-    }
     char *words[2 * SHEET_DEFAULTS_MAX + CELL_WORDS + 4]; // options are only read
     int count = 0;
     for (int i = 0; i < c->default_count; i++)
@@ -103,23 +105,50 @@ static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, c
         words[count++] = (char *)(uintptr_t)more;
         words[count++] = (char *)(uintptr_t)value;
     }
+    if (!options->background)
+        options->background = SHEET_BACKGROUND;
+    // Sheets compare methods of local lighting: what its sums leave out comes in only where it is asked for.
+    if (!option_given(options, "ao"))
+        options->draw.occlusion = LAM_OCCLUSION_OFF;
+    options->lecture_device = c->sheet.mistakes;
+    options->mistake = cell->mistake;
+    bool ok = share_rotations(&c->sheet, options) || complain(error, LAM_LIMIT, "out of memory");
+    ok = ok && options_parse(count, words, find_groups("render"), options, error) >= 0;
+    if (!ok)
+        options_free(options);
+    return ok;
+}
+
+// The device that draws a cell: of a sheet of mistakes, OpenGL with the mistake in its shaders.
+static lam_device *cell_device(const struct compare *c, const struct options *options, lam_error *error)
+{
+    if (!c->sheet.mistakes)
+        return c->device;
+    lam_error reason;
+    lam_device *device = device_option_make(options, &reason);
+    if (!device)
+        complain(error, reason.code, "mistakes are drawn by OpenGL: %s", reason.text);
+    return device;
+}
+
+// Draws a cell's picture, `enlarge` times as large, with two additional words of the command line (NULL: none).
+static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, const char *more, const char *value,
+                      lam_image *image, lam_error *error)
+{
+    struct options options;
+    if (!cell_options(c, cell, more, value, &options, error))
+        return false;
     options.width = c->page.cell_width * enlarge;
     options.height = c->page.cell_height * enlarge;
     options.has_size = true;
-    if (!options.background)
-        options.background = SHEET_BACKGROUND;
-    // Sheets compare methods of local lighting: what its sums leave out comes in only where it is asked for.
-    if (!option_given(&options, "ao"))
-        options.draw.occlusion = LAM_OCCLUSION_OFF;
     if (c->exposure_fitted) {
         options.exposure_kind = EXPOSURE_LITERAL;
         options.exposure = c->exposure;
         options.draw.light_cutoff = options.draw.light_cutoff != 0 ? options.draw.light_cutoff : -1;
     }
-    struct job job = {.options = &options, .model = c->model, .device = c->device};
+    struct job job = {.options = &options, .model = c->model, .device = cell_device(c, &options, error)};
     job.times.start = clock_ms();
-    bool ok = options_parse(count, words, find_groups("render"), &options, error) >= 0 &&
-              job_draw(&job, LAM_RGBA8, &c->progress, error);
+    bool ok = job.device && job_draw(&job, LAM_RGBA8, &c->progress, error);
     for (int i = 0; ok && c->done == 0 && !options.quiet && lam_scene_warning(job.scene, i); i++)
         say_warning(lam_scene_warning(job.scene, i));
     if (ok && job.exposure_fitted && !c->exposure_fitted && !options.quiet)
@@ -130,12 +159,85 @@ static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, c
     }
     c->done++;
     lam_scene_free(job.scene);
+    if (job.device != c->device)
+        lam_device_free(job.device);
     if (ok)
         *image = job.image;
     else
         lam_image_free(&job.image);
     options_free(&options);
     return ok;
+}
+
+// --- mistakes
+
+// Whether a mistake changes the shader of this scene. False: LAM_UNSUPPORTED, if it has nothing that the mistake spoils.
+static bool mistake_applies(struct compare *c, const struct cell *cell, lam_error *error)
+{
+    struct options options;
+    if (!cell_options(c, cell, NULL, NULL, &options, error))
+        return false;
+    options.style = LAM_SHADER_STYLE_LECTURE;
+    options.products = true; // as OpenGL draws
+    options.width = CELL_WIDTH;
+    options.height = CELL_HEIGHT;
+    struct job job = {.options = &options, .model = c->model};
+    job.times.start = clock_ms();
+    lam_shader *shader = job_shader(&job, &c->progress, error);
+    bool ok = shader != NULL;
+    lam_shader_free(shader);
+    lam_scene_free(job.scene);
+    options_free(&options);
+    return ok;
+}
+
+// Leaves out of a sheet of all mistakes those that the scene cannot show, and says which.
+static bool choose_mistakes(struct compare *c, lam_error *error)
+{
+    struct sheet *sheet = &c->sheet;
+    if (option_given(c->options, "device") && c->options->device == DEVICE_CPU)
+        return complain(
+            error, LAM_BAD_ARGUMENT,
+            "options '--device cpu' and '--across mistake': mistakes are edits of shaders, which OpenGL draws");
+    char left_out[1024] = "";
+    int kept = 0;
+    for (int i = 0; i < sheet->count; i++) {
+        const struct cell *cell = &sheet->cells[i];
+        if (cell->mistake && !shader_mistake_is_known(cell->mistake, error))
+            return false;
+        lam_error reason = {0};
+        if (mistake_applies(c, cell, &reason)) {
+            sheet->cells[kept++] = *cell;
+        } else if (cell->mistake && sheet->all && reason.code == LAM_UNSUPPORTED) {
+            size_t length = strlen(left_out);
+            snprintf(left_out + length, sizeof left_out - length, "%s%s", length ? ", " : "", cell->mistake);
+        } else {
+            *error = reason;
+            return false;
+        }
+    }
+    sheet->count = kept;
+    int rows = (kept + 5) / 6;
+    sheet->columns = (kept + rows - 1) / rows;
+    if (*left_out && !c->options->quiet)
+        say_plain("left out, since the scene has nothing that they spoil: %s\n", left_out);
+    return true;
+}
+
+static struct difference difference_of(const lam_image *a, const lam_image *b)
+{
+    const uint8_t *x = a->pixels, *y = b->pixels;
+    size_t count = 4 * (size_t)a->width * (size_t)a->height;
+    uint64_t sum = 0;
+    int largest = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (i % 4 == 3)
+            continue;
+        int off = x[i] > y[i] ? x[i] - y[i] : y[i] - x[i];
+        sum += (uint64_t)off;
+        largest = off > largest ? off : largest;
+    }
+    return (struct difference){(double)sum / (255.0 * 0.75 * (double)count), largest / 255.0};
 }
 
 // --- the brightest highlight
@@ -250,7 +352,13 @@ static void draw_caption(struct compare *c, const struct cell *cell, int left, i
     // The options of the picture as typed.
     char line[512];
     const char *words[CELL_WORDS + 2];
-    join(words, words_of(c, cell, words), line);
+    const struct difference *d = &c->differences[cell - c->sheet.cells];
+    if (cell->mistake && d->largest == 0)
+        snprintf(line, sizeof line, "not visible in this scene");
+    else if (cell->mistake)
+        snprintf(line, sizeof line, "mean difference %.4f, at most %.2f", d->mean, d->largest);
+    else
+        join(words, words_of(c, cell, words), line);
     draw_words(c, (struct point){middle, top + 55 * u}, width, line);
 }
 
@@ -342,7 +450,13 @@ static bool draw_sheet(struct compare *c, lam_error *error)
         if (!draw_cell(c, cell, 1, NULL, NULL, &image, error))
             return false;
         bool ok = draw_image(&c->drawing, &image, left, top, caption_of(c, cell), error);
-        lam_image_free(&image);
+        if (ok && c->sheet.mistakes && i == 0) {
+            c->right = image;
+        } else {
+            if (ok && c->sheet.mistakes)
+                c->differences[i] = difference_of(&image, &c->right);
+            lam_image_free(&image);
+        }
         if (!ok)
             return false;
         if (c->sheet.inset && !draw_inset(c, cell, box, left, top, error))
@@ -388,6 +502,11 @@ static void print_json(const struct compare *c, const char *path)
                 json_text(&json, NULL, own[k + 1]);
             }
         json_close(&json, ']');
+        if (c->sheet.mistakes) {
+            json_text(&json, "mistake", cell->mistake);
+            json_number(&json, "mean_difference", c->differences[i].mean);
+            json_number(&json, "largest_difference", c->differences[i].largest);
+        }
         json_close(&json, '}');
     }
     json_close(&json, ']');
@@ -476,12 +595,16 @@ int run_compare(int operand_count, char **operands, const struct options *option
         struct sandbox_paths paths = {0};
         sandbox_add_input(&paths, c.model);
         sandbox_add_output(&paths, path);
-        ok = sandbox_start(options, &paths, &error);
+        struct options drawn = *options;
+        if (c.sheet.mistakes && drawn.device == DEVICE_AUTO)
+            drawn.device = DEVICE_GL;
+        ok = sandbox_start(&drawn, &paths, &error);
     }
     if (ok) {
         c.device = device_option_make(options, &error);
         progress_start(&c.progress, c.model, console_is_terminal() && !options->quiet);
-        ok = c.device && find_defaults(&c, &error) && lay_out(&c, path, &error) && draw_sheet(&c, &error);
+        ok = c.device && find_defaults(&c, &error) && (!c.sheet.mistakes || choose_mistakes(&c, &error)) &&
+             lay_out(&c, path, &error) && draw_sheet(&c, &error);
         progress_end(&c.progress);
         ok = ok && drawing_write(&c.drawing, path, &error);
         if (ok && options->json)
@@ -490,6 +613,7 @@ int run_compare(int operand_count, char **operands, const struct options *option
             say_plain("%s  %dx%d  %d pictures\n", strcmp(path, "-") == 0 ? "standard output" : path, c.drawing.width,
                       c.drawing.height, c.sheet.count);
         lam_device_free(c.device);
+        lam_image_free(&c.right);
         drawing_free(&c.drawing);
     }
     free(path);

@@ -5,7 +5,8 @@
 
 lam_device *device_option_make(const struct options *o, lam_error *error)
 {
-    bool gl = o->device == DEVICE_GL || o->device == DEVICE_GLES || (o->device == DEVICE_AUTO && o->gl_device);
+    bool gl = o->lecture_device || o->device == DEVICE_GL || o->device == DEVICE_GLES ||
+              (o->device == DEVICE_AUTO && o->gl_device);
     if (o->gl_device && !gl) {
         complain(error, LAM_BAD_ARGUMENT, "options '--device cpu' and '--gl-device' cannot be used together");
         return NULL;
@@ -15,7 +16,10 @@ lam_device *device_option_make(const struct options *o, lam_error *error)
         return NULL;
     }
     if (gl) {
-        lam_gl_params params = {.api = o->device == DEVICE_GLES ? LAM_GL_ES : LAM_GL_CORE, .device = o->gl_device};
+        lam_gl_params params = {.api = o->device == DEVICE_GLES ? LAM_GL_ES : LAM_GL_CORE,
+                                .device = o->gl_device,
+                                .lecture = o->lecture_device,
+                                .mistake = o->lecture_device ? o->mistake : NULL};
         return lam_device_gl(&params, error);
     }
     lam_cpu_params params = {.threads = o->threads, .isa = (lam_isa)o->isa};

@@ -896,7 +896,10 @@ const struct option option_table[] = {
      "if they contain commas, as those of `light` and `material` do "
      "(`light=point;directional:color=red,frame=camera`). The default values are the words of the option; for "
      "`shininess` 10, 50 and 1000, for `light` one light of each type, for `show`, also called `term`, the five "
-     "terms. If the option is given twice, the first makes the rows of a grid and the second its columns.",
+     "terms. If the option is given twice, the first makes the rows of a grid and the second its columns. "
+     "`mistake=A,B`, or `mistake` for all that the scene can show, draws shaders with known mistakes beside the right "
+     "one, by "
+     "OpenGL, with their differences (`lambent shader --mistake list`).",
      .kind = VALUE_VARIED, .store = store_across, .others = "vary grid columns rows", FIELD(across)},
 
     {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or degrees.", NULL,

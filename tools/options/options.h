@@ -161,6 +161,7 @@ struct options {
     bool products;
     int style;           // lam_shader_style
     const char *mistake; // the id of one, or "list"; NULL: none
+    bool lecture_device; // OpenGL draws in the lecture style, with that mistake: the cells of a sheet
     int object;          // valid if the flag below is set
     bool has_object;
 

@@ -197,9 +197,49 @@ static const struct row *find_row(const char *option)
     return NULL;
 }
 
+// Two lights, one of which fades, the other one from behind, on a coloured surface: most mistakes can be seen.
+#define LAMP  "point:position=-1.2r/1.3r/1.7r,attenuation=0.3/0.1r/0.15r,ambient=0.2"
+#define RIM   "directional:direction=-1/-0.5/1.4,diffuse=0.4/0.45/0.55,specular=0.8"
+#define PAINT "ambient=0.3/0.12/0.08,diffuse=0.75/0.3/0.2,specular=0.5,shininess=20"
+
+static bool add_mistake(struct sheet *sheet, const char *name, lam_error *error)
+{
+    if (sheet->count == CELLS_MAX)
+        return complain(error, LAM_LIMIT, "option '--across': more than %d pictures", CELLS_MAX);
+    struct cell *cell = &sheet->cells[sheet->count++];
+    *cell = (struct cell){.mistake = name};
+    snprintf(cell->caption, sizeof cell->caption, "%s", name ? name : "As it should be");
+    return true;
+}
+
+// `values`: "all", or names separated by commas, which the caller checks.
+static bool choose_mistakes(const char *values, struct sheet *sheet, char **store, lam_error *error)
+{
+    *sheet = (struct sheet){.name = "mistake", .title = "Known mistakes", .mistakes = true};
+    const struct sheet_default defaults[] = {{"--light", LAMP}, {"--light", RIM}, {"--material", PAINT}};
+    memcpy(sheet->defaults, defaults, sizeof defaults);
+    sheet->all = strcmp(values, "all") == 0;
+    bool ok = add_mistake(sheet, NULL, error);
+    lam_shader_mistake mistake;
+    for (int i = 0; ok && sheet->all && lam_shader_mistake_row(i, &mistake); i++)
+        ok = add_mistake(sheet, mistake.id, error);
+    *store = ok && !sheet->all ? strdup(values) : NULL;
+    if (ok && !sheet->all && !*store)
+        return complain(error, LAM_LIMIT, "out of memory");
+    for (char *name = *store, *end; ok && name; name = end) {
+        end = strchr(name, ',');
+        if (end)
+            *end++ = 0;
+        ok = add_mistake(sheet, name, error);
+    }
+    return ok;
+}
+
 static bool choose_across(const char *across, struct sheet *sheet, char **store, lam_error *error)
 {
     size_t length = strcspn(across, "=");
+    if (length == 7 && memcmp(across, "mistake", 7) == 0)
+        return choose_mistakes(across[length] ? across + length + 1 : "all", sheet, store, error);
     bool term = length == 4 && memcmp(across, "term", 4) == 0; // another name of --show
     const struct option *option = term ? find_option("show", 4, error) : find_option(across, length, error);
     if (!option)
@@ -290,6 +330,10 @@ bool sheet_choose(const struct options *options, struct sheet *sheet, char *stor
     if (across->count == 1)
         return choose_across(across->items[0], sheet, &store[0], error);
     struct sheet lines, columns;
+    for (int i = 0; i < 2; i++)
+        if (strncmp(across->items[i], "mistake", 7) == 0)
+            return complain(error, LAM_BAD_ARGUMENT,
+                            "option '--across': mistakes stand alone; expected no other '--across' beside them");
     return choose_across(across->items[0], &lines, &store[0], error) &&
            choose_across(across->items[1], &columns, &store[1], error) && cross(&lines, &columns, sheet, error);
 }

@@ -4,13 +4,14 @@
 
 #include "options.h"
 
-enum { CELLS_MAX = 24, CELL_WORDS = 8, SHEET_DEFAULTS_MAX = 4 };
+enum { CELLS_MAX = 64, CELL_WORDS = 8, SHEET_DEFAULTS_MAX = 4 };
 
 struct cell {
     char caption[96];
     const char *words[CELL_WORDS]; // options of this picture, after those of the command line; ends with NULL
     // Changes of the sheet's default material, as --material takes them, for this picture; NULL: none.
     const char *look;
+    const char *mistake; // of the shader that draws it (--mistake); NULL: none
 };
 
 // An option of all pictures that holds unless it is given (sheet_defaults.h).
@@ -25,6 +26,8 @@ struct sheet {
     int columns;
     bool inset;  // frame and enlarge the brightest highlight
     bool across; // a row of variants: each picture's words are options with their values
+    // The first picture is right, the others have mistakes. With `all`, those that the scene cannot show are left out.
+    bool mistakes, all;
     struct sheet_default defaults[SHEET_DEFAULTS_MAX + 1];
     int count;
     struct cell cells[CELLS_MAX];

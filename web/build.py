@@ -12,11 +12,12 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(HERE)
 NEEDS = {"clang-19": "clang-19", "wasm-ld-19": "lld-19", "/usr/lib/llvm-19/bin/llvm-ar": "llvm-19", "dpkg-source": "dpkg-dev", "node": "nodejs",
-         "/usr/include/wasm32-wasi/stdio.h": "wasi-libc",
+         "wasm-split": "binaryen", "/usr/include/wasm32-wasi/stdio.h": "wasi-libc",
          "/usr/lib/llvm-19/lib/clang/19/lib/wasi/libclang_rt.builtins-wasm32.a": "libclang-rt-19-dev-wasm32"}
 
 
@@ -156,14 +157,36 @@ def make_offline(served):
     write(os.path.join(served, "offline_worker.js"), worker.replace("const FILES = [];", "const FILES = %s;" % json.dumps(["./"] + files)))
 
 
+# What the module uses of WebAssembly, for wasm-split.
+FEATURES = ["--enable-" + name for name in ("simd", "exception-handling", "bulk-memory", "nontrapping-float-to-int", "sign-ext", "mutable-globals")]
+
+
+def split(wasm, served):
+    """The served page's module in two: lambent.wasm has the functions that draw the first pictures (split.mjs), lambent-rest.wasm the others, which
+    the page fetches after the first picture, or when it needs them."""
+    parts = [os.path.join(served, name) for name in ("lambent.wasm", "lambent-rest.wasm")]
+    newest = max(os.path.getmtime(path) for path in (wasm, os.path.abspath(__file__), os.path.join(HERE, "split.mjs")))
+    if all(os.path.exists(part) and os.path.getmtime(part) > newest for part in parts):
+        return
+    with tempfile.TemporaryDirectory() as work:
+        counting, profile = os.path.join(work, "counting.wasm"), os.path.join(work, "profile")
+        call("wasm-split", *FEATURES, "--instrument", wasm, "-o", counting)
+        call("node", os.path.join(HERE, "split.mjs"), counting, profile)
+        call("wasm-split", *FEATURES, wasm, "--profile=" + profile, "-o1", parts[0], "-o2", parts[1])
+
+
 def make_page(folder, modules):
     """The page as files that a server serves, and as one file that works by itself. `modules`: the folder of lambent.wasm and check.wasm."""
     served = os.path.join(folder, "page")
     os.makedirs(served, exist_ok=True)
-    for name in modules_of(PAGE) + later_modules_of(PAGE) + modules_of(WORKER) + modules_of(CHECK_WORKER) + ["index.html", "page.css", "lambent.d.ts"]:
+    names = modules_of(PAGE) + later_modules_of(PAGE) + modules_of(WORKER) + modules_of(CHECK_WORKER) + ["index.html", "page.css", "lambent.d.ts"]
+    for name in names:
         write(os.path.join(served, name), served_file(name))
-    for name in ("lambent.wasm", "check.wasm"):
-        write(os.path.join(served, name), open(os.path.join(modules, name), "rb").read())
+    for name in set(os.listdir(served)) - set(names): # of modules that are no more
+        if name.endswith(".js") and not name.startswith("offline"):
+            os.remove(os.path.join(served, name))
+    write(os.path.join(served, "check.wasm"), open(os.path.join(modules, "check.wasm"), "rb").read())
+    split(os.path.join(modules, "lambent.wasm"), served)
     make_offline(served)
 
     style = page_file("page.css")
@@ -176,7 +199,7 @@ def make_page(folder, modules):
     page = page.replace('<script type="module" src="page.js"></script>', "")
     texts = {"worker": plain_script(WORKER), "check-worker": plain_script(CHECK_WORKER)}
     for name, file in (("wasm", "lambent.wasm"), ("check-wasm", "check.wasm")):
-        texts[name] = packed_text(open(os.path.join(served, file), "rb").read())
+        texts[name] = packed_text(open(os.path.join(modules, file), "rb").read())
     inside = "".join('<script type="text/plain" id="%s">%s</script>\n' % row for row in texts.items())
     page = page.replace("</body>", '%s<script type="module">%s</script>\n</body>' % (inside, script))
     write(os.path.join(folder, "lambent.html"), page)

@@ -69,8 +69,13 @@ export interface Options {
   options: Option[];
 }
 
+/** The second part of a module in two parts is needed; this Lambent is of no use any more. */
+export class PartMissing extends Error {}
+
 export class Lambent {
-  constructor(module: WebAssembly.Module, files?: Files);
+  constructor(module: WebAssembly.Module, files?: Files, second?: WebAssembly.Module | null);
+  /** The second part of a module in two parts. */
+  complete(second: WebAssembly.Module): void;
   readonly files: Files;
   /** The picture of a command line, MODEL [OPTION...]. Throws LambentError. */
   draw(words: string[]): Picture;

@@ -10,16 +10,32 @@ import { Files, system } from './wasi.js';
 // A command line that cannot be drawn: the program's own sentence.
 export class LambentError extends Error {}
 
+// The first part of a module that is in two has been asked for what the second has: this Lambent is of no use any more.
+export class PartMissing extends Error {}
+
+// What the first part calls in place of the functions of the second (wasm-split's module "placeholder").
+const placeholder = new Proxy({}, {
+  get: () => () => {
+    throw new PartMissing();
+  },
+});
+
 export class Lambent {
   #instance;
   #printed = '';
 
-  constructor(module, files = new Files()) {
+  // `second`: of a module that is in two parts; without it, until complete() has it, calls that need it throw PartMissing.
+  constructor(module, files = new Files(), second = null) {
     this.files = files;
     const host = system(files, [], (stream, text) => (this.#printed += text));
-    this.#instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1 });
+    this.#instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, placeholder });
     host.attach(this.#instance);
+    if (second) this.complete(second);
     this.#instance.exports._initialize();
+  }
+
+  complete(second) {
+    new WebAssembly.Instance(second, { primary: this.#instance.exports });
   }
 
   #words(words) {

@@ -61,8 +61,10 @@ def table(folder):
         paths = [os.path.join(page, name) for name in names]
         return title, sum(os.path.getsize(path) for path in paths), sum(packed(path) for path in paths)
 
+    rows.append(of("its part that draws the first picture", ["lambent.wasm"]))
     rows.append(of("scripts, page and style", [name for name in files if name not in later + shaders]))
     rows.append((FIRST, rows[-2][1] + rows[-1][1], rows[-2][2] + rows[-1][2]))
+    rows.append(of("the other part of the module, fetched after the first picture", ["lambent-rest.wasm"]))
     rows.append(of("scripts that are fetched when they are used", [name for name in files if name in later]))
     rows.append(of("checks of shaders, fetched when one is checked", [*shaders, "check.wasm"]))
     return rows

@@ -503,6 +503,35 @@ async function offline() {
   await away.close();
 }
 
+// --- the module in two parts: the first picture and its turns need the first alone; what needs the second waits for it, and says when it cannot be had
+
+async function twoParts() {
+  const alone = await browser.newContext({ serviceWorkers: 'block', viewport: { width: 1100, height: 800 } }), page = await alone.newPage();
+  let refused = true;
+  await page.route('**/lambent-rest.wasm', (route) => (refused ? route.abort() : route.continue()));
+  await page.goto(origin);
+  await drawn(page, 'the first part');
+  await page.locator('#canvas').press('ArrowRight');
+  await settled(page, 'the first part, turned');
+  const turned = await pixels(page);
+  ok(await page.locator('#message').isHidden(), 'two parts: the first draws the first picture and its turns');
+  await page.locator('#canvas').press('Enter');
+  await until(page, () => !document.getElementById('message').hidden);
+  ok(true, 'two parts: what needs the second says that it cannot be had');
+  refused = false;
+  await page.locator('#canvas').press('Enter');
+  await until(page, () => document.getElementById('explain').textContent.length > 100);
+  await page.locator('#canvas').press('ArrowLeft');
+  await settled(page, 'both parts');
+  await page.locator('#canvas').press('ArrowRight');
+  await settled(page, 'both parts, turned');
+  await undoIn(page);
+  await undoIn(page);
+  await settled(page, 'both parts, back');
+  ok((await pixels(page)) === turned, 'two parts: the same pixels with both');
+  await alone.close();
+}
+
 // --- roles, names and the order of the focus; texts; narrow pages
 
 async function accessible() {
@@ -609,7 +638,7 @@ async function sequencesOf(count) {
   await page.close();
 }
 
-const parts = { gestures, words, touch, controls, explained, arrows, compared, lights, sizes, files, oneFile, offline, accessible, ...(await hasTable() ? { pseudo } : {}), random: () => sequencesOf(Number(sequences)) };
+const parts = { gestures, words, touch, controls, explained, arrows, compared, lights, sizes, files, oneFile, offline, twoParts, accessible, ...(await hasTable() ? { pseudo } : {}), random: () => sequencesOf(Number(sequences)) };
 
 async function hasTable() {
   try {

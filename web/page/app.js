@@ -10,10 +10,7 @@
 import { $ } from './dom.js';
 import { insideWords } from './inside.js';
 import { openWorker } from './start.js';
-import { State, fromFragment } from './state.js';
-
-// The first picture: one light, and a material with a highlight, so that each term of the sum is seen.
-export const START = ['teapot', '--material=ambient=#12657a,diffuse=#1688a5,specular=0.7,shininess=80', '--light=point:position=0.3r/0.5r/1r', '--ambient=0.3'];
+import { START, State, fromFragment } from './state.js';
 
 // The size that fills the stage, at most 1.6 million pixels.
 export function stageSize() {
@@ -23,7 +20,7 @@ export function stageSize() {
 }
 
 export const state = new State(fromFragment(location.hash) ?? insideWords() ?? [START[0], `--size=${stageSize()}`, ...START.slice(1)]);
-export const { call } = openWorker();
+export const { call, fetchRest } = openWorker();
 
 export const view = {
   picture: null, // of the last drawing, without its pixels

@@ -1,7 +1,8 @@
 // files.js: models come in by the menu, as files, as a folder, or dropped; nothing leaves the machine.
-import { START, call, emit, on, refuse, state, view } from './app.js';
+import { call, emit, on, refuse, state, view } from './app.js';
 import { $ } from './dom.js';
 import { droppedFiles } from './dropped.js';
+import { START } from './state.js';
 import { text } from './strings.js';
 
 const MODELS = /\.(obj|stl|ply|gltf|glb|json)$/i;

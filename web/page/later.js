@@ -1,5 +1,5 @@
 // later.js: the parts of the page that are fetched when they are used, and the tabs of those that have one.
-import { on, refuse, state } from './app.js';
+import { fetchRest, on, refuse, state } from './app.js';
 import { $ } from './dom.js';
 import { addTab } from './tabs.js';
 import { text } from './strings.js';
@@ -17,6 +17,7 @@ export async function explainAt(across, down) {
 }
 
 on('still', () => {
+  fetchRest().catch(() => {}); // what needs it asks again, and says why it cannot be had
   if (state.values('light').length) used(import('./handles.js'));
 });
 

@@ -16,16 +16,34 @@ export function openWorker() {
     }
     return new Blob(parts).arrayBuffer();
   };
-  return caller(worker, load(new URL('lambent.wasm', import.meta.url)));
+  const rest = () => fetch(new URL('lambent-rest.wasm', import.meta.url)).then((answer) => {
+    if (!answer.ok) throw new Error(text('notLoaded', { name: 'lambent-rest.wasm', code: answer.status }));
+    return answer.arrayBuffer();
+  });
+  return caller(worker, load(new URL('lambent.wasm', import.meta.url)), rest);
 }
 
-export function caller(worker, wasm) {
+// `rest`: fetches the second part of a module that is in two (web/build.py); null: it is whole.
+export function caller(worker, wasm, rest = null) {
   const waiting = new Map();
-  let next = 0;
+  let next = 0, complete = null;
+  const send = (message) =>
+    new Promise((resolve, reject) => {
+      message.id = next++;
+      waiting.set(message.id, { message, resolve, reject });
+      worker.postMessage(message);
+    });
+  // Once; and again after an attempt that has failed.
+  const fetchRest = () =>
+    (complete ??= rest().then((bytes) => send({ call: 'complete', wasm: bytes })).catch((error) => {
+      complete = null;
+      throw error;
+    }));
   worker.onmessage = ({ data }) => {
-    const { resolve, reject } = waiting.get(data.id);
+    const { message, resolve, reject } = waiting.get(data.id);
     waiting.delete(data.id);
-    if (data.error === undefined) resolve(data.result);
+    if (data.missing) fetchRest().then(() => send(message)).then(resolve, reject);
+    else if (data.error === undefined) resolve(data.result);
     else reject(new Error(data.error));
   };
   worker.onerror = (event) => {
@@ -34,12 +52,11 @@ export function caller(worker, wasm) {
   };
   return {
     async call(name, message) {
-      const whole = { ...message, call: name, id: next++ };
+      const whole = { ...message, call: name };
       if (name === 'start') whole.wasm = await wasm;
-      return new Promise((resolve, reject) => {
-        waiting.set(whole.id, { resolve, reject });
-        worker.postMessage(whole);
-      });
+      return send(whole);
     },
+    // What the first pictures do not need, before it is needed.
+    fetchRest: () => (rest ? fetchRest() : Promise.resolve()),
   };
 }

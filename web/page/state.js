@@ -1,6 +1,9 @@
 // state.js: the state of the page: the words of a command line. Options stand in the order in which they were given; undo and redo
 // are lists of such states, a link is one in the address, and what is drawn, shown and copied is the same list.
 
+// The first picture: one light, and a material with a highlight, so that each term of the sum is seen.
+export const START = ['teapot', '--material=ambient=#12657a,diffuse=#1688a5,specular=0.7,shininess=80', '--light=point:position=0.3r/0.5r/1r', '--ambient=0.3'];
+
 // The options that make the view; a camera takes the place of all of them.
 export const VIEW = ['view', 'azimuth', 'elevation', 'zoom', 'projection'];
 

@@ -1,13 +1,22 @@
-// worker.js: draws in a thread of its own. Messages: {id, call, ...}; answers: {id, result} or {id, error}. Of drawings that wait,
-// the page sends the newest alone.
-import { Lambent, LambentError } from './lambent.js';
+// worker.js: draws in a thread of its own. Messages: {id, call, ...}; answers: {id, result}, {id, error}, or {id, missing}: the call needs the second
+// part of the module, which the page fetches, and then asks again. Of drawings that wait, the page sends the newest alone.
+import { Lambent, LambentError, PartMissing } from './lambent.js';
 
-let lambent = null;
+let lambent = null, first = null, broken = false;
 
 const calls = {
   async start({ wasm }) {
-    lambent = new Lambent(await WebAssembly.compile(wasm));
+    first = await WebAssembly.compile(wasm);
+    lambent = new Lambent(first);
     return lambent.options();
+  },
+  // A Lambent that has asked for the second part is replaced; one that has not yet only gets it.
+  async complete({ wasm }) {
+    const second = await WebAssembly.compile(wasm);
+    if (broken) lambent = new Lambent(first, lambent.files, second);
+    else lambent.complete(second);
+    broken = false;
+    return null;
   },
   files({ files }) {
     for (const path of lambent.files.list()) lambent.files.delete(path);
@@ -25,10 +34,14 @@ const calls = {
 
 self.onmessage = async ({ data }) => {
   try {
+    if (broken && data.call !== 'complete') throw new PartMissing();
     const result = await calls[data.call](data);
     const moved = result?.pixels ? [result.pixels.buffer] : [];
     self.postMessage({ id: data.id, result }, moved);
   } catch (error) {
-    self.postMessage({ id: data.id, error: error.message, refused: error instanceof LambentError });
+    if (error instanceof PartMissing) {
+      broken = true;
+      self.postMessage({ id: data.id, missing: true });
+    } else self.postMessage({ id: data.id, error: error.message, refused: error instanceof LambentError });
   }
 };

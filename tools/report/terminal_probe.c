@@ -16,7 +16,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { WAIT_MS = 500 };
+enum { WAIT_MS = 500, WAIT_MAX_MS = 60000 };
 
 static bool env_is(const char *name, const char *value)
 {
@@ -83,10 +83,19 @@ static const char *find_attributes(const char *text)
     return NULL;
 }
 
+// LAMBENT_TERM_WAIT: the milliseconds that a terminal at the end of a slow line has to answer.
+static int wait_ms(void)
+{
+    const char *text = getenv("LAMBENT_TERM_WAIT");
+    char *end;
+    long wanted = text && *text ? strtol(text, &end, 10) : WAIT_MS;
+    return text && *text && (*end || wanted < 0) ? WAIT_MS : wanted > WAIT_MAX_MS ? WAIT_MAX_MS : (int)wanted;
+}
+
 // Reads until the last answer is there, or time is over.
 static void read_answers(int file, char *text, size_t size)
 {
-    int64_t end = now_ms() + WAIT_MS;
+    int64_t end = now_ms() + wait_ms();
     size_t length = 0;
     text[0] = 0;
     while (length + 1 < size && !find_attributes(text)) {

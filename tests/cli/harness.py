@@ -6,6 +6,7 @@ import shutil
 import struct
 import subprocess
 import tempfile
+import time
 import unittest
 import zlib
 
@@ -13,6 +14,17 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 OWN_MODELS = ROOT / "tests" / "models"
 SHARED_MODELS = pathlib.Path(os.environ.get("LAMBENT_MODELS", ROOT.parent / "shared" / "models"))
 PROGRAM = os.environ.get("LAMBENT", str(ROOT / "build" / "lambent"))
+
+
+def wait_until_caught(process, number):
+    """Waits until the program catches signals; an earlier signal would end it immediately."""
+    for _ in range(1000):
+        with open(f"/proc/{process.pid}/status") as status:
+            caught = next(line for line in status if line.startswith("SigCgt")).split()[1]
+        if int(caught, 16) >> (number - 1) & 1:
+            return
+        time.sleep(0.01)
+    raise TimeoutError("the program does not catch the signal")
 
 
 class Case(unittest.TestCase):

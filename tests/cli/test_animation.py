@@ -10,7 +10,7 @@ import subprocess
 import time
 import unittest
 
-from harness import OWN_MODELS, PROGRAM, SHARED_MODELS, Case, covered, decode_png, pixel, png_chunks, read_png
+from harness import OWN_MODELS, PROGRAM, SHARED_MODELS, Case, covered, decode_png, pixel, png_chunks, read_png, wait_until_caught
 
 SMALL = ["-s", "64", "-q"]
 
@@ -384,7 +384,7 @@ class Reports(Animated):
     def test_interrupt(self):
         for name, leaves in (("a.png", r"^$"), ("{frame}.png", r"^(\d{5}\.png)?$")):
             process = subprocess.Popen([PROGRAM, "torus-knot", "--turntable", "99999", "-s", "200", "-o", name], cwd=self.folder, stderr=subprocess.PIPE)
-            time.sleep(1)
+            wait_until_caught(process, signal.SIGINT)
             process.send_signal(signal.SIGINT)
             text = process.communicate(timeout=30)[1].decode()
             self.assertEqual(process.returncode, -signal.SIGINT, text)

@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from harness import OWN_MODELS, PROGRAM, SHARED_MODELS, Case, pixel, read_png, write_png
+from harness import OWN_MODELS, PROGRAM, SHARED_MODELS, Case, pixel, read_png, write_png, wait_until_caught
 
 SCHEMA = json.loads(subprocess.run([PROGRAM, "generate", "scene-schema"], stdout=subprocess.PIPE, check=True).stdout)
 KNOWN = {"type", "enum", "const", "required", "additionalProperties", "properties", "items", "minItems", "maxItems", "minimum",
@@ -397,9 +397,9 @@ class Environment(Case):
             for seconds in ("0.02", "0.5"):  # decoding takes some 0.1 s, the cube many seconds
                 self.bad(4, *words, "-s", 16, "--time-limit", seconds, "-o", "x.png", says="time limit", timeout=10)
             started = subprocess.Popen([PROGRAM, *words, "-s", "16", "-o", "x.png"], cwd=self.folder, stderr=subprocess.PIPE)
-            time.sleep(0.5)
+            wait_until_caught(started, signal.SIGINT)
             started.send_signal(signal.SIGINT)
-            self.assertIn(b"interrupted", started.communicate(timeout=10)[1])
+            self.assertIn(b"interrupted", started.communicate(timeout=30)[1])
             self.assertEqual(started.returncode, -signal.SIGINT)
             self.bad(4, *words, "-s", 16, "--memory-limit", "100M", "-o", "x.png", says="memory limit", timeout=10)
 

@@ -13,7 +13,7 @@ import threading
 import time
 import unittest
 
-from harness import OWN_MODELS, PROGRAM, ROOT, Case, read_png, write_png
+from harness import OWN_MODELS, PROGRAM, ROOT, Case, read_png, write_png, wait_until_caught
 from test_batch import xxh64
 
 JOBS = int(os.environ.get("LAMBENT_JOBS", "300"))  # of Many; `make test-long` has 10,000
@@ -398,7 +398,7 @@ class Flow(Jobs):
             for id in ("waits", "drawn"):
                 answer = worker.answer(id, 10)
                 self.assertEqual((answer["outcome"], answer["class"], answer["exit"], answer["error"]), ("cancelled", "cancelled", 130, "teapot: cancelled"))
-            self.assertLess(time.time() - start, 3)
+            self.assertLess(time.time() - start, 15)
             self.assertEqual(worker.answer(None)["outcome"], "ignored")
             worker.say({"id": "after", "model": "in/cube.stl", "options": {"size": 8}})
             self.assertEqual(worker.answer("after")["outcome"], "written")
@@ -414,7 +414,7 @@ class Flow(Jobs):
                                  {"id": 3, "model": "in/cube.stl", "options": {"size": 500, "turntable": 100000}, "timeout_s": 0.4}, words=more)
             self.assertEqual([(a["outcome"], a["class"]) for a in found], [("failed", "limit"), ("written", "ok"), ("failed", "limit")])
             self.assertIn("the time limit of 0.4 s was reached", found[0]["error"])
-            self.assertLess(time.time() - start, 10)
+            self.assertLess(time.time() - start, 30)
 
     def test_crashes_and_hangs(self):
         """With --isolate a process that crashes, or that does nothing any more, costs its own job."""
@@ -439,13 +439,13 @@ class Flow(Jobs):
         for number in (signal.SIGINT, signal.SIGTERM):
             for more in ([], ["--isolate"]):
                 worker = self.start("-j", "2", *more)
-                worker.say(*({"id": i, "model": "teapot", "options": {"size": 8000, "samples": 16}, "output": f"out/{i}.png"} for i in range(5)))
-                time.sleep(0.4)
+                worker.say(*({"id": i, "model": "teapot", "options": {"size": 8000, "samples": 16}, "output": f"out/{i}.png"} for i in range(5)), {"cancel": "nobody"})
+                self.assertEqual(worker.answer(None, 20)["outcome"], "ignored")  # all five have been read
                 start = time.time()
                 worker.process.send_signal(number)
                 self.assertEqual(worker.end(20), -number, worker.err)
-                self.assertLess(time.time() - start, 3)
-                self.assertEqual(sorted((a["id"], a["outcome"], a["exit"]) for a in worker.answers), [(i, "cancelled", 130) for i in range(5)])
+                self.assertLess(time.time() - start, 15)
+                self.assertEqual(sorted((a["id"], a["outcome"], a["exit"]) for a in worker.answers if a["id"] is not None), [(i, "cancelled", 130) for i in range(5)])
                 self.assertIn(b"interrupted: 0 of 5 pictures written", worker.err)
                 self.assertEqual(os.listdir(self.folder / "out"), [])
 
@@ -455,11 +455,12 @@ class Flow(Jobs):
         for i in range(6):
             process.stdin.write(json.dumps({"id": i, "model": "teapot", "options": {"size": 600}}).encode() + b"\n")
         process.stdin.flush()
+        wait_until_caught(process, signal.SIGTERM)
         time.sleep(1)
         start = time.time()
         process.send_signal(signal.SIGTERM)
-        self.assertEqual(process.wait(10), -signal.SIGTERM)
-        self.assertLess(time.time() - start, 3)
+        self.assertEqual(process.wait(30), -signal.SIGTERM)
+        self.assertLess(time.time() - start, 15)
         process.communicate()
 
     def test_output_is_closed(self):
@@ -475,7 +476,7 @@ class Flow(Jobs):
                 process.stdout.close()  # its input stays open
                 start = time.time()
                 self.assertEqual(process.wait(30), 5)
-                self.assertLess(time.time() - start, 10)
+                self.assertLess(time.time() - start, 30)
                 text = process.stderr.read().decode()
                 self.assertEqual(text.count("standard output: cannot write answers: Broken pipe"), 1, text)
                 process.stdin.close()

@@ -399,6 +399,12 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     if (ok && is_batch && b.tally.failed + b.tally.failed_before && !b.failed)
         code = EXIT_SOME_FAILED;
     batch_jobs_close(b.jobs);
+    // A model alone says so itself, unless it had not been begun.
+    if (interrupted() && ok && !is_batch && plan->count == 1 && !b.interrupted &&
+        b.pictures[0].outcome == PICTURE_OPEN) {
+        complain(&error, LAM_CANCELLED, "%.400s: interrupted", plan->models[0].path);
+        say_error(error.text);
+    }
     free_batch(&b);
     if (interrupted()) {
         fflush(stdout);

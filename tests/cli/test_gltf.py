@@ -128,6 +128,17 @@ class Gltf(GltfCase):
                 self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
         self.given.update(["a.png", "b.png", "a.json"])
 
+    def test_lights_that_leave_the_model_black(self):
+        """Where most of what is seen gets none of the file's light, a warning names the studio."""
+        light = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 30}]}}
+        for z, warns in ((-30, True), (30, False)):
+            model = self.model(nodes=[{"mesh": 0}, {"mesh": 1}, {"translation": [0, 0, z], "extensions": {"KHR_lights_punctual": {"light": 0}}}, {}],
+                               materials=[{"pbrMetallicRoughness": {"metallicFactor": 0}}, {}, {}], extensions=light)
+            for more, said in ((("--view", "front"), warns), (("--view", "front", "--rig", "studio"), False)):
+                text = self.good(model, "-s", "48", "-o", "a.png", *more).stderr
+                self.assertEqual(b"black; --rig studio lights it in their place" in text, said, (z, more, text))
+        self.given.add("a.png")
+
     def test_moved_lights(self):
         """A scene file that places a model places its lights and cameras too."""
         light = {"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 30, "name": "lamp"}]}}

@@ -1,5 +1,6 @@
 # test_shadows.py: --shadows and what belongs to it.
 import json
+import struct
 import unittest
 
 from harness import Case, pixel
@@ -139,14 +140,16 @@ class Shadows(Case):
 
     def test_lamp_of_an_environment(self):
         """The studio's brightest lamp casts shadows where it is the light; where nothing is in its way the picture stays."""
+        (self.folder / "even.pfm").write_bytes(b"PF\n16 8\n-1.0\n" + struct.pack("<384f", *[0.5] * 384))
         look = ("--material", "#cccccc,metallic=0,roughness=0.9", "-s", "64x48", "--ao", "off", "--samples", 1, "-q")
-        for shape, environment, least, most in (("sphere", "studio", 0, 16), ("torus-knot", "studio", 20, 255), ("torus-knot", "sky", 0, 0)):
+        for shape, environment, least, most in (("sphere", "studio", 0, 16), ("torus-knot", "studio", 20, 255), ("torus-knot", "sky", 5, 60),
+                                                ("torus-knot", "even.pfm", 0, 0)):
             for words, to in (((), "a.png"), (("--shadows",), "b.png")):
                 self.good(shape, *look, "--environment", environment, *words, "-o", to)
             told = json.loads(self.run_program("diff", "a.png", "b.png", "--json").stdout)
             self.assertTrue(least <= round(255 * told["maximum"]) <= most, (shape, environment, told["maximum"]))
         text = self.good("explain", "torus-knot", "32,20", *look[:-1], "--shadows").stdout
-        self.assertIn("the environment's lamp", text)
+        self.assertIn(b"the environment's lamp", text)
 
     def test_what_is_refused(self):
         self.bad(1, self.scene(), "--shadow-samples", "0", says="1 to 256")

@@ -375,7 +375,8 @@ bool job_draw_frames(struct job *job, double from, double span, int count, lam_f
     job->draw = draw_params_of(o, job->rig);
     job->draw.background = job->background;
     if (!show_option_apply(o->show, job->scene, &job->draw, error) ||
-        !fit_exposure(job, &job->draw, o->width, o->height, error))
+        !fit_exposure(job, &job->draw, o->width, o->height, error) ||
+        !job_note_darkness(job, &job->draw, o->width, o->height, error))
         return false;
     bool ok = true;
     for (int i = 0; ok && i < count; i++) {

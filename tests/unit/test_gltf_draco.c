@@ -249,6 +249,23 @@ static lam_scene *load_bomb(const lam_control *control, lam_error *error)
     return lam_scene_load_memory(glb, sizeof glb, "bomb.glb", NULL, control, error);
 }
 
+// AddressSanitizer ends a program in C whose first library in C++ is opened later and throws: it has looked for the function in vain.
+#if defined __has_feature
+#if __has_feature(address_sanitizer)
+#define CANNOT_THROW
+#endif
+#endif
+#if defined __SANITIZE_ADDRESS__
+#define CANNOT_THROW
+#endif
+
+static void skip_if_it_cannot_throw(void)
+{
+#ifdef CANNOT_THROW
+    skip();
+#endif
+}
+
 // What Draco takes is counted while it takes it: more than the limit is an error, whatever the header said.
 static void memory_counted(void **state)
 {
@@ -259,6 +276,7 @@ static void memory_counted(void **state)
         fail_msg("%s", error.text);
     assert_int_equal(lam_scene_triangle_count(scene), FACES);
     lam_scene_free(scene);
+    skip_if_it_cannot_throw();
     assert_null(load_bomb(&(lam_control){.memory_limit_bytes = 100000000}, &error));
     assert_int_equal(error.code, LAM_LIMIT);
     double limit, used, more;
@@ -272,6 +290,7 @@ static void memory_counted(void **state)
 static void too_long(void **state)
 {
     (void)state;
+    skip_if_it_cannot_throw();
     lam_error error = {0};
     assert_null(load_bomb(&(lam_control){.time_limit_s = 0.01}, &error));
     assert_int_equal(error.code, LAM_LIMIT);

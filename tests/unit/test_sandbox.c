@@ -82,9 +82,9 @@ static int remove_files(void **state)
     return system(command);
 }
 
-static void enter(void)
+static void enter(enum sandbox_filter kind)
 {
-    struct sandbox_paths paths = {0};
+    struct sandbox_paths paths = {.serves = kind == SANDBOX_SERVES};
     struct sandbox_state state;
     char path[200];
     path_of("in", path);
@@ -291,7 +291,7 @@ static const struct attempt attempts[] = {
 };
 
 // The status of a process that enters the sandbox, or not, and runs an attempt.
-static int status_of(const struct attempt *attempt, bool sandboxed)
+static int status_of(const struct attempt *attempt, bool sandboxed, enum sandbox_filter kind)
 {
     int status = 0;
     fflush(NULL);
@@ -299,7 +299,7 @@ static int status_of(const struct attempt *attempt, bool sandboxed)
     assert_true(child >= 0);
     if (child == 0) {
         if (sandboxed)
-            enter();
+            enter(kind);
         _exit(attempt->run());
     }
     assert_true(waitpid(child, &status, 0) == child);
@@ -320,13 +320,54 @@ static void test_attempts(void **state)
     need_sandbox();
     int wrong = 0;
     for (size_t i = 0; i < sizeof attempts / sizeof *attempts; i++) {
-        int status = status_of(&attempts[i], true), error = WIFEXITED(status) ? WEXITSTATUS(status) : 255;
+        int status = status_of(&attempts[i], true, SANDBOX_DRAWS),
+            error = WIFEXITED(status) ? WEXITSTATUS(status) : 255;
         bool good = attempts[i].expected < 0 ? error != 0 && error < 250 : error == attempts[i].expected;
         if (!good)
             print_message("%s: %d %s\n", attempts[i].name, error, strerror(error));
         wrong += !good;
     }
     assert_int_equal(wrong, 0);
+}
+
+// A server that has its listening socket makes processes, which can hold themselves to the stricter filter, and still nothing else.
+static int stricter_process(void)
+{
+    return !sandbox_filter_install(SANDBOX_DRAWS) ? EINVAL : make_process() == EPERM ? 0 : ECHILD;
+}
+
+static int ends_process(void)
+{
+    pid_t child = fork();
+    if (child == 0) {
+        pause();
+        _exit(0);
+    }
+    return child < 0 || kill(child, SIGKILL) != 0 ? errno : waitpid(child, NULL, 0) == child ? 0 : ECHILD;
+}
+
+static int stop_parent(void) { return error_of(kill(getppid(), SIGSTOP)); }
+
+static void test_server(void **state)
+{
+    (void)state;
+    need_sandbox();
+    static const struct attempt served[] = {ATTEMPT(read_inside, 0),           ATTEMPT(thread_inside, 0),
+                                            ATTEMPT(make_process, 0),          ATTEMPT(stricter_process, 0),
+                                            ATTEMPT(ends_process, 0),          ATTEMPT(secret, EACCES),
+                                            ATTEMPT(system_file, EACCES),      ATTEMPT(dots, EACCES),
+                                            ATTEMPT(link_out, EACCES),         ATTEMPT(change_model, EACCES),
+                                            ATTEMPT(run_program, ENOSYS),      ATTEMPT(run_own_memory, ENOSYS),
+                                            ATTEMPT(inet_socket, ENOSYS),      ATTEMPT(unix_socket, ENOSYS),
+                                            ATTEMPT(socket_pair, ENOSYS),      ATTEMPT(stop_parent, ENOSYS),
+                                            ATTEMPT(make_user_space, ENOSYS),  ATTEMPT(trace_parent, ENOSYS),
+                                            ATTEMPT(raise_limit, EPERM),       ATTEMPT(type_into_terminal, ENOSYS),
+                                            ATTEMPT(mount_file_system, ENOSYS)};
+    for (size_t i = 0; i < sizeof served / sizeof *served; i++) {
+        int status = status_of(&served[i], true, SANDBOX_SERVES), error = WIFEXITED(status) ? WEXITSTATUS(status) : 255;
+        if (error != served[i].expected)
+            fail_msg("%s: %d %s", served[i].name, error, strerror(error));
+    }
 }
 
 // The attempts themselves work: without the sandbox these succeed.
@@ -339,7 +380,7 @@ static void test_without(void **state)
         ATTEMPT(folder_link_out, 0), ATTEMPT(inet_socket, 0), ATTEMPT(unix_socket, 0),  ATTEMPT(socket_pair, 0),
         ATTEMPT(traced, 0),          ATTEMPT(list_secret, 0), ATTEMPT(signal_parent, 0)};
     for (size_t i = 0; i < sizeof free_ones / sizeof *free_ones; i++) {
-        int status = status_of(&free_ones[i], false);
+        int status = status_of(&free_ones[i], false, SANDBOX_DRAWS);
         if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
             fail_msg("%s: %d", free_ones[i].name, status);
     }
@@ -360,7 +401,7 @@ static int older_thread(void)
     int error = 0;
     if (pthread_create(&thread, NULL, try_later, &error) != 0)
         return 251;
-    enter();
+    enter(SANDBOX_DRAWS);
     __atomic_store_n(&go, 1, __ATOMIC_RELEASE);
     pthread_join(thread, NULL);
     return error;
@@ -371,7 +412,7 @@ static void test_threads(void **state)
     (void)state;
     need_sandbox();
     static const struct attempt attempt = ATTEMPT(older_thread, ENOSYS);
-    int status = status_of(&attempt, false);
+    int status = status_of(&attempt, false, SANDBOX_DRAWS);
     assert_true(WIFEXITED(status));
     assert_int_equal(WEXITSTATUS(status), ENOSYS);
 }
@@ -390,7 +431,7 @@ static void test_32_bits(void **state)
     (void)state;
     need_sandbox();
     static const struct attempt attempt = ATTEMPT(call_of_32_bits, 0);
-    int status = status_of(&attempt, true);
+    int status = status_of(&attempt, true, SANDBOX_DRAWS);
     assert_true(WIFSIGNALED(status));
     assert_true(WTERMSIG(status) == SIGSYS || WTERMSIG(status) == SIGSEGV);
 }
@@ -413,7 +454,8 @@ static void test_text(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_attempts), cmocka_unit_test(test_without), cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_attempts), cmocka_unit_test(test_server),
+        cmocka_unit_test(test_without),  cmocka_unit_test(test_threads),
 #if defined(__x86_64__)
         cmocka_unit_test(test_32_bits),
 #endif

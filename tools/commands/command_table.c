@@ -8,7 +8,7 @@
 #define ALL                                                                                                            \
     (((1u << GROUP_COUNT) - 1) &                                                                                       \
      ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | 1u << GROUP_SHEET | 1u << GROUP_CHECK |            \
-       1u << GROUP_SHADER | 1u << GROUP_SHAPE | 1u << GROUP_BATCH | 1u << GROUP_ANIMATION))
+       1u << GROUP_SHADER | 1u << GROUP_SHAPE | 1u << GROUP_VIEWER | 1u << GROUP_BATCH | 1u << GROUP_ANIMATION))
 
 static const struct own_default compare_defaults[] = {
     {"output", "MODEL-SHEET.png"}, {"size", "480x400 each"}, {"background", SHEET_BACKGROUND}, {NULL, NULL}};
@@ -19,6 +19,7 @@ static const struct own_default check_defaults[] = {
     {"output", "no sheet"}, {"size", "128"}, {"tolerance", "2"}, {"memory-limit", "1Gi"}, {NULL, NULL}};
 static const struct own_default shader_defaults[] = {{"output", "standard output"}, {NULL, NULL}};
 static const struct own_default shape_defaults[] = {{"output", "NAME.png, or " FORMULA_MODEL ".png"}, {NULL, NULL}};
+static const struct own_default view_defaults[] = {{"output", NULL}, {NULL, NULL}};
 static const struct own_default diff_defaults[] = {{"output", "no picture"}, {NULL, NULL}};
 static const struct own_default plot_defaults[] = {{"output", "KIND.png"}, {"size", "1600x1000"}, {NULL, NULL}};
 static const struct own_default materials_defaults[] = {
@@ -81,6 +82,12 @@ const struct command command_table[] = {
          "Draw a built-in shape or a surface given by formulas (--parametric), or save it as OBJ, STL or PLY.",
          ALL | 1u << GROUP_SHAPE | 1u << GROUP_ANIMATION, .min_operands = 0, .max_operands = 1,
          .defaults = shape_defaults},
+    [COMMAND_view] = {"view", "MODEL|FOLDER",
+                      "Show a model in the browser, and again whenever its file changes; or the gallery of a folder.",
+                      ABOUT | 1u << GROUP_VIEWER | 1u << GROUP_PICTURE | 1u << GROUP_MODEL | 1u << GROUP_VIEW |
+                          1u << GROUP_LIGHTS | 1u << GROUP_MATERIALS | 1u << GROUP_SHADING | 1u << GROUP_LIMITS |
+                          TAKES_THREADS | TAKES_QUIET,
+                      .min_operands = 1, .max_operands = 1, .defaults = view_defaults},
     [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, .min_operands = 0, .max_operands = 0},
     [COMMAND_formats] = {"formats", NULL, "List the formats of models and pictures.", ABOUT, .min_operands = 0,
                          .max_operands = 0},
@@ -137,6 +144,8 @@ const struct example examples[] = {
      false},
     {"lambent - -o - < part.stl > part.png", "from standard input to standard output", false},
     {"lambent koala.obj -o koala.html", "a page in one file, in which the model is turned", false},
+    {"lambent view koala.obj", "shows it in the browser, and again whenever the file changes", false},
+    {"lambent view models/", "a gallery of the folder, to scroll and to click", false},
     {"lambent koala.obj --turntable 36 --fps 12", "an animated PNG in which the model turns", false},
     {"lambent koala.obj --sweep light.azimuth=0..360 -o 'light-{frame}.png'", "36 pictures, the light all around",
      false},

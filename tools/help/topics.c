@@ -21,6 +21,12 @@ const struct topic topics[] = {
      "some "
      "pictures failed. `docs/batch.md` has the details. With `--jobs -` it takes jobs from a server, a line of JSON "
      "each, and answers them (`docs/worker.md`)."},
+    {"viewer", "The viewer", BIT(VIEWER), TOPIC_NO_TABLE,
+     "`lambent view bunny.obj` shows a model in the browser, and again whenever its file changes; `lambent view "
+     "models/` is a gallery of a "
+     "folder. It serves the page of `make web` on 127.0.0.1 alone, at an address that holds a secret, and ends with "
+     "Ctrl-C. "
+     "`docs/view.md` has the details."},
     {"picture", "The picture", BIT(PICTURE), TOPIC_NO_TABLE, NULL},
     {"output", "Output", 0, TOPIC_NO_TABLE,
      "Without `-o` the picture of `models/koala.obj` is `koala.png` in the current folder. An older picture "

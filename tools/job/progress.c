@@ -26,6 +26,8 @@ void progress_start(struct progress *progress, const char *model, bool allowed)
 
 void progress_phase(struct progress *progress, double from, double span)
 {
+    if (!progress)
+        return;
     progress->from = from;
     progress->span = span;
 }

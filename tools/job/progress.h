@@ -14,7 +14,7 @@ struct progress {
 
 void progress_start(struct progress *progress, const char *model, bool allowed);
 
-// Declares the next call to be this part of the whole, as fractions of 1.
+// Declares the next call to be this part of the whole, as fractions of 1. NULL: nobody watches.
 void progress_phase(struct progress *progress, double from, double span);
 
 // lam_control's callback; `user` is a struct progress.

@@ -31,6 +31,7 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_CHECK] = "Checking shaders (check)",
     [GROUP_SHADER] = "Shaders (shader)",
     [GROUP_SHAPE] = "Formulas (shape)",
+    [GROUP_VIEWER] = "Viewer (view)",
 };
 
 static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4", 4, NULL},
@@ -988,6 +989,15 @@ const struct option option_table[] = {
      "One pair of shaders serves a whole scene, unless only some of its objects are two-sided, or only some "
      "have tangents for Kajiya-Kay.",
      .store = store_integer, FIELD(object), .has_field = offsetof(struct options, has_object), .min = 0, .max = 1e9},
+
+    {"port", 0, GROUP_VIEWER, "N", "any that is free", "The port of 127.0.0.1 that the viewer listens on.", NULL,
+     .store = store_integer, FIELD(port), .min = 1, .max = 65535},
+    {"idle", 0, GROUP_VIEWER, "MINUTES", "30", "End when no page has been open for so long.", NULL,
+     .store = store_number, .others = "idle-timeout", FIELD(idle_minutes),
+     .has_field = offsetof(struct options, has_idle), .min = 0.001, .max = 1e6},
+    {"no-open", 0, GROUP_VIEWER, NULL, NULL, "Print the address, and open no browser.",
+     "Without a display none is opened either.", .store = store_switch, .others = "no-browser headless",
+     FIELD(no_open)},
 
     {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
      "By default the environment's `LAMBENT_FONT` names the font, else it is the first that is installed of "

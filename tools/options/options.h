@@ -130,6 +130,11 @@ struct options {
     int ahead;                 // 0: the default
     uint64_t line_limit_bytes; // 0: the default
 
+    // Viewer
+    int port;            // 0: any that is free
+    double idle_minutes; // valid if the flag below is set
+    bool has_idle, no_open;
+
     // Comparison of pictures
     double tolerance, gain;
 
@@ -235,6 +240,7 @@ enum option_group {
     GROUP_CHECK,
     GROUP_SHADER,
     GROUP_SHAPE,
+    GROUP_VIEWER,
     GROUP_ABOUT, // accepted by every command
     GROUP_COUNT,
 };

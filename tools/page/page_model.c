@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 #include "console.h"
@@ -89,7 +90,7 @@ static bool add_files(const struct job *job, struct page_model *model, lam_error
     return ok;
 }
 
-static bool add_environment(const struct options *options, struct page_model *model, lam_error *error)
+bool page_model_add_environment(const struct options *options, struct page_model *model, lam_error *error)
 {
     const char *text = options->environment, *paths[LAM_FACE_COUNT] = {text};
     if (!text || environment_option_built_in(text))
@@ -118,7 +119,7 @@ static bool add_environment(const struct options *options, struct page_model *mo
 bool page_model_list(const struct job *job, struct page_model *model, lam_error *error)
 {
     *model = (struct page_model){0};
-    bool ok = add_files(job, model, error) && add_environment(job->options, model, error);
+    bool ok = add_files(job, model, error) && page_model_add_environment(job->options, model, error);
     if (!ok)
         page_model_free(model);
     return ok;
@@ -135,10 +136,40 @@ void page_model_free(struct page_model *model)
     *model = (struct page_model){0};
 }
 
+// What a file may hold that the page's module has no decoder for.
+static const struct {
+    const char *ending, *extension; // NULL: not by it
+    const char *sentence;
+} unreadable[] = {
+    {".webp", "EXT_texture_webp", "the page cannot read pictures in WebP"},
+    {".exr", NULL, "the page cannot read pictures in EXR"},
+    {NULL, "KHR_draco_mesh_compression", "the page cannot read meshes compressed by Draco"},
+};
+
+static bool has_one(const struct page_model *model, const lam_file_info *info, size_t kind)
+{
+    bool found = false;
+    for (int i = 0; unreadable[kind].ending && i < model->count; i++) {
+        const char *dot = strrchr(model->files[i].path, '.');
+        found |= dot && strcasecmp(dot, unreadable[kind].ending) == 0;
+    }
+    for (int i = 0; unreadable[kind].extension && i < info->extension_count; i++)
+        found |= strcmp(info->extensions[i].name, unreadable[kind].extension) == 0;
+    return found;
+}
+
+const char *page_model_lacks(const struct page_model *model, const lam_file_info *info, int index)
+{
+    for (size_t kind = 0; kind < sizeof unreadable / sizeof *unreadable; kind++)
+        if (has_one(model, info, kind) && index-- == 0)
+            return unreadable[kind].sentence;
+    return NULL;
+}
+
 // --- words
 
 // Whether an option belongs to the picture: those that the page has controls for. A look is in the options that it sets.
-static bool is_of_picture(const struct option *option)
+bool page_model_has_option(const struct option *option)
 {
     static const char *const without[] = {"output", "save-scene", "durable", "compress", "quality", "look"};
     for (size_t i = 0; i < sizeof without / sizeof *without; i++)
@@ -157,7 +188,7 @@ static void put_option(void *user, const char *name, const char *value)
 {
     struct words *words = user;
     char *word = NULL;
-    if (!is_of_picture(option_find(name)))
+    if (!page_model_has_option(option_find(name)))
         return;
     if (strcmp(name, "environment") == 0 && words->model->environment)
         value = words->model->environment;

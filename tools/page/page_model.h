@@ -20,7 +20,16 @@ struct page_model {
 // Lists the files of a loaded model, and those of --environment. False: LAM_UNSUPPORTED (one that lies outside of the model's folder),
 // LAM_LIMIT.
 bool page_model_list(const struct job *job, struct page_model *model, lam_error *error);
+
+// Adds the files of --environment alone.
+bool page_model_add_environment(const struct options *options, struct page_model *model, lam_error *error);
 void page_model_free(struct page_model *model);
+
+// What the page cannot read of them, as a sentence for each kind, from 0; NULL: nothing more.
+const char *page_model_lacks(const struct page_model *model, const lam_file_info *info, int index);
+
+// Whether an option belongs to the picture: those that the page has controls for. A look is in the options that it sets.
+bool page_model_has_option(const struct option *option);
 
 // Prints the words of the picture's command line as a list in JSON, in which no '<' is left: the model, and an option with its value in
 // one word. `given`: the options of the command line. Options of the machine (threads, device, limits) and of files to write are left out.

@@ -4,7 +4,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base64.h"
 #include "console.h"
@@ -37,25 +36,11 @@ static bool check(const struct job *job, char **page, lam_error *error)
     return *page && output_check(job->output, job->model, output_given(o->output), error);
 }
 
-// What a file may hold that the page's module has no decoder for.
 static void warn_formats(const struct job *job, const struct page_model *model)
 {
-    static const char *const endings[] = {".webp", ".exr"};
-    const lam_file_info *info = lam_scene_file_info(job->scene);
-    for (size_t k = 0; k < sizeof endings / sizeof *endings; k++)
-        for (int i = 0; i < model->count; i++) {
-            const char *dot = strrchr(model->files[i].path, '.');
-            if (dot && strcasecmp(dot, endings[k]) == 0)
-                lam_scene_add_warning(job->scene, k ? "the page cannot read pictures in EXR"
-                                                    : "the page cannot read pictures in WebP");
-        }
-    for (int i = 0; i < info->extension_count; i++) {
-        const char *name = info->extensions[i].name;
-        if (strcmp(name, "KHR_draco_mesh_compression") == 0)
-            lam_scene_add_warning(job->scene, "the page cannot read meshes compressed by Draco");
-        if (strcmp(name, "EXT_texture_webp") == 0)
-            lam_scene_add_warning(job->scene, "the page cannot read pictures in WebP");
-    }
+    const char *lacks;
+    for (int i = 0; (lacks = page_model_lacks(model, lam_scene_file_info(job->scene), i)); i++)
+        lam_scene_add_warning(job->scene, lacks);
 }
 
 static bool put_file(FILE *out, const struct page_file *file, size_t *left, lam_error *error)

@@ -190,7 +190,7 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
         state->landlock = 0;
         state->reason = "the kernel refuses Landlock";
     }
-    if (state->filter && !sandbox_filter_install()) {
+    if (state->filter && !sandbox_filter_install(paths->serves ? SANDBOX_SERVES : SANDBOX_DRAWS)) {
         state->filter = false;
         state->reason = state->landlock ? "the kernel refuses the seccomp filter"
                                         : "the kernel refuses Landlock and the seccomp filter";

@@ -25,6 +25,7 @@ struct sandbox_paths {
     int count, capacity;
     bool failed;      // memory was out: sandbox_enter fails
     bool scene_files; // some of them may name files anywhere (sandbox_start.c)
+    bool serves;      // the filter is SANDBOX_SERVES
 };
 
 // Adds a path, which is copied. What does not exist when the sandbox is entered stays out of reach.
@@ -50,7 +51,14 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
 enum { SANDBOX_TEXT_SIZE = 160 };
 const char *sandbox_text(const struct sandbox_state *state, char out[SANDBOX_TEXT_SIZE]);
 
-// sandbox_filter.c: installs the seccomp filter for all threads. False: the kernel refuses; errno says why.
-bool sandbox_filter_install(void);
+// What the seccomp filter lets a process do.
+enum sandbox_filter {
+    SANDBOX_DRAWS, // read, draw and write: no other process, no socket
+    SANDBOX_SERVES, // also: accept connections on sockets that listen already, watch files, make processes of its own program, which may
+    // then install SANDBOX_DRAWS, and end them. No socket is made, bound or connected, no program is run.
+};
+
+// sandbox_filter.c: installs a seccomp filter for all threads, in addition to those that hold. False: the kernel refuses; errno says why.
+bool sandbox_filter_install(enum sandbox_filter kind);
 
 #endif

@@ -13,6 +13,7 @@
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <sched.h>
+#include <signal.h>
 #include <stddef.h>
 #include <sys/ioctl.h>
 #include <sys/prctl.h>
@@ -168,6 +169,15 @@ static const unsigned allowed[] = {
 #endif
 };
 
+// Those of SANDBOX_SERVES besides.
+static const unsigned served[] = {
+    SYS_accept4,    SYS_recvfrom,   SYS_sendto,    SYS_sendmsg,     SYS_sendfile,          SYS_shutdown,
+    SYS_setsockopt, SYS_getsockopt, SYS_epoll_ctl, SYS_epoll_pwait, SYS_inotify_add_watch, SYS_wait4,
+#if defined(__x86_64__)
+    SYS_epoll_wait,
+#endif
+};
+
 // Allowed where the low half of an argument is one of some values: programs pass no others here.
 struct condition {
     unsigned call;
@@ -187,10 +197,22 @@ static const struct condition conditions[] = {
     {SYS_prctl, 0, 5, {PR_SET_NAME, PR_GET_NAME, PR_SET_VMA, PR_GET_DUMPABLE, PR_GET_SECCOMP}},
 };
 
+// Those of SANDBOX_SERVES: signals that end its processes or cancel their work (Landlock lets none out from version 6 on), what a new
+// process does to itself, and its stricter filter.
+static const struct condition served_conditions[] = {
+    {SYS_kill, 1, 2, {SIGKILL, SIGUSR1}},
+    {SYS_prctl, 0, 6, {PR_SET_NAME, PR_GET_NAME, PR_SET_VMA, PR_GET_DUMPABLE, PR_GET_SECCOMP, PR_SET_PDEATHSIG}},
+    {SYS_seccomp, 0, 1, {SECCOMP_SET_MODE_FILTER}},
+};
+
 enum {
     ALLOWED = sizeof allowed / sizeof *allowed,
+    SERVED = sizeof served / sizeof *served,
     CONDITIONS = sizeof conditions / sizeof *conditions,
-    MAX = 3 * ALLOWED
+    SERVED_CONDITIONS = sizeof served_conditions / sizeof *served_conditions,
+    NAMESPACES =
+        CLONE_NEWNS | CLONE_NEWCGROUP | CLONE_NEWUTS | CLONE_NEWIPC | CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNET,
+    MAX = 3 * (ALLOWED + SERVED)
 };
 
 struct program {
@@ -218,18 +240,18 @@ static void if_call(struct program *p, unsigned call, unsigned char length)
     put(p, BPF_JMP | BPF_JEQ | BPF_K, call, 0, length);
 }
 
-static void build(struct program *p, unsigned self)
+static void allow(struct program *p, const unsigned *calls, size_t count)
 {
-    load(p, offsetof(struct seccomp_data, arch));
-    put(p, BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0); // else calls of 32 bits, with other numbers
-    end(p, SECCOMP_RET_KILL_PROCESS);
-    load(p, offsetof(struct seccomp_data, nr));
-    for (size_t i = 0; i < ALLOWED; i++) { // x32's numbers are above all of these
-        put(p, BPF_JMP | BPF_JEQ | BPF_K, allowed[i], 0, 1);
+    for (size_t i = 0; i < count; i++) { // x32's numbers are above all of these
+        put(p, BPF_JMP | BPF_JEQ | BPF_K, calls[i], 0, 1);
         end(p, SECCOMP_RET_ALLOW);
     }
-    for (size_t i = 0; i < CONDITIONS; i++) {
-        const struct condition *c = &conditions[i];
+}
+
+// The first condition of a call decides.
+static void allow_some(struct program *p, const struct condition *list, size_t count)
+{
+    for (const struct condition *c = list; c < list + count; c++) {
         if_call(p, c->call, (unsigned char)(c->count + 3));
         load(p, ARGUMENT(c->argument));
         for (int k = 0; k < c->count; k++)
@@ -237,14 +259,25 @@ static void build(struct program *p, unsigned self)
         end(p, NO_SUCH_CALL);
         end(p, SECCOMP_RET_ALLOW);
     }
-    // A new thread, never a new process or name space.
+}
+
+static void build(struct program *p, unsigned self, enum sandbox_filter kind)
+{
+    load(p, offsetof(struct seccomp_data, arch));
+    put(p, BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0); // else calls of 32 bits, with other numbers
+    end(p, SECCOMP_RET_KILL_PROCESS);
+    load(p, offsetof(struct seccomp_data, nr));
+    allow(p, allowed, ALLOWED);
+    if (kind == SANDBOX_SERVES) {
+        allow(p, served, SERVED);
+        allow_some(p, served_conditions, SERVED_CONDITIONS);
+    }
+    allow_some(p, conditions, CONDITIONS);
+    // A new thread; a new process where it serves; never a new name space.
     if_call(p, SYS_clone, 5);
     load(p, ARGUMENT(0));
-    put(p, BPF_ALU | BPF_AND | BPF_K,
-        CLONE_THREAD | CLONE_NEWNS | CLONE_NEWCGROUP | CLONE_NEWUTS | CLONE_NEWIPC | CLONE_NEWUSER | CLONE_NEWPID |
-            CLONE_NEWNET,
-        0, 0);
-    put(p, BPF_JMP | BPF_JEQ | BPF_K, CLONE_THREAD, 1, 0);
+    put(p, BPF_ALU | BPF_AND | BPF_K, (kind == SANDBOX_SERVES ? 0 : CLONE_THREAD) | NAMESPACES, 0, 0);
+    put(p, BPF_JMP | BPF_JEQ | BPF_K, kind == SANDBOX_SERVES ? 0 : CLONE_THREAD, 1, 0);
     end(p, SECCOMP_RET_ERRNO | EPERM);
     end(p, SECCOMP_RET_ALLOW);
     // Signals to itself, as abort() and the end after Ctrl-C send them.
@@ -271,11 +304,11 @@ static void build(struct program *p, unsigned self)
     end(p, NO_SUCH_CALL);
 }
 
-bool sandbox_filter_install(void)
+bool sandbox_filter_install(enum sandbox_filter kind)
 {
     struct program p;
     p.length = 0;
-    build(&p, (unsigned)getpid());
+    build(&p, (unsigned)getpid(), kind);
     if (p.length > MAX) {
         errno = E2BIG;
         return false;
@@ -287,6 +320,10 @@ bool sandbox_filter_install(void)
 
 #else
 
-bool sandbox_filter_install(void) { return false; }
+bool sandbox_filter_install(enum sandbox_filter kind)
+{
+    (void)kind;
+    return false;
+}
 
 #endif

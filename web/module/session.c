@@ -14,15 +14,10 @@
 #include "job.h"
 #include "job_check.h"
 #include "json.h"
-#include "light_place.h"
+#include "kept_model.h"
+#include "picture_json.h"
 
-// The loaded model, as it was before any option changed it.
-static struct {
-    char *key; // the words that it was loaded by; NULL: none is loaded
-    lam_scene *scene;
-    bool environment; // it has one of its own
-    double read_ms;
-} model;
+static struct kept_model model;
 
 static struct {
     char *text;
@@ -41,86 +36,11 @@ char *web_words(uint32_t bytes)
     return session.text;
 }
 
-static void forget_model(void)
-{
-    free(model.key);
-    lam_scene_free(model.scene);
-    memset(&model, 0, sizeof model);
-}
-
 void web_forget(void)
 {
-    forget_model();
+    kept_model_forget(&model);
     environment_cache_free(session.environments);
     session.environments = NULL;
-}
-
-// Whether a scene that is loaded serves other values of the option: those of the picture, the view, lights and materials.
-// What is not known to be such an option counts as one that does not.
-static bool changes_drawing_only(const struct option *option)
-{
-    static const char *const shading[] = {"shading", "stage",  "viewer",           "single-scattering", "reflectivity",
-                                          "shadows", "ground", "shadow-samples",   "shadow-terminator", "cull",
-                                          "tone",    "gl1",    "match-highlights", "flat-normal",       "reflection"};
-    static const char *const except[] = {"up", "color-mode", "look"};
-    for (size_t i = 0; i < sizeof except / sizeof *except; i++)
-        if (strcmp(option->name, except[i]) == 0)
-            return false;
-    for (size_t i = 0; i < sizeof shading / sizeof *shading; i++)
-        if (strcmp(option->name, shading[i]) == 0)
-            return true;
-    return option->group == GROUP_PICTURE || option->group == GROUP_VIEW || option->group == GROUP_LIGHTS ||
-           option->group == GROUP_MATERIALS;
-}
-
-// The model and the options that it is loaded by, from malloc.
-static char *key_of(const char *name, const struct options *options)
-{
-    size_t size = 0;
-    char *key = NULL;
-    FILE *text = open_memstream(&key, &size);
-    if (!text)
-        return NULL;
-    fputs(name, text);
-    for (const struct option *o = option_table; o->name; o++)
-        if (options->given[o - option_table] && !changes_drawing_only(o))
-            fprintf(text, "\n%s=%s", o->name,
-                    options->values[o - option_table] ? options->values[o - option_table] : "");
-    fclose(text);
-    return key;
-}
-
-// Loads the model, if another one is loaded or it was loaded otherwise; brings it back to what it was.
-static bool take_model(struct job *job, lam_error *error)
-{
-    char *key = key_of(job->model, job->options);
-    if (!key)
-        return complain(error, LAM_LIMIT, "out of memory");
-    bool same = model.key && strcmp(model.key, key) == 0;
-    if (!same) {
-        forget_model();
-        struct job first = {.options = job->options,
-                            .model = job->model,
-                            .device = job->device,
-                            .environments = job->environments,
-                            .keeps_scene = true};
-        first.times.start = clock_ms();
-        bool ok = job_load(&first, NULL, error) && lam_scene_mark(first.scene, error);
-        if (!ok) {
-            lam_scene_free(first.scene);
-            free(key);
-            return false;
-        }
-        model.key = key;
-        model.scene = first.scene;
-        model.environment = lam_scene_environment(model.scene) != NULL;
-        model.read_ms = clock_ms() - first.times.start;
-        key = NULL;
-    }
-    free(key);
-    job->scene = model.scene;
-    return lam_scene_reset(model.scene, error) &&
-           (model.environment || lam_scene_set_environment(model.scene, NULL, 0, error));
 }
 
 // Parses the words. `options` and `job` are complete then; the caller frees the options in any case.
@@ -165,37 +85,7 @@ static bool start(int count, struct options *options, struct job *job, lam_error
                         .keeps_scene = true,
                         .environments = session.environments};
     job->times.start = clock_ms();
-    return session.device && take_model(job, error);
-}
-
-static void vector(struct json *json, const char *key, lam_vec3 v)
-{
-    json_open(json, key, '[');
-    json_number(json, NULL, v.x);
-    json_number(json, NULL, v.y);
-    json_number(json, NULL, v.z);
-    json_close(json, ']');
-}
-
-static void answer_camera(struct json *json, const struct job *job)
-{
-    const lam_camera *c = &job->camera;
-    lam_vec3 centre, pole, front;
-    double radius = 1;
-    scene_axes(job->scene, &pole, &front);
-    lam_scene_sphere(job->scene, -1, &centre, &radius);
-    json_open(json, "camera", '{');
-    vector(json, "eye", c->eye);
-    vector(json, "target", c->target);
-    vector(json, "up", c->up);
-    json_number(json, "fovy_deg", c->fovy_rad * (180 / 3.14159265358979323846));
-    json_number(json, "ortho", c->ortho_half_height);
-    vector(json, "pole", pole);
-    json_close(json, '}');
-    json_open(json, "sphere", '{');
-    vector(json, "centre", centre);
-    json_number(json, "radius", radius);
-    json_close(json, '}');
+    return session.device && kept_model_take(&model, job, error);
 }
 
 // Prints what has become of a command line, and ends the job. Returns the exit code.
@@ -206,18 +96,8 @@ static int answer(struct job *job, bool ok, const lam_error *error)
     json_flag(&json, "ok", ok);
     if (!ok)
         json_text(&json, "error", error->text);
-    if (ok) {
-        json_count(&json, "width", (uint64_t)job->image.width);
-        json_count(&json, "height", (uint64_t)job->image.height);
-        json_count(&json, "triangles", job->model_counts.triangles);
-        json_number(&json, "read_ms", model.read_ms);
-        json_number(&json, "frame_ms", job->times.frame.total_ms);
-        answer_camera(&json, job);
-        json_open(&json, "warnings", '[');
-        for (int i = 0; lam_scene_warning(job->scene, i); i++)
-            json_text(&json, NULL, lam_scene_warning(job->scene, i));
-        json_close(&json, ']');
-    }
+    if (ok)
+        picture_json(&json, job, model.read_ms);
     json_close(&json, '}');
     putc('\n', stdout);
     fflush(stdout);

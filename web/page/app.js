@@ -20,7 +20,11 @@ export function stageSize() {
 }
 
 export const state = new State(fromFragment(location.hash) ?? insideWords() ?? [START[0], `--size=${stageSize()}`, ...START.slice(1)]);
-export const { call, fetchRest } = openWorker();
+const worker = openWorker();
+export const { fetchRest } = worker;
+// The viewer's page (served.js) gets the files of its models first.
+const viewer = $('served') && import('./served.js').then(({ servedCall }) => servedCall(worker.call));
+export const call = viewer ? async (name, message) => (await viewer)(name, message) : worker.call;
 
 export const view = {
   picture: null, // of the last drawing, without its pixels

@@ -5,7 +5,7 @@ import { $ } from './dom.js';
 import { text } from './strings.js';
 
 const canvas = $('canvas'), context = canvas.getContext('2d'), QUICK = 5e5; // pixels
-let busy = false, wanted = null, model = null;
+let busy = false, busyStill = false, wanted = null, model = null;
 
 // A quick picture's words: one sample, and half of the width and height if it is large.
 export function quickWords(words) {
@@ -16,11 +16,15 @@ export function quickWords(words) {
 
 async function draw() {
   wanted = { words: state.words, quick: view.moving };
-  if (busy) return;
+  if (busy) {
+    if (busyStill) view.giveUpPicture?.();
+    return;
+  }
   busy = true;
   while (wanted) {
     const task = wanted;
     wanted = null;
+    busyStill = !task.quick;
     try {
       const [name] = task.words;
       if (name !== model) $('status').textContent = text('loadingModel', { name: name.replace(/^\//, '') });
@@ -29,7 +33,7 @@ async function draw() {
       model = name;
     } catch (error) {
       $('status').textContent = '';
-      refuse(error.message);
+      if (!wanted) refuse(error.message);
     }
     canvas.setAttribute('aria-busy', 'false');
   }

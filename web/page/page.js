@@ -22,4 +22,5 @@ async function start() {
     refuse(error.message);
   }
 }
+if (document.getElementById('served')) import('./viewer.js'); // `lambent view`
 start();

@@ -42,6 +42,10 @@ const STRINGS = {
   savedHash: 'saved {file}, SHA-256 {hash}',
   noModel: '{files}: no model among the files, expected .obj, .stl, .ply, .gltf, .glb or a scene file',
   workerEnded: 'the worker ended',
+  gallery: '← Gallery',
+  drawnByProgram: 'drawn by lambent view, since {reason}',
+  fileChanged: 'The file has changed: the picture is new.',
+  viewerEnded: 'lambent view has ended. What it has sent can still be turned.',
 
   loading: 'Loading {name}: {amount}',
   loadingModel: 'Loading {name}…',

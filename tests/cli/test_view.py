@@ -1,0 +1,483 @@
+# test_view.py: `lambent view`: what its server answers, to whom, and when it ends. The page in a browser is tests/browser.py's.
+import hashlib
+import http.client
+import json
+import os
+import pathlib
+import re
+import select
+import signal
+import socket
+import subprocess
+import urllib.parse
+
+from harness import PROGRAM, Case, read_png, write_png
+
+POLICY = "default-src 'none'; script-src 'sha256-x'; img-src blob: data:; base-uri 'none'; form-action 'none'"
+PAGE = ("<!doctype html>\n<html>\n<head>\n<meta http-equiv=\"Content-Security-Policy\" content=\"%s\">\n</head>\n<body>\n<main></main>\n"
+        "</body>\n</html>\n" % POLICY)
+WAIT = 60  # seconds, after which what should have come will not
+
+
+def quoted(path):
+    return urllib.parse.quote(path)
+
+
+class Server:
+    """A viewer that runs."""
+
+    def __init__(self, case, *words):
+        self.case = case
+        self.process = subprocess.Popen([PROGRAM, "view", "--no-open", *map(str, words)], cwd=case.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                        env={**os.environ, "LAMBENT_PAGE": str(case.page)})
+        case.addCleanup(self.end)
+        line = self.process.stdout.readline().decode()
+        found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/\n", line)
+        if not found:
+            case.fail("no address: " + repr(line) + self.process.stderr.read().decode())
+        self.port, self.token = int(found[1]), found[2]
+
+    def end(self):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait()
+        self.process.stdout.close()
+        self.process.stderr.close()
+
+    def raw(self, path, method="GET", headers=None, body=None):
+        """An answer to an address from its root: status, headers, body."""
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=WAIT)
+        try:
+            connection.request(method, path, body=body, headers=headers or {})
+            answer = connection.getresponse()
+            return answer.status, dict(answer.getheaders()), answer.read()
+        finally:
+            connection.close()
+
+    def get(self, path, **more):
+        return self.raw("/%s/%s" % (self.token, path), **more)
+
+    def task(self, word, *words, **more):
+        return self.get(word + "?" + urllib.parse.urlencode([("w", w) for w in words] + [("c", "test"), *more.items()]))
+
+    def events(self):
+        """A connection that hears of changes, after its first line."""
+        connection = socket.create_connection(("127.0.0.1", self.port), timeout=WAIT)
+        self.case.addCleanup(connection.close)
+        connection.sendall(b"GET /%s/events HTTP/1.1\r\nHost: 127.0.0.1:%d\r\n\r\n" % (self.token.encode(), self.port))
+        return Events(self.case, connection)
+
+    def interrupt(self):
+        self.process.send_signal(signal.SIGINT)
+        return self.process.wait(timeout=WAIT)
+
+
+class Events:
+    def __init__(self, case, connection):
+        self.case, self.connection, self.seen = case, connection, b""
+        self.until(b": \n\n")
+
+    def until(self, wanted):
+        while wanted not in self.seen:
+            part = self.connection.recv(4096)
+            self.case.assertTrue(part, f"{wanted}: the connection has ended after {self.seen}")
+            self.seen += part
+        self.seen = self.seen.split(wanted, 1)[1]
+
+
+class View(Case):
+    def setUp(self):
+        super().setUp()
+        self.page = self.folder / "page.html"
+        self.page.write_text(PAGE)
+        done = self.run_program("view", "--help")
+        self.assertEqual(done.returncode, 0)
+        if b"libmicrohttpd" in self.run_program("view", "no-such-model.obj").stderr:
+            self.skipTest("libmicrohttpd is not there")
+
+    def serve(self, *words):
+        return Server(self, *words)
+
+    def textured(self):
+        place = self.folder / "models"
+        (place / "pictures").mkdir(parents=True)
+        (place / "quad.obj").write_text("mtllib quad.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl a\nf 1/1 2/2 3/3\n")
+        (place / "quad.mtl").write_text("newmtl a\nKd 1 1 1\nmap_Kd pictures/a.png\n")
+        (place / "pictures" / "a.png").write_bytes(write_png(1, 1, b"\xff\x40\x20\xff"))
+        return place
+
+    # --- the page
+
+    def test_page(self):
+        server = self.serve("cube.obj", "--background", "#fff", "--size", "64")
+        status, headers, body = server.get("")
+        text = body.decode()
+        self.assertEqual(status, 200)
+        self.assertIn("connect-src 'self'; base-uri 'none'", text)
+        self.assertEqual(text.replace("; connect-src 'self'", "").split("<script")[0], PAGE.split("</body>")[0])
+        self.assertEqual(json.loads(re.search(r'id="inside-words">([^<]*)<', text)[1]), ["/cube.obj", "--size=64", "--background=#fff"])
+        self.assertEqual(json.loads(re.search(r'id="served">([^<]*)<', text)[1]), {"gallery": False})
+        self.assertEqual(headers["Cache-Control"], "no-store")
+        self.assertEqual(headers["Referrer-Policy"], "no-referrer")
+        self.assertEqual(headers["X-Content-Type-Options"], "nosniff")
+        self.assertEqual(headers["Cross-Origin-Resource-Policy"], "same-origin")
+        self.assertIn("frame-ancestors 'none'", headers["Content-Security-Policy"])
+        self.assertEqual(server.get("files/cube.obj")[1]["Content-Security-Policy"], "default-src 'none'; sandbox")
+        self.assertEqual(server.interrupt(), 0)
+        self.assertIn(b"ssh -L %d:127.0.0.1:%d " % (server.port, server.port), server.process.stderr.read())
+
+    def test_shape(self):
+        server = self.serve("teapot", "--size", "32")
+        self.assertIn(b'id="inside-words">["teapot", "--size=32"]', server.get("")[2])
+        self.assertEqual(server.get("files/cube.obj")[0], 404)
+
+    def test_two_have_two_tokens(self):
+        one, other = self.serve("cube.obj"), self.serve("cube.obj")
+        self.assertNotEqual(one.token, other.token)
+        self.assertNotEqual(one.port, other.port)
+
+    # --- who is answered
+
+    def test_token(self):
+        server = self.serve("cube.obj")
+        last = server.token[:-1] + ("0" if server.token[-1] != "0" else "1")
+        for path in ("/", "/favicon.ico", "/files/cube.obj", "/%s/" % ("0" * 32), "/%s/" % last, "/%s/" % server.token[:-1], "/%s" % server.token,
+                     "/%s0/" % server.token, "/%s/" % server.token.upper() if server.token.upper() != server.token else "/x"):
+            self.assertEqual(server.raw(path)[0], 403, path)
+        self.assertEqual(server.get("")[0], 200)
+        self.assertEqual(server.get("no-such-page")[0], 404)
+
+    def test_host_and_origin(self):
+        server = self.serve("cube.obj")
+        port = server.port
+        for host in ("evil.example", "evil.example:%d" % port, "127.0.0.1", "127.0.0.1:%d" % (port + 1), "localhost", "[::1]:%d" % port,
+                     "127.0.0.1:%d.evil.example" % port, ""):
+            self.assertEqual(server.get("", headers={"Host": host})[0], 403, host)
+        for host in ("127.0.0.1:%d" % port, "localhost:%d" % port, "LOCALHOST:%d" % port):
+            self.assertEqual(server.get("", headers={"Host": host})[0], 200, host)
+        for name, value, status in (("Origin", "http://evil.example", 403), ("Origin", "null", 403), ("Origin", "https://127.0.0.1:%d" % port, 403),
+                                    ("Origin", "http://127.0.0.1:%d" % port, 200), ("Sec-Fetch-Site", "cross-site", 403),
+                                    ("Sec-Fetch-Site", "same-site", 403), ("Sec-Fetch-Site", "none", 200), ("Sec-Fetch-Site", "same-origin", 200)):
+            self.assertEqual(server.get("files/cube.obj", headers={name: value})[0], status, value)
+
+    def test_methods(self):
+        server = self.serve("cube.obj")
+        for method in ("POST", "PUT", "DELETE", "OPTIONS", "PATCH", "TRACE", "BREW"):
+            status, headers, _ = server.get("", method=method, body=b"x" * 5000 if method in ("POST", "PUT") else None)
+            self.assertEqual((status, headers.get("Allow")), (405, "GET, HEAD"), method)
+        status, headers, body = server.get("files/cube.obj", method="HEAD")
+        self.assertEqual((status, body, int(headers["Content-Length"])), (200, b"", (self.folder / "cube.obj").stat().st_size))
+
+    # --- which files
+
+    def test_paths(self):
+        place = self.textured()
+        (self.folder / "secret.obj").write_text("v 0 0 0\n")
+        (place / "secret.txt").write_text("secret")
+        (place / ".hidden.obj").write_text("v 0 0 0\n")
+        (place / ".git").mkdir()
+        (place / ".git" / "a.json").write_text("{}")
+        (place / "out.obj").symlink_to(self.folder / "secret.obj")
+        (place / "away").symlink_to(self.folder)
+        (place / "in.obj").symlink_to("quad.obj")
+        (place / "folder.obj").mkdir()
+        os.mkfifo(place / "pipe.obj")
+        server = self.serve("models/quad.obj")
+        for path in ("/quad.obj", "/quad.mtl", "/pictures/a.png", "/in.obj", "/pictures/../quad.obj", "/./quad.obj"):
+            hidden = "/." in path
+            self.assertEqual(server.get("files" + path)[0], 404 if hidden else 200, path)
+        for path in ("/../secret.obj", "/..%2fsecret.obj", "/%2e%2e/secret.obj", "/%2e%2e%2fsecret.obj", "/pictures/../../secret.obj", "//etc/passwd",
+                     "/%2fetc/passwd", quoted(str(self.folder / "secret.obj")), "/out.obj", "/away/secret.obj", "/secret.txt", "/.hidden.obj", "/.git/a.json",
+                     "/folder.obj", "/pipe.obj", "/", "", "/quad.obj/", "/nothing.obj", "/x%00y.obj", "/" + "a" * 3000 + ".obj", "/pictures",
+                     "/proc/self/environ", "/.environment/1-x"):
+            status = server.get("files" + path)[0]
+            self.assertEqual(status, 404, path)
+            for word in ("model", "draw"):
+                found = server.task(word, urllib.parse.unquote(path) or "x", "--size=8")[0]
+                self.assertEqual(found, 422, word + " " + path)
+
+    def test_named_link(self):
+        """The user may name a link that leads elsewhere; what its model names is looked for beside the link."""
+        place = self.textured()
+        (self.folder / "other").mkdir()
+        (self.folder / "other" / "link.obj").symlink_to(place / "quad.obj")
+        server = self.serve("other/link.obj")
+        self.assertEqual(server.get("files/link.obj")[2], (place / "quad.obj").read_bytes())
+        about = json.loads(server.task("model", "/link.obj")[2])
+        self.assertEqual([file["path"] for file in about["files"]], ["/link.obj"])
+        self.assertEqual(about["missing"], ["/quad.mtl"])
+        events = server.events()
+        (place / "quad.obj").write_text("v 0 0 0\n")
+        events.until(b'data: "/link.obj"')
+
+    def test_model(self):
+        place = self.textured()
+        server = self.serve("models")
+        about = json.loads(server.task("model", "/quad.obj")[2])
+        self.assertEqual(sorted(file["path"] for file in about["files"]), ["/pictures/a.png", "/quad.mtl", "/quad.obj"])
+        for file in about["files"]:
+            self.assertEqual(file["size"], (place / file["path"][1:]).stat().st_size)
+        self.assertEqual((about["triangles"], about["missing"], about["native"]), (1, [], None))
+        (place / "sub").mkdir()
+        (place / "sub" / "x.obj").write_text("mtllib x.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n")
+        about = json.loads(server.task("model", "/sub/x.obj")[2])
+        self.assertEqual(([file["path"] for file in about["files"]], about["missing"]), (["/sub/x.obj"], ["/sub/x.mtl"]))
+
+    def test_environment(self):
+        (self.folder / "sky").mkdir()
+        (self.folder / "sky" / "my sky.png").write_bytes(write_png(4, 2, b"\x40\x80\xff\xff" * 8))
+        (self.folder / "in").mkdir()
+        (self.folder / "in" / "cube.obj").write_bytes((self.folder / "cube.obj").read_bytes())
+        words = ["--environment", "sky/my sky.png", "--reflectivity", "1", "--size", "32"]
+        server = self.serve("in/cube.obj", *words)
+        own = json.loads(re.search(rb'id="inside-words">([^<]*)<', server.get("")[2])[1])
+        self.assertIn("--environment=/.environment/1-my sky.png", own)
+        self.assertEqual(server.get("files/.environment/1-my%20sky.png")[2], (self.folder / "sky" / "my sky.png").read_bytes())
+        self.assertEqual(server.get("files/.environment/2-x")[0], 404)
+        self.assertEqual(server.task("picture", *own)[2], self.good("in/cube.obj", *words, "-o", "-").stdout)
+        self.assertEqual(server.task("picture", "/cube.obj", "--environment=/../sky/my sky.png")[0], 422)
+        self.assertEqual(server.task("picture", "/cube.obj", "--environment=/etc/passwd")[0], 422)
+
+    # --- pictures
+
+    def test_pictures(self):
+        server = self.serve("cube.obj")
+        for words in (["--size=64"], ["--size=40x30", "--background=white", "--shading=flat", "--azimuth=70"],
+                      ["--size=50", "--light=point:position=2r/3r/1r", "--shadows"]):
+            status, headers, body = server.task("picture", "/cube.obj", *words)
+            self.assertEqual((status, headers["Content-Type"]), (200, "image/png"))
+            written = self.good("cube.obj", *words, "-o", "-").stdout
+            self.assertEqual(hashlib.sha256(body).hexdigest(), hashlib.sha256(written).hexdigest())
+            line, pixels = server.task("draw", "/cube.obj", *words)[2].split(b"\n", 1)
+            about = json.loads(line)
+            self.assertEqual((about["width"], about["height"], pixels), read_png(written))
+            self.assertEqual(about["triangles"], 12)
+            self.assertEqual(len(about["camera"]["eye"]), 3)
+        # Not what was drawn before: the file is another one.
+        (self.folder / "cube.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n")
+        self.assertEqual(json.loads(server.task("draw", "/cube.obj", "--size=8")[2].split(b"\n")[0])["triangles"], 1)
+        (self.folder / "cube.obj").write_text("v 0 0\n")
+        status, _, body = server.task("draw", "/cube.obj", "--size=8")
+        self.assertEqual(status, 422)
+        self.assertEqual(b"lambent: " + body + b"\n", self.run_program("cube.obj", "-s", 8).stderr)
+
+    def test_explain(self):
+        server = self.serve("cube.obj")
+        status, _, body = server.task("explain", "/cube.obj", "--size=64", x=32, y=30)
+        own = json.loads(self.good("explain", "cube.obj", "32,30", "--size", 64, "--json").stdout)
+        found = json.loads(body)
+        self.assertEqual(status, 200)
+        self.assertEqual({**found, "model": ""}, {**own, "model": ""})
+        for place in ({"x": 64, "y": 0}, {"x": "a", "y": 0}, {}):
+            self.assertEqual(server.task("explain", "/cube.obj", "--size=64", **place)[0], 422)
+
+    def test_refused_words(self):
+        (self.folder / "own.look").write_text("background = white\n")
+        server = self.serve("cube.obj")
+        for word in ("--output=x.png", "--save-scene=x.json", "--look=own.look", "--threads=1", "--memory-limit=none", "--device=gl", "--sandbox=off", "--sizzle=3",
+                     "--turntable=4", "--show=all", "--shading=round", "second.obj", "--allow-path=/", "--size=0"):
+            status, headers, body = server.task("draw", "/cube.obj", word)
+            self.assertEqual((status, headers["Content-Type"]), (422, "text/plain; charset=utf-8"), word)
+            self.assertTrue(body, word)
+        self.assertEqual(self.new_files(), {"page.html", "own.look"})
+        self.assertEqual(server.get("draw")[0], 400)
+        self.assertEqual(server.task("draw", "/cube.obj", "--size=8")[0], 200)
+
+    def test_limits(self):
+        server = self.serve("cube.obj", "--triangle-limit", "11")
+        status, _, body = server.task("draw", "/cube.obj", "--size=8")
+        self.assertEqual(status, 422)
+        self.assertIn(b"--triangle-limit", body)
+
+    def test_native(self):
+        """What the page cannot draw is drawn by the program, which says why."""
+        (self.folder / "many.obj").write_text("v 0 0 0\n" + "p 1\n" * 2000001)
+        server = self.serve("many.obj")
+        about = json.loads(server.task("model", "/many.obj")[2])
+        self.assertIn("2000001", about["native"])
+        self.assertIsNone(json.loads(server.task("model", "/cube.obj")[2])["native"])
+
+    def test_newer_picture(self):
+        """A page's newer picture ends its older one; that of another page does not."""
+        server = self.serve("teapot")
+        slow = urllib.parse.urlencode([("w", "teapot"), ("w", "--size=3000"), ("w", "--samples=16"), ("w", "--shadows"), ("w", "--ao=rays"), ("w", "--ao-samples=64"), ("c", "test")])
+        connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=WAIT)
+        self.addCleanup(connection.close)
+        connection.request("GET", "/%s/draw?%s" % (server.token, slow))
+        self.assertEqual(server.task("draw", "teapot", "--size=8")[0], 200)
+        self.assertEqual(connection.getresponse().status, 409)
+
+    # --- changes
+
+    def test_changes(self):
+        place = self.textured()
+        server = self.serve("models/quad.obj")
+        self.assertEqual(server.task("model", "/quad.obj")[0], 200)
+        events = server.events()
+        new = place / "new"
+        new.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n")
+        new.rename(place / "quad.obj")
+        events.until(b'data: "/quad.obj"\n\n')
+        (place / "quad.mtl").write_text("newmtl b\n")
+        events.until(b'data: "/quad.mtl"\n\n')
+        (place / "pictures" / "a.png").write_bytes(write_png(1, 1, b"\x00\x40\x20\xff"))
+        events.until(b'data: "/pictures/a.png"\n\n')
+        (place / "quad.mtl").unlink()
+        events.until(b'data: "/quad.mtl"\n\n')
+
+    def test_change_of_what_cannot_be_read(self):
+        (self.folder / "cube.obj").write_text("v 1 1\n")
+        server = self.serve("cube.obj")
+        self.assertEqual(server.task("model", "/cube.obj")[0], 422)
+        events = server.events()
+        (self.folder / "cube.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n")
+        events.until(b'data: "/cube.obj"\n\n')
+        self.assertEqual(server.task("model", "/cube.obj")[0], 200)
+
+    # --- gallery
+
+    def test_gallery(self):
+        place = self.textured()
+        (place / "bad <b> & \".obj").write_text("v 1 1\n")
+        (place / "pictures" / "x.stl").write_bytes((self.folder / "cube.stl").read_bytes())
+        (place / "out.obj").symlink_to(self.folder / "cube.obj")
+        (place / "data.json").write_text("{}")
+        server = self.serve("models/", "--background", "white")
+        text = server.get("")[2].decode()
+        names = ["/bad%20%3Cb%3E%20%26%20%22.obj", "/pictures/x.stl", "/quad.obj"]
+        self.assertEqual(re.findall(r'src="thumb([^"]*)"', text), names)
+        self.assertEqual(re.findall(r'href="page#([^"]*)"', text), [name + "&--background%3Dwhite" for name in names])
+        self.assertEqual(text.count('loading="lazy"'), 3)
+        self.assertIn("bad &lt;b&gt; &amp; &quot;.obj", text)
+        self.assertNotIn("<script", text)
+        self.assertIn("default-src 'none'; img-src 'self'", text)
+        self.assertEqual(server.get("gallery.css")[1]["Content-Type"], "text/css")
+        page = server.get("page")[2].decode()
+        self.assertEqual(json.loads(re.search(r'id="served">([^<]*)<', page)[1]), {"gallery": True})
+        self.assertNotIn("inside-words", page)
+        status, headers, body = server.get("thumb/quad.obj")
+        self.assertEqual((status, headers["Content-Type"]), (200, "image/png"))
+        self.assertEqual(body, self.good("models/quad.obj", "--background", "white", "--size", "256", "-o", "-").stdout)
+        status, headers, body = server.get("thumb" + names[0])
+        self.assertEqual((status, headers["Content-Type"]), (422, "image/svg+xml"))
+        self.assertIn("&lt;b&gt; &amp; &quot;", re.sub(r"</tspan><tspan[^>]*>", " ", body.decode()))
+        for path in ("/out.obj", "/../cube.obj", "/nothing.obj", "/data.txt"):
+            self.assertEqual(server.get("thumb" + path)[0], 404, path)
+        (place / "later.obj").write_bytes((self.folder / "cube.obj").read_bytes())
+        self.assertIn("later.obj", server.get("")[2].decode())
+
+    def test_many_thumbnails(self):
+        place = self.folder / "many"
+        place.mkdir()
+        for i in range(40):
+            (place / f"{i}.obj").write_bytes((self.folder / "cube.obj").read_bytes())
+        server = self.serve("many")
+        connections = []
+        for i in range(40):
+            connections.append(http.client.HTTPConnection("127.0.0.1", server.port, timeout=WAIT))
+            self.addCleanup(connections[-1].close)
+            connections[-1].request("GET", "/%s/thumb/%d.obj" % (server.token, i))
+        for connection in connections[20:]:  # scrolled away
+            connection.close()
+        pictures = {connection.getresponse().read() for connection in connections[:20]}
+        self.assertEqual(len(pictures), 1)
+        self.assertEqual(server.task("draw", "/1.obj", "--size=8")[0], 200)
+
+    # --- its end
+
+    def test_idle(self):
+        server = self.serve("cube.obj", "--idle", "0.002")
+        self.assertEqual(server.process.wait(timeout=WAIT), 0)
+        self.assertIn(b"--idle", server.process.stderr.read())
+
+    def test_a_page_that_is_open_keeps_it(self):
+        server = self.serve("cube.obj", "--idle", "0.002")
+        try:
+            events = server.events()
+        except (OSError, AssertionError):
+            return  # the machine was so busy that it had ended
+        self.assertFalse(select.select([events.connection], [], [], 1)[0] and not events.connection.recv(1, socket.MSG_PEEK), "the connection has ended")
+        self.assertIsNone(server.process.poll())
+        events.connection.close()
+        self.assertEqual(server.process.wait(timeout=WAIT), 0)
+
+    def test_interrupt(self):
+        server = self.serve("teapot")
+        events, connection = server.events(), http.client.HTTPConnection("127.0.0.1", server.port, timeout=WAIT)
+        self.addCleanup(connection.close)
+        connection.request("GET", "/%s/draw?%s" % (server.token, urllib.parse.urlencode([("w", "teapot"), ("w", "--size=4000"), ("w", "--samples=16"), ("c", "x")])))
+        self.assertEqual(server.interrupt(), 0)
+        while events.connection.recv(4096):
+            pass
+        children = subprocess.run(["pgrep", "-P", str(server.process.pid)], stdout=subprocess.PIPE).stdout
+        self.assertEqual(children, b"")
+
+    # --- hostile requests
+
+    def test_hostile(self):
+        server = self.serve("cube.obj")
+        host = b"Host: 127.0.0.1:%d\r\n" % server.port
+        waiting = []
+        for i in range(200):  # half requests
+            connection = socket.create_connection(("127.0.0.1", server.port), timeout=WAIT)
+            self.addCleanup(connection.close)
+            connection.sendall([b"GET /", b"", b"GET / HTTP/1.1\r\n" + host, b"GET /%s/ HTTP/1.1\r\nX: " % server.token.encode()][i % 4])
+            waiting.append(connection)
+        self.assertEqual(server.get("files/cube.obj")[0], 200)
+        for junk in (b"GET / HTTP/1.1\r\n" + host + b"X: " + b"a" * 200000 + b"\r\n\r\n", b"GET /" + b"a" * 200000 + b" HTTP/1.1\r\n" + host + b"\r\n",
+                     b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", b"\0" * 100, b"GET\r\n\r\n", b"A" * 70000, b"GET / HTTP/9.9\r\n\r\n",
+                     b"GET http://evil.example/ HTTP/1.1\r\n" + host + b"\r\n", b"GET /%ff%fe/../..// HTTP/1.1\r\n" + host + b"\r\n",
+                     b"POST / HTTP/1.1\r\n" + host + b"Content-Length: 99999999999999\r\n\r\n", b"GET / HTTP/1.1\r\n" + b"X: y\r\n" * 5000 + b"\r\n",
+                     b"GET /" + server.token.encode() + b"/draw?" + b"w=a&" * 8000 + b" HTTP/1.1\r\n" + host + b"\r\n"):
+            connection = socket.create_connection(("127.0.0.1", server.port), timeout=1)  # to some there is no answer
+            try:
+                connection.sendall(junk)
+                answer = connection.recv(4096)
+                self.assertNotIn(b" 200 ", answer[:20], junk[:60])
+            except OSError:
+                pass
+            finally:
+                connection.close()
+        self.assertEqual(server.get("files/cube.obj")[0], 200)
+        for connection in waiting:
+            connection.close()
+        self.assertEqual(server.task("draw", "/cube.obj", "--size=8")[0], 200)
+        self.assertIsNone(server.process.poll())
+
+    # --- what it cannot do
+
+    def test_errors(self):
+        env = {"LAMBENT_PAGE": str(self.page)}
+        self.given.add("page.html")
+        self.bad(2, "view", "nothing.obj", says="nothing.obj: cannot read", env=env)
+        self.bad(1, "view", "-", says="standard input", env=env)
+        self.bad(1, "view", says="missing argument", env=env)
+        self.bad(1, "view", "cube.obj", "cube.ply", says="unexpected argument 'cube.ply'", env=env)
+        self.bad(1, "view", "cube.obj", "--port", "99999", says="--port", env=env)
+        self.bad(1, "view", "cube.obj", "--idle", "0", says="--idle", env=env)
+        self.bad(2, "view", "cube.obj", "--environment", "nothing.png", says="nothing.png", env=env)
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            port = taken.getsockname()[1]
+            self.bad(4, "view", "cube.obj", "--port", port, says=f"port {port} of 127.0.0.1", env=env)
+        self.page.write_text("<p>another page</p>")
+        self.bad(3, "view", "cube.obj", says="make web", env=env)
+
+    def test_without_the_library(self):
+        (self.folder / "libmicrohttpd.so.12").write_bytes(b"")
+        done = self.run_program("view", "cube.obj", env={"LD_LIBRARY_PATH": str(self.folder), "LAMBENT_PAGE": str(self.page)})
+        self.assertEqual(done.returncode, 3)
+        self.assertRegex(done.stderr.decode(), r"^lambent: view needs libmicrohttpd\.so\.12, .*libmicrohttpd12")
+
+    def test_sandbox(self):
+        said = subprocess.run([PROGRAM, "--version"], stdout=subprocess.PIPE).stdout.decode()
+        if "and seccomp" not in said:
+            self.skipTest("this machine or build has no complete sandbox")
+        server = self.serve("cube.obj", "--sandbox", "require")
+        self.assertEqual(server.task("draw", "/cube.obj", "--size=8")[0], 200)
+        children = subprocess.run(["pgrep", "-P", str(server.process.pid)], stdout=subprocess.PIPE).stdout.split()
+        self.assertEqual(len(children), 1)
+        filters = [int(re.search(r"Seccomp_filters:\s*(\d+)", pathlib.Path("/proc", str(pid), "status").read_text())[1]) for pid in
+                   (server.process.pid, children[0].decode())]
+        self.assertEqual(filters[1], filters[0] + 1)
+        handles = [os.readlink(f"/proc/{children[0].decode()}/fd/{name}") for name in os.listdir(f"/proc/{children[0].decode()}/fd")]
+        self.assertEqual([name for name in handles if name.startswith("socket:")], [])

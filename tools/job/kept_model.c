@@ -1,0 +1,83 @@
+// kept_model.c: a model that stays loaded.
+#include "kept_model.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "console.h"
+
+void kept_model_forget(struct kept_model *model)
+{
+    free(model->key);
+    lam_scene_free(model->scene);
+    *model = (struct kept_model){0};
+}
+
+// Whether a scene that is loaded serves other values of the option: those of the picture, the view, lights and materials.
+// What is not known to be such an option counts as one that does not.
+static bool changes_drawing_only(const struct option *option)
+{
+    static const char *const shading[] = {"shading", "stage",  "viewer",           "single-scattering", "reflectivity",
+                                          "shadows", "ground", "shadow-samples",   "shadow-terminator", "cull",
+                                          "tone",    "gl1",    "match-highlights", "flat-normal",       "reflection"};
+    static const char *const except[] = {"up", "color-mode", "look"};
+    for (size_t i = 0; i < sizeof except / sizeof *except; i++)
+        if (strcmp(option->name, except[i]) == 0)
+            return false;
+    for (size_t i = 0; i < sizeof shading / sizeof *shading; i++)
+        if (strcmp(option->name, shading[i]) == 0)
+            return true;
+    return option->group == GROUP_PICTURE || option->group == GROUP_VIEW || option->group == GROUP_LIGHTS ||
+           option->group == GROUP_MATERIALS;
+}
+
+// The model and the options that it is loaded by, from malloc.
+static char *key_of(const char *name, const struct options *options)
+{
+    size_t size = 0;
+    char *key = NULL;
+    FILE *text = open_memstream(&key, &size);
+    if (!text)
+        return NULL;
+    fputs(name, text);
+    for (const struct option *o = option_table; o->name; o++)
+        if (options->given[o - option_table] && !changes_drawing_only(o))
+            fprintf(text, "\n%s=%s", o->name,
+                    options->values[o - option_table] ? options->values[o - option_table] : "");
+    fclose(text);
+    return key;
+}
+
+bool kept_model_take(struct kept_model *model, struct job *job, lam_error *error)
+{
+    char *key = key_of(job->model, job->options);
+    if (!key)
+        return complain(error, LAM_LIMIT, "out of memory");
+    bool same = model->key && strcmp(model->key, key) == 0;
+    if (!same) {
+        kept_model_forget(model);
+        struct job first = {.options = job->options,
+                            .model = job->model,
+                            .device = job->device,
+                            .cancel = job->cancel,
+                            .environments = job->environments,
+                            .keeps_scene = true};
+        first.times.start = clock_ms();
+        bool ok = job_load(&first, NULL, error) && lam_scene_mark(first.scene, error);
+        if (!ok) {
+            lam_scene_free(first.scene);
+            free(key);
+            return false;
+        }
+        model->key = key;
+        model->scene = first.scene;
+        model->environment = lam_scene_environment(model->scene) != NULL;
+        model->read_ms = clock_ms() - first.times.start;
+        key = NULL;
+    }
+    free(key);
+    job->scene = model->scene;
+    return lam_scene_reset(model->scene, error) &&
+           (model->environment || lam_scene_set_environment(model->scene, NULL, 0, error));
+}

@@ -1,0 +1,20 @@
+// kept_model.h: a model that stays loaded while one picture of it is drawn after the other.
+#ifndef KEPT_MODEL_H
+#define KEPT_MODEL_H
+
+#include "job.h"
+
+struct kept_model {
+    char *key; // the words that it was loaded by; NULL: none is loaded
+    lam_scene *scene;
+    bool environment; // it has one of its own
+    double read_ms;
+};
+
+// Gives the job the model, as it was before any option changed it: loads it, if another one is kept or it was loaded by other options. The
+// job has its options, model, device and environments. Errors of job_load.
+bool kept_model_take(struct kept_model *model, struct job *job, lam_error *error);
+
+void kept_model_forget(struct kept_model *model);
+
+#endif

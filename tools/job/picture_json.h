@@ -1,0 +1,12 @@
+// picture_json.h: what a page that turns a model asks of a drawn picture.
+#ifndef PICTURE_JSON_H
+#define PICTURE_JSON_H
+
+#include "job.h"
+#include "json.h"
+
+// Prints the members of an object: width, height, triangles, read_ms, frame_ms, camera, sphere, warnings. `read_ms`: the time of reading
+// the model, which may have been before.
+void picture_json(struct json *json, const struct job *job, double read_ms);
+
+#endif

@@ -1,0 +1,58 @@
+// view.h: `lambent view`: a server on this machine alone, for the page that shows a model or the gallery of a folder.
+#ifndef VIEW_H
+#define VIEW_H
+
+#include "http.h"
+#include "view_page.h"
+#include "view_tasks.h"
+#include "view_watch.h"
+
+enum { VIEW_TOKEN_SIZE = 33 }; // 128 bits in hexadecimal digits, and the closing zero
+
+// A page that waits for changes of files (server-sent events).
+struct view_listener {
+    struct MHD_Connection *connection;
+    struct view *view;
+    char *pending; // text that is to be sent; from malloc
+    size_t size;
+    bool suspended;
+    struct view_listener *next;
+};
+
+// A request of HTTP, from its first line to the end of its answer.
+struct view_connection {
+    struct view *view;
+    struct MHD_Connection *connection;
+    struct view_task *task; // it waits for
+    struct view_result result;
+    bool finished; // the task is done, and `result` is there
+    enum view_kind kind;
+    bool thumbnail;
+    struct view_listener *listener;
+    int socket;
+    struct view_connection *next; // in view.connections
+};
+
+struct view {
+    const struct options *options;
+    struct http http;
+    struct MHD_Daemon *daemon;
+    int port;
+    char token[VIEW_TOKEN_SIZE];
+    const char *folder; // NULL: one model is shown
+    struct view_files files;
+    struct view_page page;
+    struct view_tasks tasks;
+    struct view_watch watch;
+    struct view_listener *listeners;
+    struct view_connection *connections; // whose answers are not whole yet
+    double alive_ms;                     // clock_ms() at which the listeners have last heard something
+    bool ends;
+};
+
+// Serves until Ctrl-C, or until no connection has been open for `--idle` minutes. Prints the address. Errors: LAM_UNSUPPORTED
+// (libmicrohttpd or the page is missing), LAM_CANNOT_READ (the operand), LAM_LIMIT (no such port is free; the process may open no
+// socket), LAM_BAD_ARGUMENT.
+bool view_run(const char *operand, const struct options *options, lam_error *error);
+
+#endif

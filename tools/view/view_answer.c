@@ -1,0 +1,92 @@
+// view_answer.c: answers of HTTP.
+#include "view_answer.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "view_gallery.h"
+
+void view_answer_headers(const struct view *view, struct MHD_Response *response, const char *type)
+{
+    static const char *const headers[][2] = {
+        {"Cache-Control", "no-store"},
+        {"X-Content-Type-Options", "nosniff"},
+        {"Referrer-Policy", "no-referrer"}, // the address holds the token
+        {"Cross-Origin-Resource-Policy", "same-origin"},
+        {"Cross-Origin-Opener-Policy", "same-origin"},
+        {"X-Frame-Options", "DENY"},
+    };
+    for (size_t i = 0; i < sizeof headers / sizeof *headers; i++)
+        view->http.MHD_add_response_header(response, headers[i][0], headers[i][1]);
+    view->http.MHD_add_response_header(response, "Content-Type", type);
+    // A page's own policy stands in it; nothing else is a page.
+    view->http.MHD_add_response_header(response, "Content-Security-Policy",
+                                       strncmp(type, "text/html", 9) == 0 ? "frame-ancestors 'none'"
+                                                                          : "default-src 'none'; sandbox");
+}
+
+static enum MHD_Result queue(const struct view *view, struct MHD_Connection *connection, int status, const char *type,
+                             struct MHD_Response *response)
+{
+    if (!response)
+        return MHD_NO; // which closes the connection
+    view_answer_headers(view, response, type);
+    if (status == MHD_HTTP_METHOD_NOT_ALLOWED)
+        view->http.MHD_add_response_header(response, "Allow", "GET, HEAD");
+    enum MHD_Result done = view->http.MHD_queue_response(connection, (unsigned)status, response);
+    view->http.MHD_destroy_response(response);
+    return done;
+}
+
+enum MHD_Result view_answer(const struct view *view, struct MHD_Connection *connection, int status, const char *type,
+                            const void *bytes, size_t size, enum view_bytes whose)
+{
+    // The library's parameter is not const, but it writes nothing there.
+    struct MHD_Response *response = view->http.MHD_create_response_from_buffer(
+        size, (void *)(uintptr_t)bytes, whose == VIEW_TAKES ? MHD_RESPMEM_MUST_FREE : MHD_RESPMEM_PERSISTENT);
+    if (!response && whose == VIEW_TAKES)
+        free((void *)(uintptr_t)bytes);
+    return queue(view, connection, status, type ? type : "text/plain; charset=utf-8", response);
+}
+
+enum MHD_Result view_answer_text(const struct view *view, struct MHD_Connection *connection, int status,
+                                 const char *sentence)
+{
+    char *copy = strdup(sentence);
+    return copy ? view_answer(view, connection, status, NULL, copy, strlen(copy), VIEW_TAKES) : MHD_NO;
+}
+
+enum MHD_Result view_answer_file(const struct view *view, struct MHD_Connection *connection, int file)
+{
+    struct stat about;
+    if (fstat(file, &about) != 0) {
+        close(file);
+        return MHD_NO;
+    }
+    struct MHD_Response *response = view->http.MHD_create_response_from_fd64((uint64_t)about.st_size, file);
+    if (!response)
+        close(file);
+    return queue(view, connection, MHD_HTTP_OK, "application/octet-stream", response);
+}
+
+enum MHD_Result view_answer_result(struct view_connection *c)
+{
+    static const char *const types[VIEW_KINDS] = {"application/json", "application/octet-stream", "image/png",
+                                                  "application/json"};
+    struct view_result result = c->result;
+    c->result = (struct view_result){0};
+    if (!result.bytes)
+        return view_answer_text(c->view, c->connection, 503, "out of memory");
+    size_t size = result.notes + result.data;
+    memmove(result.bytes, result.bytes + result.notes_at, size);
+    if (c->thumbnail && result.status == 422) { // browsers show such a picture too
+        result.bytes[size] = 0;                 // the process has left room for it
+        char *picture = view_gallery_failed(result.bytes, &size);
+        free(result.bytes);
+        return picture ? view_answer(c->view, c->connection, 422, "image/svg+xml", picture, size, VIEW_TAKES) : MHD_NO;
+    }
+    return view_answer(c->view, c->connection, result.status, result.status == 200 ? types[c->kind] : NULL,
+                       result.bytes, size, VIEW_TAKES);
+}

@@ -1,0 +1,157 @@
+// view_files.c: the files that the viewer serves. The kernel resolves their paths below the folder's handle (openat2), so that neither
+// ".." nor a link leads out, also when somebody moves links about meanwhile.
+#include "view_files.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <lambent/lambent.h>
+
+#include "console.h"
+
+enum { FLAGS = O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK };
+
+bool view_files_start(struct view_files *files, const char *operand, bool is_folder, lam_error *error)
+{
+    const char *slash = is_folder ? NULL : strrchr(operand, '/');
+    *files = (struct view_files){.folder = -1};
+    files->prefix = is_folder ? strdup(operand) : slash ? strndup(operand, (size_t)(slash - operand)) : strdup(".");
+    files->model_path = is_folder ? NULL : strdup(operand);
+    if (!is_folder && asprintf(&files->model, "/%s", slash ? slash + 1 : operand) < 0)
+        files->model = NULL;
+    if (!files->prefix || (!is_folder && (!files->model || !files->model_path)))
+        return complain(error, LAM_LIMIT, "out of memory");
+    for (size_t length = strlen(files->prefix); length > 1 && files->prefix[length - 1] == '/';)
+        files->prefix[--length] = 0;
+    bool root = !*files->prefix || strcmp(files->prefix, "/") == 0;
+    if (root)
+        *files->prefix = 0; // "/" and a path of the page would have two slashes
+    files->folder = open(root ? "/" : files->prefix, O_PATH | O_DIRECTORY | O_CLOEXEC);
+    return files->folder >= 0 ||
+           complain(error, LAM_CANNOT_READ, "%s: cannot open its folder: %s", operand, strerror(errno));
+}
+
+void view_files_free(struct view_files *files)
+{
+    if (files->folder >= 0)
+        close(files->folder);
+    for (int i = 0; i < files->environment_count; i++)
+        free(files->environment[i]);
+    free(files->environment);
+    free(files->prefix);
+    free(files->model);
+    free(files->model_path);
+    *files = (struct view_files){.folder = -1};
+}
+
+// Whether a list of endings separated by spaces has one.
+static bool has_ending(const char *endings, const char *ending)
+{
+    for (size_t length; *endings; endings += length, endings += strspn(endings, " ")) {
+        length = strcspn(endings, " ");
+        if (strlen(ending) == length && strncasecmp(ending, endings, length) == 0)
+            return true;
+    }
+    return false;
+}
+
+// Whether a name ends like a model, or like what models name: material libraries, buffers, pictures.
+static bool is_served(const char *path)
+{
+    const char *name = strrchr(path, '/'), *dot = name ? strrchr(name, '.') : NULL;
+    if (!dot || strstr(path, "/."))
+        return false;
+    for (int format = 0; lam_model_format_name(format); format++)
+        if (has_ending(lam_model_format_extensions(format), dot + 1))
+            return true;
+    return has_ending("json mtl bin png jpg jpeg webp bmp tga ppm pgm pbm pnm pfm hdr pic exr", dot + 1);
+}
+
+static bool is_below(const struct view_files *files, const char *path)
+{
+    char *top = realpath(*files->prefix ? files->prefix : "/", NULL), *real = realpath(path, NULL);
+    size_t length = top ? strlen(top) : 0;
+    bool below = top && real && strncmp(top, real, length) == 0 &&
+                 (real[length] == '/' || !real[length] || top[length - 1] == '/');
+    free(top);
+    free(real);
+    return below;
+}
+
+static int open_below(const struct view_files *files, const char *path, int flags)
+{
+#ifdef SYS_openat2
+    struct {
+        uint64_t flags, mode, resolve;
+    } how = {.flags = (uint64_t)flags, .resolve = 0x02 | 0x08}; // RESOLVE_NO_MAGICLINKS, RESOLVE_BENEATH
+    int file = (int)syscall(SYS_openat2, files->folder, path[1] ? path + 1 : ".", &how, sizeof how);
+    if (file >= 0 || errno != ENOSYS)
+        return file;
+#endif
+    // Before Linux 5.6: a link that comes in between helps, as long as the sandbox does not hold.
+    char *whole = view_files_path(files, path);
+    int found = whole && is_below(files, whole) ? open(whole, flags) : -1;
+    free(whole);
+    return found;
+}
+
+static bool is_regular(int file)
+{
+    struct stat about;
+    return fstat(file, &about) == 0 && S_ISREG(about.st_mode);
+}
+
+// The file of --environment of a path in the page; NULL: it is none.
+static const char *environment_of(const struct view_files *files, const char *path)
+{
+    static const char top[] = "/.environment/";
+    if (strncmp(path, top, sizeof top - 1) != 0)
+        return NULL;
+    char *end;
+    long number = strtol(path + sizeof top - 1, &end, 10);
+    return *end == '-' && number >= 1 && number <= files->environment_count ? files->environment[number - 1] : NULL;
+}
+
+int view_files_open(const struct view_files *files, const char *path)
+{
+    const char *environment = environment_of(files, path);
+    int file = -1;
+    if (*path != '/')
+        return -1;
+    if (environment)
+        file = open(environment, FLAGS);
+    else if (files->model && strcmp(path, files->model) == 0)
+        file = open(files->model_path, FLAGS);
+    else if (files->folder >= 0 && is_served(path))
+        file = open_below(files, path, FLAGS);
+    if (file >= 0 && !is_regular(file)) {
+        close(file);
+        file = -1;
+    }
+    return file;
+}
+
+int view_files_open_folder(const struct view_files *files, const char *path)
+{
+    return files->folder >= 0 && *path == '/' && !strstr(path, "/.")
+               ? open_below(files, path, O_PATH | O_DIRECTORY | O_CLOEXEC)
+               : -1;
+}
+
+char *view_files_path(const struct view_files *files, const char *path)
+{
+    const char *environment = environment_of(files, path);
+    char *whole = NULL;
+    if (environment)
+        return strdup(environment);
+    if (files->model && strcmp(path, files->model) == 0)
+        return strdup(files->model_path);
+    return asprintf(&whole, "%s%s", files->prefix, path) < 0 ? NULL : whole;
+}

@@ -1,0 +1,150 @@
+// view_gallery.c: the gallery of a folder.
+#include "view_gallery.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "batch_sources.h"
+#include "console.h"
+#include "html.h"
+
+const char view_gallery_style[] =
+    ":root { color-scheme: light dark; font: 16px/1.4 system-ui, sans-serif; }\n"
+    "body { margin: 0 auto; max-width: 1600px; padding: 1rem; }\n"
+    "h1 { font-size: 1.3rem; overflow-wrap: anywhere; } small { display: block; opacity: .7; }\n"
+    "ul { display: grid; gap: .75rem; grid-template-columns: repeat(auto-fill, minmax(min(11rem, 45%), 1fr)); "
+    "list-style: "
+    "none; margin: 0; padding: 0; }\n"
+    "a { border-radius: .5rem; color: inherit; display: block; padding: .5rem; text-decoration: none; }\n"
+    "a:hover, a:focus-visible { background: color-mix(in srgb, currentColor 12%, transparent); }\n"
+    "a:focus-visible { outline: 3px solid Highlight; }\n"
+    "img { aspect-ratio: 1; display: block; height: auto; object-fit: contain; width: 100%; }\n"
+    "span { display: block; font-size: .9rem; overflow-wrap: anywhere; text-align: center; }\n";
+
+char *view_gallery_words(const struct view *view, const char *model, size_t *size)
+{
+    static const char *const own[] = {"--size=256x256"};
+    _Static_assert(VIEW_THUMBNAIL == 256, "the word above");
+    size_t name = strlen(model) + 1, given = view->page.words_size, last = strlen(own[0]) + 1;
+    char *words = malloc(name + given + last);
+    if (!words)
+        return NULL;
+    memcpy(words, model, name);
+    if (given) // of nothing, the address may be NULL
+        memcpy(words + name, view->page.words, given);
+    memcpy(words + name + given, own[0], last);
+    *size = name + given + last;
+    return words;
+}
+
+static bool is_open(const struct view *view, const char *path)
+{
+    int file = view_files_open(&view->files, path);
+    if (file >= 0)
+        close(file);
+    return file >= 0;
+}
+
+static void put_model(FILE *out, const struct view *view, const char *path)
+{
+    const char *name = strrchr(path, '/') + 1;
+    char *folder = strndup(path + 1, (size_t)(name - path - 1));
+    fputs("<li><a href=\"page#", out);
+    html_address(out, path);
+    fputs(view->page.fragment, out);
+    fputs("\"><img loading=\"lazy\" width=\"256\" height=\"256\" alt=\"\" src=\"thumb", out);
+    html_address(out, path);
+    fputs("\"><span><small>", out);
+    html_text(out, folder);
+    fputs("</small>", out);
+    html_text(out, name);
+    fputs("</span></a></li>\n", out);
+    free(folder);
+}
+
+static void put_models(FILE *out, const struct view *view, const struct batch_plan *plan)
+{
+    size_t prefix = strlen(view->files.prefix);
+    fputs("<ul>\n", out);
+    for (size_t i = 0; i < plan->count; i++) {
+        const char *path = plan->models[i].path + prefix;
+        path += *path == '/' && path[1] == '/'; // the folder was named with a '/' at its end
+        if (is_open(view, path))                // else it is a link that leads out of the folder
+            put_model(out, view, path);
+    }
+    fputs("</ul>\n", out);
+}
+
+// The lines of a sentence, as wide as a thumbnail.
+static void put_lines(FILE *out, const char *sentence)
+{
+    enum { LETTERS = 34, LINES = 12, LINE_PX = 18 };
+    for (int line = 0; *sentence && line < LINES; line++) {
+        size_t length = strlen(sentence), cut = length < LETTERS ? length : LETTERS;
+        while (cut < length && cut > LETTERS / 2 && sentence[cut] != ' ')
+            cut--;
+        cut = cut < length && sentence[cut] != ' ' ? LETTERS : cut;
+        while (cut < length && ((unsigned char)sentence[cut] & 0xc0) == 0x80) // within a letter of UTF-8
+            cut++;
+        char *part = strndup(sentence, cut);
+        fprintf(out, "<tspan x=\"12\" dy=\"%d\">", LINE_PX);
+        html_text(out, part);
+        fputs("</tspan>", out);
+        free(part);
+        sentence += cut;
+        sentence += *sentence == ' ';
+    }
+}
+
+char *view_gallery_failed(const char *sentence, size_t *size)
+{
+    char *text = NULL;
+    FILE *out = open_memstream(&text, size);
+    if (!out)
+        return NULL;
+    fputs("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 256 256\" width=\"256\" height=\"256\">"
+          "<rect x=\"4\" y=\"4\" width=\"248\" height=\"248\" rx=\"8\" fill=\"none\" stroke=\"#b3261e\" "
+          "stroke-width=\"2\"/>"
+          "<text y=\"10\" font-family=\"sans-serif\" font-size=\"13\" fill=\"#b3261e\">",
+          out);
+    put_lines(out, sentence);
+    fputs("</text></svg>\n", out);
+    if (fclose(out) == 0)
+        return text;
+    free(text);
+    return NULL;
+}
+
+bool view_gallery_make(const struct view *view, char **text, size_t *size, lam_error *error)
+{
+    struct batch_plan plan;
+    const struct options standard = option_defaults();
+    if (!batch_plan_start(&plan, &standard, error))
+        return false;
+    bool ok = batch_add_operand(&plan, *view->files.prefix ? view->files.prefix : "/", error);
+    FILE *out = ok ? open_memstream(text, size) : NULL;
+    if (ok && !out)
+        ok = complain(error, LAM_LIMIT, "out of memory");
+    if (ok) {
+        fputs("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+              "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src 'self' data:; "
+              "style-src "
+              "'self'; "
+              "base-uri 'none'; form-action 'none'\">\n"
+              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+              "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n"
+              "<link rel=\"stylesheet\" href=\"gallery.css\">\n<title>",
+              out);
+        html_text(out, view->folder);
+        fputs(" · Lambent</title>\n</head>\n<body>\n<h1>", out);
+        html_text(out, view->folder);
+        fputs("</h1>\n<main>\n", out);
+        put_models(out, view, &plan);
+        fputs("</main>\n</body>\n</html>\n", out);
+        if (fclose(out) != 0)
+            ok = complain(error, LAM_LIMIT, "out of memory");
+    }
+    batch_plan_free(&plan);
+    return ok;
+}

@@ -1,0 +1,158 @@
+// view_page.c: the page of the viewer.
+#include "view_page.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "console.h"
+#include "html.h"
+#include "json.h"
+#include "page_file.h"
+#include "page_model.h"
+#include "plan.h"
+
+enum { PAGE_MAX = 64 << 20 }; // bytes of the page
+
+// --- the options of the command line
+
+// Where the files lie, however the program's folder changes; the page has its own paths of them.
+static bool take_environment(struct view_files *files, const struct page_model *model, lam_error *error)
+{
+    files->environment = calloc((size_t)model->count + 1, sizeof *files->environment);
+    if (!files->environment)
+        return complain(error, LAM_LIMIT, "out of memory");
+    for (int i = 0; i < model->count; i++) {
+        char *real = realpath(model->files[i].path, NULL);
+        if (!real)
+            return complain(error, LAM_CANNOT_READ, "option '--environment': %s: cannot read", model->files[i].path);
+        files->environment[files->environment_count++] = real;
+    }
+    return true;
+}
+
+struct words {
+    FILE *words, *fragment;
+    const char *environment; // NULL: as it is
+};
+
+static void put_option(void *user, const char *name, const char *value)
+{
+    const struct words *w = user;
+    char *word = NULL;
+    if (!page_model_has_option(option_find(name)))
+        return;
+    if (strcmp(name, "environment") == 0 && w->environment)
+        value = w->environment;
+    if (asprintf(&word, "--%s%s%s", name, value ? "=" : "", value ? value : "") < 0)
+        return;
+    fwrite(word, 1, strlen(word) + 1, w->words);
+    putc('&', w->fragment);
+    html_address(w->fragment, word);
+    free(word);
+}
+
+static bool take_options(struct view_page *page, const struct options *options, struct view_files *files,
+                         lam_error *error)
+{
+    struct page_model model = {0};
+    size_t size = 0;
+    bool ok = page_model_add_environment(options, &model, error) && take_environment(files, &model, error);
+    struct words w = {.environment = model.environment};
+    w.words = ok ? open_memstream(&page->words, &page->words_size) : NULL;
+    w.fragment = w.words ? open_memstream(&page->fragment, &size) : NULL;
+    if (ok && !w.fragment)
+        ok = complain(error, LAM_LIMIT, "out of memory");
+    if (ok)
+        each_given_option(options, put_option, &w);
+    bool lost = w.words && fclose(w.words) != 0;
+    lost |= w.fragment && fclose(w.fragment) != 0;
+    if (lost && ok)
+        ok = complain(error, LAM_LIMIT, "out of memory");
+    page_model_free(&model);
+    return ok;
+}
+
+// --- the page
+
+// JSON in which no '<' is left, so that it may stand in a script element.
+static void put_json(FILE *out, const char *id, const char *json)
+{
+    fprintf(out, "<script type=\"application/json\" id=\"%s\">", id);
+    for (const char *c = json; *c; c++)
+        if (*c == '<')
+            fputs("\\u003c", out);
+        else
+            putc(*c, out);
+    fputs("</script>\n", out);
+}
+
+static bool put_data(FILE *out, const struct view_page *page, const char *model, lam_error *error)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *list = open_memstream(&text, &size);
+    if (!list)
+        return complain(error, LAM_LIMIT, "out of memory");
+    struct json json = {.file = list};
+    if (model) {
+        json_open(&json, NULL, '[');
+        json_text(&json, NULL, model);
+        for (const char *word = page->words; word < page->words + page->words_size; word += strlen(word) + 1)
+            json_text(&json, NULL, word);
+        json_close(&json, ']');
+    }
+    bool ok = fclose(list) == 0 || complain(error, LAM_LIMIT, "out of memory");
+    if (ok && model)
+        put_json(out, "inside-words", text);
+    if (ok)
+        put_json(out, "served", model ? "{\"gallery\":false}" : "{\"gallery\":true}");
+    free(text);
+    return ok;
+}
+
+// The page's policy lets nothing out; this one is let reach the server that it comes from.
+static const char *const policy = "; base-uri 'none'", *const own_policy = "; connect-src 'self'; base-uri 'none'";
+
+static bool fill(struct view_page *page, const char *text, const char *model, lam_error *error)
+{
+    const char *place = strstr(text, policy), *end = NULL;
+    for (const char *at = text; (at = strstr(at, "</body>")); at++)
+        end = at;
+    if (!place || !end || place > end)
+        return complain(error, LAM_UNSUPPORTED,
+                        "the page that LAMBENT_PAGE or the build names is not the lambent.html of `make web`");
+    FILE *out = open_memstream(&page->text, &page->size);
+    if (!out)
+        return complain(error, LAM_LIMIT, "out of memory");
+    fwrite(text, 1, (size_t)(place - text), out);
+    fputs(own_policy, out);
+    place += strlen(policy);
+    fwrite(place, 1, (size_t)(end - place), out);
+    bool ok = put_data(out, page, model, error);
+    fputs(end, out);
+    if ((ferror(out) | fclose(out)) && ok)
+        ok = complain(error, LAM_LIMIT, "out of memory");
+    return ok;
+}
+
+bool view_page_make(struct view_page *page, const struct options *options, const char *model, struct view_files *files,
+                    lam_error *error)
+{
+    size_t size = 0;
+    *page = (struct view_page){0};
+    char *path = page_file_find(error), *text = path ? page_file_read(path, PAGE_MAX, &size, error) : NULL;
+    bool ok = text && take_options(page, options, files, error) && fill(page, text, model, error);
+    free(path);
+    free(text);
+    return ok;
+}
+
+void view_page_free(struct view_page *page)
+{
+    free(page->text);
+    free(page->words);
+    free(page->fragment);
+    *page = (struct view_page){0};
+}

@@ -1,0 +1,230 @@
+// view_tasks.c: pictures that are asked for, and the processes that draw them.
+#include "view_tasks.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "console.h"
+#include "limit_options.h"
+#include "progress.h"
+
+enum { GRACE_MS = 5000 };
+
+void view_tasks_start(struct view_tasks *tasks, const struct view_files *files, const struct options *options,
+                      void (*done)(void *user, struct view_result *result))
+{
+    long cores = options->threads ? options->threads : sysconf(_SC_NPROCESSORS_ONLN);
+    double limit_s = limits_time(options);
+    *tasks = (struct view_tasks){.files = files, .options = options, .done = done};
+    tasks->count = (cores < 1 ? 1 : cores > VIEW_PROCESSES_MAX - 1 ? VIEW_PROCESSES_MAX - 1 : (int)cores) + 1;
+    tasks->time_limit_ms = limit_s > 0 ? limit_s * 1e3 + GRACE_MS : 0;
+    for (int i = 0; i < VIEW_PROCESSES_MAX; i++)
+        tasks->processes[i] = (struct view_process){.to = -1, .from = -1};
+}
+
+static void free_task(struct view_tasks *tasks, struct view_task *task)
+{
+    for (struct view_task **at = &tasks->first; *at; at = &(*at)->next)
+        if (*at == task) {
+            *at = task->next;
+            break;
+        }
+    free(task->words);
+    free(task->client);
+    free(task);
+}
+
+static void finish(struct view_tasks *tasks, struct view_task *task, struct view_result *result)
+{
+    void *user = task->user;
+    free_task(tasks, task);
+    if (user)
+        tasks->done(user, result);
+    else
+        free(result->bytes);
+}
+
+static struct view_process *process_of(struct view_tasks *tasks, const struct view_task *task)
+{
+    for (int i = 0; i < tasks->count; i++)
+        if (tasks->processes[i].pid > 0 && tasks->processes[i].task == task)
+            return &tasks->processes[i];
+    return NULL;
+}
+
+// Ends a task's picture; one that waits for a process ends with the next step.
+static void cancel(struct view_tasks *tasks, struct view_task *task)
+{
+    task->superseded = true;
+    struct view_process *process = process_of(tasks, task);
+    if (process)
+        view_process_cancel(process);
+}
+
+struct view_task *view_tasks_add(struct view_tasks *tasks, const struct view_request *request, const char *words,
+                                 const char *client, void *user)
+{
+    struct view_task *task = calloc(1, sizeof *task), **end = &tasks->first;
+    if (!task)
+        return NULL;
+    task->request = *request;
+    task->words = malloc((size_t)request->size + 1);
+    task->client = client ? strdup(client) : NULL;
+    task->user = user;
+    if (!task->words || (client && !task->client)) {
+        free_task(tasks, task);
+        return NULL;
+    }
+    memcpy(task->words, words, (size_t)request->size);
+    task->words[request->size] = 0;
+    for (struct view_task *other = tasks->first; client && other; other = other->next)
+        if (other->client && strcmp(other->client, client) == 0 && other->request.kind == request->kind)
+            cancel(tasks, other);
+    while (*end)
+        end = &(*end)->next;
+    *end = task;
+    return task;
+}
+
+void view_tasks_drop(struct view_tasks *tasks, struct view_task *task)
+{
+    task->user = NULL;
+    if (!task->running)
+        free_task(tasks, task);
+    else
+        cancel(tasks, task);
+}
+
+// The process for a task: one that has its model already, else a new one, else one that waits. NULL: all work.
+static struct view_process *find_process(struct view_tasks *tasks, const struct view_task *task)
+{
+    struct view_process *free_one = NULL, *waiting = NULL;
+    int pictures = 0, count = task->client ? tasks->count : tasks->count - 1;
+    for (int i = 0; i < tasks->count; i++) {
+        struct view_process *p = &tasks->processes[i];
+        pictures += p->pid > 0 && p->task && !((const struct view_task *)p->task)->client;
+        if (p->pid > 0 && p->model && task->client && strcmp(p->model, task->words) == 0 && (!p->task || p->cancelled))
+            return p->task ? NULL : p; // one that is about to end its picture has the model soonest
+        free_one = !p->pid && !free_one ? p : free_one;
+        waiting = p->pid > 0 && !p->task && !waiting ? p : waiting;
+    }
+    if (!task->client && pictures >= count)
+        return NULL;
+    if (!free_one && waiting) {
+        view_process_end(waiting); // each model has a process of its own
+        free_one = waiting;
+    }
+    return free_one;
+}
+
+static void fail(struct view_tasks *tasks, struct view_task *task, int status, const char *sentence)
+{
+    struct view_result result = {.status = status, .bytes = strdup(sentence), .notes = strlen(sentence)};
+    result.notes = result.bytes ? result.notes : 0;
+    finish(tasks, task, &result);
+}
+
+static bool begin(struct view_tasks *tasks, struct view_task *task, struct view_process *process)
+{
+    if (!process->pid && !view_process_start(process, tasks->files, tasks->options))
+        return false;
+    task->running = true;
+    if (!view_process_ask(process, &task->request, task->words, task)) {
+        view_process_end(process);
+        return false;
+    }
+    process->stop_ms = tasks->time_limit_ms > 0 ? clock_ms() + tasks->time_limit_ms : 0;
+    return true;
+}
+
+static void begin_waiting(struct view_tasks *tasks)
+{
+    for (struct view_task *task = tasks->first, *next; task; task = next) {
+        next = task->next;
+        if (task->running)
+            continue;
+        if (task->superseded) {
+            fail(tasks, task, 409, "cancelled");
+            continue;
+        }
+        struct view_process *process = find_process(tasks, task);
+        if (process && !begin(tasks, task, process)) {
+            char sentence[200];
+            snprintf(sentence, sizeof sentence, "cannot start a drawing process: %s", strerror(errno));
+            fail(tasks, task, 503, sentence);
+        }
+    }
+}
+
+// A process that has ended, or that was killed because it took too long.
+static void lose(struct view_tasks *tasks, struct view_process *process, const char *sentence)
+{
+    struct view_task *task = process->task;
+    bool cancelled = process->cancelled;
+    view_process_end(process);
+    if (task)
+        fail(tasks, task, cancelled ? 409 : 422, cancelled ? "cancelled" : sentence);
+}
+
+static void receive(struct view_tasks *tasks, struct view_process *process)
+{
+    struct view_reply reply;
+    struct view_task *task = process->task;
+    int whole = view_process_receive(process, &reply);
+    if (whole < 0)
+        lose(tasks, process, "the drawing process ended without an answer");
+    if (whole <= 0)
+        return;
+    struct view_result result = {
+        .status = reply.status, .notes_at = sizeof reply, .notes = reply.notes, .data = (size_t)reply.data};
+    result.bytes = view_process_take(process);
+    if (!task) { // nobody has asked
+        free(result.bytes);
+        view_process_end(process);
+        return;
+    }
+    if (!task->client || !reply.keeps) // a thumbnail's model is drawn once
+        view_process_end(process);
+    finish(tasks, task, &result);
+}
+
+static bool is_readable(int file)
+{
+    struct pollfd wait = {.fd = file, .events = POLLIN};
+    return poll(&wait, 1, 0) > 0;
+}
+
+void view_tasks_step(struct view_tasks *tasks)
+{
+    double now = clock_ms();
+    for (int i = 0; i < tasks->count; i++) {
+        struct view_process *p = &tasks->processes[i];
+        for (int pieces = 0; pieces < 64 && p->pid > 0 && is_readable(p->from); pieces++)
+            receive(tasks, p);
+        if (p->pid > 0 && p->task && p->stop_ms > 0 && now > p->stop_ms)
+            lose(tasks, p, "the time limit was reached (--time-limit)");
+    }
+    begin_waiting(tasks);
+}
+
+void view_tasks_rest(struct view_tasks *tasks)
+{
+    for (int i = 0; i < tasks->count; i++)
+        if (tasks->processes[i].pid > 0 && !tasks->processes[i].task)
+            view_process_end(&tasks->processes[i]);
+}
+
+void view_tasks_end(struct view_tasks *tasks)
+{
+    for (int i = 0; i < tasks->count; i++)
+        if (tasks->processes[i].pid > 0)
+            view_process_end(&tasks->processes[i]);
+    while (tasks->first)
+        fail(tasks, tasks->first, 503, "the viewer has ended");
+}
+
+bool view_tasks_busy(const struct view_tasks *tasks) { return tasks->first != NULL; }

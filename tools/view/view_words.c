@@ -1,0 +1,121 @@
+// view_words.c: the words of the page's command line on this machine.
+#include "view_words.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "command.h"
+#include "console.h"
+#include "environment_option.h"
+#include "job_check.h"
+#include "page_model.h"
+
+// A path of the page on this machine, from malloc, if its file is served. NULL: LAM_CANNOT_READ, LAM_LIMIT.
+static char *machine_path(const struct view_files *files, const char *path, lam_error *error)
+{
+    int file = view_files_open(files, path);
+    if (file < 0) {
+        complain(error, LAM_CANNOT_READ,
+                 "%.400s: cannot read: there is no such file in the viewer's folder or below it",
+                 path + (*path == '/'));
+        return NULL;
+    }
+    close(file);
+    char *found = view_files_path(files, path);
+    if (!found)
+        complain(error, LAM_LIMIT, "out of memory");
+    return found;
+}
+
+// --environment FILE or six of them: paths in the page.
+static bool take_environment(struct view_words *w, const struct view_files *files, struct options *out,
+                             lam_error *error)
+{
+    if (!out->environment || environment_option_built_in(out->environment))
+        return true;
+    size_t size = 0;
+    FILE *list = open_memstream(&w->environment, &size);
+    char *copy = strdup(out->environment), *rest = copy;
+    bool ok = (list && copy) || complain(error, LAM_LIMIT, "out of memory");
+    for (char *part; ok && (part = strsep(&rest, ","));) {
+        char *path = machine_path(files, part, error);
+        ok = path != NULL;
+        if (path)
+            fprintf(list, "%s%s", part == copy ? "" : ",", path);
+        free(path);
+    }
+    free(copy);
+    if (list && fclose(list) != 0 && ok)
+        ok = complain(error, LAM_LIMIT, "out of memory");
+    if (ok)
+        out->environment = w->environment;
+    return ok;
+}
+
+static bool check(const struct options *given, lam_error *error)
+{
+    for (const struct option *o = option_table; o->name; o++)
+        if (given->given[o - option_table] && !page_model_has_option(o) && strcmp(o->name, "compress") != 0 &&
+            strcmp(o->name, "quality") != 0)
+            return complain(error, LAM_BAD_ARGUMENT, "option '--%s' is not of the picture that a page shows", o->name);
+    if (given->show && strcmp(given->show, "all") == 0)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--show all' makes several pictures, and a page shows one");
+    return job_check_options(given, error);
+}
+
+static void take_limits(const struct options *limits, struct options *out)
+{
+    out->memory_limit_bytes = limits->memory_limit_bytes;
+    out->time_limit_s = limits->time_limit_s;
+    out->triangle_limit = limits->triangle_limit;
+    out->pixel_limit = limits->pixel_limit;
+    out->file_limit_bytes = limits->file_limit_bytes;
+    out->json_depth_limit = limits->json_depth_limit;
+    out->threads = limits->threads;
+    out->in_flight = limits->in_flight;
+    out->files_inside = true;
+}
+
+bool view_words_parse(struct view_words *w, const char *text, size_t size, const struct view_files *files,
+                      const struct options *limits, struct options *out, lam_error *error)
+{
+    int count = 0;
+    *w = (struct view_words){.text = malloc(size + 1)};
+    *out = option_defaults();
+    for (size_t i = 0; i < size; i++)
+        count += !text[i];
+    w->words = calloc((size_t)count + 1, sizeof *w->words);
+    if (!w->text || !w->words)
+        return complain(error, LAM_LIMIT, "out of memory");
+    memcpy(w->text, text, size);
+    w->text[size] = 0;
+    char *at = w->text;
+    for (int i = 0; i < count; i++) {
+        w->words[i] = at;
+        at += strlen(at) + 1;
+    }
+    if (!count)
+        return complain(error, LAM_BAD_ARGUMENT, "no model given, expected its path");
+    w->page_model = w->words[0];
+    int operands = options_parse(count - 1, w->words + 1, command_table[COMMAND_render].groups, out, error);
+    if (operands > 0)
+        return complain(error, LAM_BAD_ARGUMENT, "unexpected argument '%.100s', expected one model", w->words[1]);
+    if (operands < 0 || !check(out, error) || !take_environment(w, files, out, error))
+        return false;
+    take_limits(limits, out);
+    w->model = lam_shape_find(w->page_model) >= 0 ? strdup(w->page_model) : machine_path(files, w->page_model, error);
+    if (!w->model && lam_shape_find(w->page_model) >= 0)
+        complain(error, LAM_LIMIT, "out of memory");
+    return w->model != NULL;
+}
+
+void view_words_free(struct view_words *w)
+{
+    free(w->text);
+    free(w->words);
+    free(w->model);
+    free(w->environment);
+    *w = (struct view_words){0};
+}

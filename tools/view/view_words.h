@@ -1,0 +1,22 @@
+// view_words.h: the words of the page's command line on this machine.
+#ifndef VIEW_WORDS_H
+#define VIEW_WORDS_H
+
+#include "options.h"
+#include "view_files.h"
+
+struct view_words {
+    char *text;             // the words, each with a 0 at its end
+    char **words;           // pointers to them, which parsing moves
+    char *model;            // its path on this machine, or a shape's name
+    const char *page_model; // by its path in the page
+    char *environment;
+};
+
+// Parses words of the page. The options of pictures alone are taken; `limits` has the others. `out` is valid until view_words_free, which
+// the caller calls in any case, after options_free. Errors: LAM_BAD_ARGUMENT, LAM_CANNOT_READ (a file that is not served), LAM_LIMIT.
+bool view_words_parse(struct view_words *w, const char *text, size_t size, const struct view_files *files,
+                      const struct options *limits, struct options *out, lam_error *error);
+void view_words_free(struct view_words *w);
+
+#endif

@@ -1,0 +1,104 @@
+// served.js: the page as `lambent view` serves it (tools/view): models come from its folder, and what is too large for the page is drawn by
+// the program itself. Addresses are relative to the page's own, which has the token.
+
+// { gallery }: whether the viewer shows a folder.
+export const served = JSON.parse(document.getElementById('served').textContent);
+
+const client = crypto.randomUUID(); // a newer picture of this page ends the older one
+let known = null; // the model as it was last asked for: its files in the module, or why the program draws it
+let drawing = null; // stops the request of a picture
+
+async function ask(address, words, { signal, ...more } = {}) {
+  const query = new URLSearchParams([...words.map((word) => ['w', word]), ['c', client], ...Object.entries(more)]);
+  const answer = await fetch(`${address}?${query}`, { signal });
+  if (!answer.ok) throw new Error(await answer.text());
+  return answer;
+}
+
+const bytesOf = async (answer) => new Uint8Array(await answer.arrayBuffer());
+
+async function fileOf(path) {
+  const answer = await fetch('files' + path.split('/').map(encodeURIComponent).join('/'));
+  if (!answer.ok) throw new Error(`${path.slice(1)}: ${await answer.text()}`);
+  return [path, await bytesOf(answer)];
+}
+
+// What is known of the model of the words, whose files the module then has, unless the program draws it.
+async function take(call, words) {
+  const key = [words[0], ...words.filter((word) => word.startsWith('--environment='))].join('\n');
+  if (known?.key === key && !known.stale) return known;
+  const taken = (known = { key, stale: true, paths: new Set([words[0]]), native: null });
+  const about = await (await ask('model', words)).json();
+  for (const path of [...about.files.map((file) => file.path), ...about.missing]) taken.paths.add(path);
+  taken.native = about.native;
+  taken.stale = false;
+  try {
+    if (!about.native) await call('files', { files: await Promise.all(about.files.map((file) => fileOf(file.path))) });
+  } catch (error) {
+    taken.stale = true;
+    throw error;
+  }
+  return taken;
+}
+
+const natively = {
+  async draw({ words }) {
+    drawing = new AbortController();
+    const bytes = await bytesOf(await ask('draw', words, { signal: drawing.signal })), end = bytes.indexOf(10); // a line of JSON, then RGBA
+    return { ...JSON.parse(new TextDecoder().decode(bytes.subarray(0, end))), pixels: new Uint8ClampedArray(bytes.buffer, end + 1) };
+  },
+  save: async ({ words }) => bytesOf(await ask('picture', words)),
+  explain: async ({ words, x, y }) => (await ask('explain', words, { x, y })).json(),
+};
+
+// Gives up the picture that the program draws, since a newer one is wanted.
+export function giveUpPicture() {
+  drawing?.abort();
+}
+
+// Why the program draws the model; null: the page does.
+export const nativeReason = (model) => (known?.key.split('\n')[0] === model ? known.native : null);
+
+// The calls of the worker, which has the files of served models before it draws them. Models that were opened in the page stay its own.
+export function servedCall(call) {
+  let own = [], holdsOwn = false;
+  return async (name, message) => {
+    if (name === 'files') {
+      own = message.files;
+      holdsOwn = true;
+      known = null;
+      return call(name, message);
+    }
+    const model = message.words?.[0];
+    if (!model?.startsWith('/')) return call(name, message);
+    if (own.some(([path]) => path === model)) {
+      if (!holdsOwn) await call('files', { files: own });
+      holdsOwn = true;
+      known = null;
+      return call(name, message);
+    }
+    const { native } = await take(call, message.words);
+    holdsOwn = false;
+    return native ? natively[name](message) : call(name, message);
+  };
+}
+
+// Calls `changed` when a file of the model is another one, and `lost` with whether the viewer has ended or is there again.
+export function watchServed(changed, lost) {
+  const events = new EventSource('events');
+  let timer = 0, isLost = false;
+  const later = () => {
+    clearTimeout(timer);
+    timer = setTimeout(() => {
+      if (known) known.stale = true;
+      changed();
+    }, 100); // several files are often written together
+  };
+  events.onmessage = ({ data }) => known?.paths.has(JSON.parse(data)) && later();
+  events.onerror = () => lost((isLost = true));
+  events.onopen = () => {
+    if (!isLost) return;
+    lost((isLost = false));
+    later();
+  };
+}

@@ -1,0 +1,24 @@
+// viewer.js: what the page of `lambent view` (served.js) has besides: it draws again when a file changes, names its model in the title, and
+// leads back to the gallery. Fetched by that page alone.
+import { emit, on, refuse, say, state, view } from './app.js';
+import { $, element } from './dom.js';
+import { giveUpPicture, nativeReason, served, watchServed } from './served.js';
+import { text } from './strings.js';
+
+const showTitle = () => (document.title = `${state.model.replace(/^.*\//, '')} · Lambent`);
+
+view.giveUpPicture = giveUpPicture;
+if (served.gallery) $('model').parentElement.before(element('a', { id: 'gallery', href: './', textContent: text('gallery') }));
+showTitle();
+on('words', showTitle);
+on('picture', () => {
+  const reason = nativeReason(state.model);
+  if (reason) $('status').textContent += ` · ${text('drawnByProgram', { reason })}`;
+});
+watchServed(
+  () => {
+    say(text('fileChanged'));
+    emit('words');
+  },
+  (isLost) => isLost && refuse(text('viewerEnded')),
+);

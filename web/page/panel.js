@@ -4,8 +4,8 @@ import { on, state, view } from './app.js';
 import { $, element, ours } from './dom.js';
 import { Row, setOption } from './row.js';
 
-// They name files to write, which the page does by buttons.
-const LEFT_OUT = ['output', 'save-scene', 'durable', 'compress', 'quality'];
+// They name files to write, which the page does by buttons, or a terminal.
+const LEFT_OUT = ['output', 'save-scene', 'durable', 'compress', 'quality', 'term'];
 
 class Panel {
   #rows = [];

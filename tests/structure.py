@@ -40,14 +40,16 @@ def source_of(build, path):
 
 def graph(build):
     defined, used = {}, collections.defaultdict(set)
-    for path in objects(build):
-        file = source_of(build, path)
-        for line in subprocess.run(["nm", path], stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines():
-            kind, symbol = line.split()[-2:]
-            if kind in "TDBRV":
-                defined[symbol] = file
-            elif kind == "U":
-                used[file].add(symbol)
+    paths = list(objects(build))
+    files = {path: source_of(build, path) for path in paths}
+    # One process for all: hundreds would take most of the test's time.
+    for line in subprocess.run(["nm", "-A", *paths], stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines():
+        path, rest = line.split(":", 1)
+        kind, symbol = rest.split()[-2:]
+        if kind in "TDBRV":
+            defined[symbol] = files[path]
+        elif kind == "U":
+            used[files[path]].add(symbol)
     edges = collections.defaultdict(lambda: collections.defaultdict(list))
     for file, symbols in used.items():
         for symbol in symbols:

@@ -5,7 +5,8 @@
 
 // Warns where the file's own lights leave most of what is seen black, though its surfaces are not: as its author saw it under lights of the
 // program that wrote it, perhaps, and as it looks without. Two small pictures tell: the lit one, and the colours of the surfaces.
-bool job_note_darkness(struct job *job, const lam_draw_params *draw, int width, int height, lam_error *error)
+bool job_note_darkness(struct job *job, const lam_draw_params *draw, int width, int height, const lam_control *control,
+                       lam_error *error)
 {
     const struct options *o = job->options;
     if (!job->file_lights || o->exposure_kind != EXPOSURE_BY_FILE || draw->output != LAM_OUTPUT_PICTURE)
@@ -22,14 +23,11 @@ bool job_note_darkness(struct job *job, const lam_draw_params *draw, int width, 
     width = longer > SIDE_MAX ? (int)((int64_t)width * SIDE_MAX / longer) : width;
     height = longer > SIDE_MAX ? (int)((int64_t)height * SIDE_MAX / longer) : height;
     lam_image lit = {0}, surfaces = {0};
-    lam_control control;
     bool ok = lam_image_make(&lit, width > 0 ? width : 1, height > 0 ? height : 1, LAM_RGBA32F, error) &&
               lam_image_make(&surfaces, lit.width, lit.height, LAM_RGBA32F, error) &&
-              job_control(job, NULL, &control, error) &&
-              lam_draw(job->device, job->scene, &job->camera, &params, &lit, &control, error);
+              lam_draw(job->device, job->scene, &job->camera, &params, &lit, control, error);
     params.output = LAM_OUTPUT_BASE_COLOR;
-    ok = ok && job_control(job, NULL, &control, error) &&
-         lam_draw(job->device, job->scene, &job->camera, &params, &surfaces, &control, error);
+    ok = ok && lam_draw(job->device, job->scene, &job->camera, &params, &surfaces, control, error);
     size_t covered = 0, unlit = 0;
     for (size_t i = 0; ok && i < (size_t)lit.width * (size_t)lit.height; i++) {
         const float *p = (const float *)lit.pixels + 4 * i, *q = (const float *)surfaces.pixels + 4 * i;

@@ -372,11 +372,12 @@ bool job_draw_frames(struct job *job, double from, double span, int count, lam_f
                      struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
+    lam_control small; // of the small pictures that tell whether this one is dark
     job->draw = draw_params_of(o, job->rig);
     job->draw.background = job->background;
     if (!show_option_apply(o->show, job->scene, &job->draw, error) ||
-        !fit_exposure(job, &job->draw, o->width, o->height, error) ||
-        !job_note_darkness(job, &job->draw, o->width, o->height, error))
+        !fit_exposure(job, &job->draw, o->width, o->height, error) || !job_control(job, NULL, &small, error) ||
+        !job_note_darkness(job, &job->draw, o->width, o->height, &small, error))
         return false;
     bool ok = true;
     for (int i = 0; ok && i < count; i++) {

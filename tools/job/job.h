@@ -115,6 +115,7 @@ lam_explanation *job_explain(struct job *job, int x, int y, struct progress *pro
 lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *error);
 
 // darkness.c: warns where the lights of the file leave most of a picture's surfaces black, though they are not. `draw` has its exposure.
-bool job_note_darkness(struct job *job, const lam_draw_params *draw, int width, int height, lam_error *error);
+bool job_note_darkness(struct job *job, const lam_draw_params *draw, int width, int height, const lam_control *control,
+                       lam_error *error);
 
 #endif

@@ -24,24 +24,6 @@ from check.mistakes import MISTAKES  # noqa: E402
 from web import Results, make_models  # noqa: E402
 
 
-def playwright():
-    """The folder of node's modules with playwright-core, installed where it is not yet; None: npm is missing or cannot get it."""
-    place = os.path.join(OUT, "npm")
-    lock = open(os.path.join(ROOT, "web", "package-lock.json")).read()
-    stamp = os.path.join(place, "installed")
-    if not os.path.exists(stamp) or open(stamp).read() != lock:
-        if not shutil.which("npm"):
-            return None
-        os.makedirs(place, exist_ok=True)
-        for name in ("package.json", "package-lock.json"):
-            shutil.copy(os.path.join(ROOT, "web", name), place)
-        done = subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund"], cwd=place, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        if done.returncode:
-            return None
-        open(stamp, "w").write(lock)
-    return os.path.join(place, "node_modules")
-
-
 def colors_of(path):
     """The RGB bytes of a PPM file."""
     data = open(path, "rb").read()
@@ -120,7 +102,7 @@ def main():
         if "apt-get" in done.stdout:
             return skip("Debian's sources cannot be fetched")
         results.ok(False, "build-web is built", done.stdout)
-    modules = playwright()
+    modules = build.packages(OUT)
     if not modules:
         return skip("npm cannot install playwright-core")
     sequences = 30 if long else 3

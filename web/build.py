@@ -39,6 +39,7 @@ PAGE = "page.js"
 WORKER = "worker.js"
 
 CHECK_WORKER = "check_worker.js"
+CODEMIRROR = "codemirror.js" # made from npm's
 
 # The one-file page has in it what the served one fetches: scripts of workers as texts, the rest packed. These functions stand before its script,
 # and in place of those of the same names.
@@ -49,6 +50,16 @@ const insideScript = (text) => URL.createObjectURL(new Blob([text], { type: 'tex
 INSIDE = {
     "openWorker": """function openWorker() {
   return caller(new Worker(insideScript(insideText('worker'))), insideStream('wasm').arrayBuffer());
+}
+""",
+    "openCheck": """function openCheck() {
+  wasm ??= insideStream('check-wasm').arrayBuffer();
+  const worker = new Worker(insideScript(insideText('check-worker')));
+  return { ...caller(worker, wasm), end: () => worker.terminate() };
+}
+""",
+    "openCodeMirror": """async function openCodeMirror() {
+  return import(insideScript(await insideStream('codemirror').text()));
 }
 """,
 }
@@ -65,8 +76,68 @@ def with_files(page, files):
     return page.replace('<script type="text/plain" id="worker">', texts + '<script type="text/plain" id="worker">', 1)
 
 
+def programs():
+    """The script with the shaders that the page offers: the correct programs of the contracts (tests/check), and exercises, which are those with a known
+    mistake: [program, mistakes, [[text, old, new]]]."""
+    folder = os.path.join(ROOT, "tests", "check")
+    sys.path.insert(0, folder)
+    from mistakes import MISTAKES
+    contracts = [name[:-5] for name in os.listdir(os.path.join(ROOT, "src", "check", "contracts"))]
+    parts = {"vertex": ".vert", "fragment": ".frag"}
+    rows = []
+    for name in sorted(name[:-5] for name in os.listdir(folder) if name.endswith(".vert")):
+        mine = max((contract for contract in contracts if name == contract or name.startswith(contract + "-")), key=len)
+        if name != "pittsburgh-blocks": # GLSL ES 3.00 has no blocks of varyings
+            rows.append({"name": name, "contract": mine, **{part: open(os.path.join(folder, name + ending)).read() for part, ending in parts.items()}})
+    names = {row["name"] for row in rows}
+    exercises = [{"program": name, "mistakes": ids.split(), "edits": [["vertex" if ending == "vert" else "fragment", old, new] for ending, old, new in edits]}
+                 for name, ids, edits in MISTAKES if name in names]
+    return "export const PROGRAMS = %s;\nexport const EXERCISES = %s;\n" % (json.dumps(rows), json.dumps(exercises))
+
+
+def packages(folder):
+    """The folder of node's modules with what web/package-lock.json names, installed in FOLDER/npm where it is not yet; None: npm is missing or cannot get
+    it."""
+    place = os.path.join(folder, "npm")
+    lock = open(os.path.join(HERE, "package-lock.json")).read()
+    stamp = os.path.join(place, "installed")
+    if not os.path.exists(stamp) or open(stamp).read() != lock:
+        if not shutil.which("npm"):
+            return None
+        os.makedirs(place, exist_ok=True)
+        for name in ("package.json", "package-lock.json"):
+            shutil.copy(os.path.join(HERE, name), place)
+        done = subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--fetch-retries=1"], cwd=place, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT)
+        if done.returncode:
+            return None
+        open(stamp, "w").write(lock)
+    return os.path.join(place, "node_modules")
+
+
+def codemirror(folder):
+    """The text editor as one script with its licences; None: npm cannot get it, and the page has a plain field in its place."""
+    modules = packages(folder)
+    if not modules:
+        print("web: npm cannot install CodeMirror: shaders are edited in a plain field", flush=True)
+        return None
+    facts, made = os.path.join(folder, "npm", "codemirror.json"), os.path.join(folder, "npm", CODEMIRROR)
+    done = subprocess.run([os.path.join(modules, ".bin", "esbuild"), os.path.join(HERE, "check", "codemirror.src.js"), "--bundle", "--minify", "--format=esm",
+                             "--target=es2022", "--metafile=" + facts, "--outfile=" + made], env={**os.environ, "NODE_PATH": modules}, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    if done.returncode:
+        sys.exit("web: esbuild fails:\n" + done.stderr.decode()[-3000:])
+    used = sorted({re.search(r"node_modules/((?:@[^/]+/)?[^/]+)/", name)[1] for name in json.load(open(facts))["inputs"] if "node_modules/" in name})
+    licences = {}
+    for name in used:
+        licences.setdefault(open(os.path.join(modules, name, "LICENSE")).read().strip(), []).append(name)
+    notice = "\n\n".join("%s\n\n%s" % (", ".join(names), text) for text, names in licences.items())
+    return b"/*\n" + notice.encode() + b"\n*/\n" + open(made, "rb").read()
+
+
 def page_file(name):
     """A file of the page, a script without the lines that are comments alone: the page loads sooner."""
+    if name == "programs.js":
+        return programs()
     paths = [os.path.join(HERE, folder, name) for folder in ("page", "check", "")]
     text = open(next((path for path in paths if os.path.exists(path)), paths[0])).read()
     return re.sub(r"^[ \t]*//.*\n", "", text, flags=re.M) if name.endswith(".js") else text
@@ -183,10 +254,15 @@ def make_page(folder, modules):
     for name in names:
         write(os.path.join(served, name), served_file(name))
     for name in set(os.listdir(served)) - set(names): # of modules that are no more
-        if name.endswith(".js") and not name.startswith("offline"):
+        if name.endswith(".js") and not name.startswith("offline") and name != CODEMIRROR:
             os.remove(os.path.join(served, name))
     write(os.path.join(served, "check.wasm"), open(os.path.join(modules, "check.wasm"), "rb").read())
     split(os.path.join(modules, "lambent.wasm"), served)
+    editor = codemirror(folder)
+    if editor:
+        write(os.path.join(served, CODEMIRROR), editor)
+    elif os.path.exists(os.path.join(served, CODEMIRROR)):
+        os.remove(os.path.join(served, CODEMIRROR))
     make_offline(served)
 
     style = page_file("page.css")
@@ -200,6 +276,8 @@ def make_page(folder, modules):
     texts = {"worker": plain_script(WORKER), "check-worker": plain_script(CHECK_WORKER)}
     for name, file in (("wasm", "lambent.wasm"), ("check-wasm", "check.wasm")):
         texts[name] = packed_text(open(os.path.join(modules, file), "rb").read())
+    if editor:
+        texts["codemirror"] = packed_text(editor)
     inside = "".join('<script type="text/plain" id="%s">%s</script>\n' % row for row in texts.items())
     page = page.replace("</body>", '%s<script type="module">%s</script>\n</body>' % (inside, script))
     write(os.path.join(folder, "lambent.html"), page)

@@ -52,7 +52,7 @@ def table(folder):
     rows = [(title, size, None) for title, size in parts_of(os.path.join(folder, "wasm", "web", "lambent.map")).items()]
     rows.append(("the module", os.path.getsize(module), packed(module)))
     page = os.path.join(folder, "page")
-    later = build.later_modules_of(build.PAGE)
+    later = build.later_modules_of(build.PAGE) + [build.CODEMIRROR]
     first = build.modules_of(build.PAGE) + build.modules_of(build.WORKER)
     shaders = [name for name in build.modules_of(build.CHECK_WORKER) if name not in first + later]
     files = [name for name in os.listdir(page) if name.endswith((".js", ".html", ".css"))]

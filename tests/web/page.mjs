@@ -7,6 +7,7 @@ import { dirname, join } from 'node:path';
 import { open } from '../../web/lambent.js';
 import { aroundEquations, lightEquations, sumEquation } from '../../web/page/equations.js';
 import { lightText, lightWords, movedTo, newLight, parseLight, placeOf, withCone } from '../../web/page/lights.js';
+import '../../web/page/shader_strings.js';
 import { pseudo, stringKeys, text } from '../../web/page/strings.js';
 import { State, command, fromFragment, quoted, toFragment } from '../../web/page/state.js';
 

@@ -2,12 +2,14 @@
 // place of these functions: web/build.py.)
 import { caller } from './start.js';
 
+let wasm = null; // a promise, for all workers
+
 export function openCheck() {
+  wasm ??= fetch(new URL('check.wasm', import.meta.url)).then((answer) => answer.arrayBuffer());
   const worker = new Worker(new URL('check_worker.js', import.meta.url), { type: 'module' });
-  const wasm = fetch(new URL('check.wasm', import.meta.url)).then((answer) => answer.arrayBuffer());
   return { ...caller(worker, wasm), end: () => worker.terminate() };
 }
 
-export function openCodeMirror() {
-  return import('./codemirror.js');
+export async function openCodeMirror() {
+  return import(new URL('codemirror.js', import.meta.url));
 }

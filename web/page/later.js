@@ -9,6 +9,7 @@ const used = (loading) => loading.catch((error) => refuse(error.message));
 addTab('options', text('tabOptions'), () => used(import('./panel.js')));
 addTab('lights', text('tabLights'), () => used(import('./light_tab.js')));
 addTab('explain', text('tabExplain'), () => used(import('./explaining.js')));
+addTab('shaders', text('tabShaders'), () => used(import('./shaders.js')));
 
 // The calculation at a part of the picture's width and height.
 export async function explainAt(across, down) {

@@ -15,6 +15,7 @@ const STRINGS = {
   side: 'Options and explanations',
   tabQuick: 'Picture',
   tabOptions: 'Options',
+  tabShaders: 'Shaders',
   tabExplain: 'Explain',
   tabLights: 'Lights',
   addPoint: 'Add a point light',
@@ -129,6 +130,9 @@ export function text(key, values = {}) {
   if (template === undefined) throw new Error(`strings.js has no '${key}'`);
   return (isPseudo ? pseudo(template) : template).replace(/\{(\w+)\}/g, (_, name) => values[name]);
 }
+
+// Texts of a part of the page that is fetched later, with their table.
+export const addStrings = (more) => Object.assign(STRINGS, more);
 
 export const stringKeys = () => Object.keys(STRINGS);
 

@@ -1,0 +1,61 @@
+// codemirror.src.js: what the page takes of CodeMirror 6 (npm, MIT), bundled by esbuild into codemirror.js (web/build.py). Its styles go to the shadow
+// root of the place, where the content-security policy of the page lets them be.
+import { indentWithTab } from '@codemirror/commands';
+import { HighlightStyle, StreamLanguage, syntaxHighlighting } from '@codemirror/language';
+import { shader } from '@codemirror/legacy-modes/mode/clike';
+import { lintGutter, setDiagnostics } from '@codemirror/lint';
+import { EditorState } from '@codemirror/state';
+import { EditorView, keymap } from '@codemirror/view';
+import { tags } from '@lezer/highlight';
+import { basicSetup } from 'codemirror';
+
+const colors = HighlightStyle.define([
+  { tag: [tags.keyword, tags.typeName, tags.standard(tags.name)], color: 'var(--accent)' },
+  { tag: tags.comment, color: 'var(--soft)', fontStyle: 'italic' },
+  { tag: [tags.number, tags.meta], color: 'var(--bad)' },
+]);
+const theme = EditorView.theme({
+  '&': { color: 'var(--front)', backgroundColor: 'var(--field)', fontSize: '.8rem', maxHeight: '17rem', border: '1px solid var(--line)', borderRadius: '6px' },
+  '&.cm-focused': { outline: '2px solid var(--accent)' },
+  '.cm-scroller': { overflow: 'auto', fontFamily: 'ui-monospace, monospace' },
+  '.cm-content': { caretColor: 'var(--front)' },
+  '.cm-cursor': { borderLeftColor: 'var(--front)' },
+  '.cm-gutters': { color: 'var(--soft)', backgroundColor: 'var(--back)', borderRight: '1px solid var(--line)' },
+  '.cm-activeLine, .cm-activeLineGutter': { backgroundColor: 'color-mix(in srgb, var(--accent) 8%, transparent)' },
+  '.cm-selectionBackground, &.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground': { backgroundColor: 'color-mix(in srgb, var(--accent) 30%, transparent)' },
+  '.cm-tooltip, .cm-panels': { color: 'var(--front)', backgroundColor: 'var(--back)' },
+});
+
+// An editor in `place`: its text, what it shows of a compiler's messages, [{line, text}], and a line to go to.
+export function makeEditor(place, { label, onchange }) {
+  const root = place.attachShadow({ mode: 'open' });
+  let silent = false;
+  const view = new EditorView({
+    root,
+    parent: root,
+    state: EditorState.create({
+      extensions: [basicSetup, keymap.of([indentWithTab]), StreamLanguage.define(shader), syntaxHighlighting(colors), theme, lintGutter(),
+        EditorView.contentAttributes.of({ 'aria-label': label }), EditorView.updateListener.of((update) => update.docChanged && !silent && onchange())],
+    }),
+  });
+  return {
+    get text() {
+      return view.state.doc.toString();
+    },
+    set text(value) {
+      silent = true;
+      view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: value } });
+      silent = false;
+    },
+    showErrors(errors) {
+      const { doc } = view.state;
+      const at = (line) => doc.line(Math.min(Math.max(line, 1), doc.lines));
+      view.dispatch(setDiagnostics(view.state, errors.map(({ line, text }) => ({ from: at(line).from, to: at(line).to, severity: 'error', message: text }))));
+    },
+    goTo(line) {
+      const { from } = view.state.doc.line(Math.min(line, view.state.doc.lines));
+      view.dispatch({ selection: { anchor: from }, scrollIntoView: true });
+      view.focus();
+    },
+  };
+}

@@ -1,0 +1,30 @@
+// shader_editor.js: an editor of a shader: CodeMirror, or a plain field where the page was built without it.
+import { openCodeMirror } from './check_start.js';
+import { element } from './dom.js';
+
+function plainEditor(place, { label, onchange }) {
+  const field = element('textarea', { rows: 16, spellcheck: false, wrap: 'off', oninput: onchange, attributes: { 'aria-label': label, translate: 'no' } });
+  place.append(field);
+  return {
+    get text() {
+      return field.value;
+    },
+    set text(value) {
+      field.value = value;
+    },
+    showErrors(errors) {
+      field.setAttribute('aria-invalid', String(errors.length > 0));
+    },
+    goTo(line) {
+      const from = field.value.split('\n').slice(0, line - 1).join('\n').length + (line > 1);
+      field.focus();
+      field.setSelectionRange(from, from);
+    },
+  };
+}
+
+// `text`, showErrors([{line, text}]), goTo(line). onchange: a person has changed the text.
+export async function makeEditor(place, options) {
+  const codeMirror = await openCodeMirror().catch(() => null);
+  return codeMirror ? codeMirror.makeEditor(place, options) : plainEditor(place, options);
+}

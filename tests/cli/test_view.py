@@ -243,7 +243,7 @@ class View(Case):
     def test_pictures(self):
         server = self.serve("cube.obj")
         for words in (["--size=64"], ["--size=40x30", "--background=white", "--shading=flat", "--azimuth=70"],
-                      ["--size=50", "--light=point:position=2r/3r/1r", "--shadows"]):
+                      ["--size=48", "--look=classic"], ["--size=50", "--light=point:position=2r/3r/1r", "--shadows"]):
             status, headers, body = server.task("picture", "/cube.obj", *words)
             self.assertEqual((status, headers["Content-Type"]), (200, "image/png"))
             written = self.good("cube.obj", *words, "-o", "-").stdout

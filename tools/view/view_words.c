@@ -10,6 +10,7 @@
 #include "console.h"
 #include "environment_option.h"
 #include "job_check.h"
+#include "look_option.h"
 #include "page_model.h"
 
 // A path of the page on this machine, from malloc, if its file is served. NULL: LAM_CANNOT_READ, LAM_LIMIT.
@@ -54,11 +55,19 @@ static bool take_environment(struct view_words *w, const struct view_files *file
     return ok;
 }
 
+// Options of the picture; a look that is built in is one, and its file another's.
+static bool fits(const struct option *option, const struct options *given)
+{
+    if (strcmp(option->name, "look") == 0)
+        return look_find(given->look) != NULL;
+    return page_model_has_option(option) || strcmp(option->name, "compress") == 0 ||
+           strcmp(option->name, "quality") == 0;
+}
+
 static bool check(const struct options *given, lam_error *error)
 {
     for (const struct option *o = option_table; o->name; o++)
-        if (given->given[o - option_table] && !page_model_has_option(o) && strcmp(o->name, "compress") != 0 &&
-            strcmp(o->name, "quality") != 0)
+        if (given->given[o - option_table] && !fits(o, given))
             return complain(error, LAM_BAD_ARGUMENT, "option '--%s' is not of the picture that a page shows", o->name);
     if (given->show && strcmp(given->show, "all") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--show all' makes several pictures, and a page shows one");

@@ -1,5 +1,6 @@
 // served.js: the page as `lambent view` serves it (tools/view): models come from its folder, and what is too large for the page is drawn by
 // the program itself. Addresses are relative to the page's own, which has the token.
+import { text } from './strings.js';
 
 // { gallery }: whether the viewer shows a folder.
 export const served = JSON.parse(document.getElementById('served').textContent);
@@ -41,15 +42,24 @@ async function take(call, words) {
   return taken;
 }
 
+let last = Promise.resolve();
+
 const natively = {
-  async draw({ words }) {
-    drawing = new AbortController();
-    const bytes = await bytesOf(await ask('draw', words, { signal: drawing.signal })), end = bytes.indexOf(10); // a line of JSON, then RGBA
-    return { ...JSON.parse(new TextDecoder().decode(bytes.subarray(0, end))), pixels: new Uint8ClampedArray(bytes.buffer, end + 1) };
+  // One after the other: the picture and what it is compared with are wanted at the same time.
+  draw({ words }) {
+    const next = last.then(() => drawNow(words));
+    last = next.catch(() => {});
+    return next;
   },
   save: async ({ words }) => bytesOf(await ask('picture', words)),
   explain: async ({ words, x, y }) => (await ask('explain', words, { x, y })).json(),
 };
+
+async function drawNow(words) {
+  drawing = new AbortController();
+  const bytes = await bytesOf(await ask('draw', words, { signal: drawing.signal })), end = bytes.indexOf(10); // a line of JSON, then RGBA
+  return { ...JSON.parse(new TextDecoder().decode(bytes.subarray(0, end))), pixels: new Uint8ClampedArray(bytes.buffer, end + 1) };
+}
 
 // Gives up the picture that the program draws, since a newer one is wanted.
 export function giveUpPicture() {
@@ -79,6 +89,7 @@ export function servedCall(call) {
     }
     const { native } = await take(call, message.words);
     holdsOwn = false;
+    if (native && !natively[name]) throw new Error(text('notByProgram'));
     return native ? natively[name](message) : call(name, message);
   };
 }

@@ -45,6 +45,7 @@ const STRINGS = {
   workerEnded: 'the worker ended',
   gallery: '← Gallery',
   drawnByProgram: 'drawn by lambent view, since {reason}',
+  notByProgram: 'The page cannot do this with a model that lambent view draws.',
   fileChanged: 'The file has changed: the picture is new.',
   viewerEnded: 'lambent view has ended. What it has sent can still be turned.',
 

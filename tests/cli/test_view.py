@@ -304,6 +304,8 @@ class View(Case):
         connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=WAIT)
         self.addCleanup(connection.close)
         connection.request("GET", "/%s/draw?%s" % (server.token, slow))
+        while not subprocess.run(["pgrep", "-P", str(server.process.pid)], stdout=subprocess.PIPE).stdout:
+            pass  # until it is being drawn
         self.assertEqual(server.task("draw", "teapot", "--size=8")[0], 200)
         self.assertEqual(connection.getresponse().status, 409)
 

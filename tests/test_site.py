@@ -19,8 +19,8 @@ import make_site  # noqa: E402
 from web import Results  # noqa: E402
 
 # Figures of docs/lighting that are no picture of one model by `lambent`: diagrams (lambent plot, scripts/tone_plot.py), all materials on one
-# sheet, and what docs/tools draw with a mistake made on purpose.
-NO_LAB = r"highlight\.png|attenuation\.png|spot\.png|tone\.svg|tone-colors\.svg|materials\.png|mistake-.*"
+# sheet, a pixel explained, and what docs/tools draw with a mistake made on purpose.
+NO_LAB = r"highlight\.png|attenuation\.png|spot\.png|tone\.svg|tone-colors\.svg|materials\.png|explained\.png|mistake-.*"
 
 
 def check_links(results, folder):

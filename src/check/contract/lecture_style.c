@@ -55,11 +55,12 @@ static bool names(const struct declarations *d, int at, const char *a, const cha
 unsigned lecture_light_rules(const struct declarations *lit)
 {
     unsigned kinds[MAX_SCENE_LIGHTS] = {0}, rules = 0;
-    bool attenuated = false, found = false;
+    bool attenuated = false, found = false, printed = false;
     for (int i = 0; i < lit->word_count; i++) {
         struct range range;
+        printed |= is(lit, i, "vec3") && is(lit, i + 1, "lit") && is(lit, i + 2, "(");
         attenuated |= lit->words[i].is_member && is(lit, i, "attenuation");
-        if (is(lit, i, "vec3") && is(lit, i + 1, "way") && is(lit, i + 2, "=")) {
+        if (printed && is(lit, i, "vec3") && is(lit, i + 1, "way") && is(lit, i + 2, "=")) {
             int at = read_condition(lit, i + 3, &range);
             bool chosen = is(lit, at, "?");
             at += chosen;

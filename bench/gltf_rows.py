@@ -74,7 +74,8 @@ def pair(label, path, isas, display, seconds, environment=None):
     taken = measure.in_turn(contestants, seconds)
     wall = {key: [t.wall_ms for t in rounds] for key, rounds in taken.items()}
     cpu = {key: [t.cpu_ms for t in rounds] for key, rounds in taken.items()}
-    return {"file_bytes": os.path.getsize(path), "triangles": report["model"]["triangles"], "samples": 1, "options": options, "size": whole.SIZE,
+    return {"file_bytes": os.path.getsize(path), "triangles": report["model"]["triangles"], "samples": 1,
+            "options": [os.path.relpath(o, paths.ROOT) if o == environment else o for o in options], "size": whole.SIZE,
             "ms": {key: measure.spread(t) for key, t in wall.items()}, "cpu_ms": {key: measure.spread(t) for key, t in cpu.items()},
             "ratio": {isa: measure.ratio(wall["f3d"], wall[isa]) for isa in isas},
             "cpu_ratio": {isa: measure.ratio(cpu["f3d"], cpu[isa]) for isa in isas}, "steps_ms": report["times_ms"],

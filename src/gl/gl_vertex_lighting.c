@@ -1,6 +1,6 @@
 // gl_vertex_lighting.c: the stage `application`: the CPU evaluates the equations of src/lighting at the vertices, and the
 // front and back colours are uploaded as attributes. A draw is lit again only if an input of its colours has changed.
-#include "gl_device.h"
+#include "gl_vertex_key.h"
 
 #include "fail.h"
 #include "fields.h"
@@ -341,87 +341,6 @@ static void light_side(const struct side *side, const struct mesh_vertex *from, 
     }
 }
 
-// --- the key: all inputs of the colours, as bytes
-
-static bool key_add(struct gl_frame *f, struct gl_vertex_lighting *row, size_t *size, const void *bytes, size_t count,
-                    lam_error *error)
-{
-    if (*size + count > row->frame_key.capacity) {
-        struct buffer grown = {0};
-        if (!buffer_reserve(&grown, 2 * (*size + count), f->call, error))
-            return false;
-        if (*size)
-            memcpy(grown.data, row->frame_key.data, *size);
-        buffer_free(&row->frame_key);
-        row->frame_key = grown;
-    }
-    memcpy((char *)row->frame_key.data + *size, bytes, count);
-    *size += count;
-    return true;
-}
-
-// Members are appended without the padding between them, whose bytes are indeterminate.
-static bool key_add_light(struct gl_frame *f, struct gl_vertex_lighting *row, size_t *size,
-                          const struct frame_light *light, lam_error *error)
-{
-    const int kind[] = {light->kind, light->falloff};
-    size_t first = offsetof(struct frame_light, position), end = offsetof(struct frame_light, light);
-    return key_add(f, row, size, kind, sizeof kind, error) &&
-           key_add(f, row, size, (const char *)light + first, end - first, error);
-}
-
-static bool key_add_material(struct gl_frame *f, struct gl_vertex_lighting *row, size_t *size, const lam_material *m,
-                             lam_error *error)
-{
-    for (int i = 0; lam_material_field(i); i++) {
-        double numbers[4];
-        size_t bytes = (size_t)lam_field_get(lam_material_field(i), m, numbers) * sizeof *numbers;
-        if (!key_add(f, row, size, numbers, bytes, error))
-            return false;
-    }
-    return true;
-}
-
-static bool key_add_range(struct gl_frame *f, struct gl_vertex_lighting *row, size_t *size,
-                          const struct frame_draw_range *s, lam_error *error)
-{
-    const uint32_t run[] = {s->first_id, s->count, s->translucent, s->reflection};
-    return key_add(f, row, size, run, sizeof run, error) &&
-           key_add_material(f, row, size, f->frame->materials[s->front], error) &&
-           key_add_material(f, row, size, f->frame->materials[s->back], error);
-}
-
-// Collects every input of a draw's colours in row->frame_key.
-static bool make_key(struct gl_frame *f, struct gl_vertex_lighting *row, const struct gl_mesh *mesh, int number,
-                     size_t *size, lam_error *error)
-{
-    const struct frame *frame = f->frame;
-    const struct frame_draw *draw = &frame->draws[number];
-    const int choices[] = {frame->output,         frame->shading,          frame->gl1,
-                           frame->distant_viewer, frame->match_highlights, frame->single_scattering,
-                           frame->light_count,    frame->hemisphere_count, draw->one_sided,
-                           frame->flat_normal,    (int)mesh->form,         frame->translucent};
-    // Contents that are of this frame, and shadows, which depend on all meshes.
-    const uint64_t frame_number = mesh->passing || frame->shadows ? f->device->frame_number : 0;
-    const void *pointers[] = {frame->environment, mesh->mesh.positions, mesh->token};
-    bool ok = key_add(f, row, size, choices, sizeof choices, error) &&
-              key_add(f, row, size, pointers, sizeof pointers, error) &&
-              key_add(f, row, size, &frame_number, sizeof frame_number, error) &&
-              key_add(f, row, size, draw->eye, sizeof draw->eye, error) &&
-              key_add(f, row, size, draw->normal, sizeof draw->normal, error) &&
-              key_add(f, row, size, draw->tangent, sizeof draw->tangent, error) &&
-              key_add(f, row, size, frame->ambient, sizeof frame->ambient, error) &&
-              key_add(f, row, size, frame->to_environment, sizeof frame->to_environment, error);
-    for (int i = 0; ok && i < frame->light_count; i++)
-        ok = key_add_light(f, row, size, &frame->lights[i], error);
-    for (int i = 0; ok && i < frame->hemisphere_count; i++)
-        ok = key_add(f, row, size, &frame->hemispheres[i], offsetof(struct frame_hemisphere, light), error);
-    for (int i = 0; ok && i < frame->range_count; i++)
-        if (frame->ranges[i].draw == number)
-            ok = key_add_range(f, row, size, &frame->ranges[i], error);
-    return ok;
-}
-
 // --- lighting and upload
 
 // The mesh's element of a vertex.
@@ -572,7 +491,8 @@ GLuint vertex_lighting_upload(struct gl_frame *f, int draw, struct gl_mesh *mesh
     struct gl_device *device = f->device;
     const struct gl *gl = f->gl;
     size_t size = 0;
-    if (!reserve_row(device, draw, error) || !make_key(f, &device->vertex_lighting[draw], mesh, draw, &size, error))
+    if (!reserve_row(device, draw, error) ||
+        !vertex_lighting_key(f, &device->vertex_lighting[draw], mesh, draw, &size, error))
         return 0;
     struct gl_vertex_lighting *row = &device->vertex_lighting[draw];
     bool apart = false;

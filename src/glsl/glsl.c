@@ -4,6 +4,7 @@
 #include "environment_light.h"
 #include "equations.h"
 #include "fail.h"
+#include "glsl_known.h"
 #include "glsl_rows.h"
 #include "lecture.h"
 #include "pieces.inc"
@@ -497,55 +498,6 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
 
 // --- the shader
 
-// --- conditions of the equations that the choices decide
-
-enum { KNOWN_MAX = 18 };
-
-static void add_known(struct known_condition out[KNOWN_MAX], const char *condition, bool holds)
-{
-    while (out->condition)
-        out++;
-    *out = (struct known_condition){condition, holds};
-}
-
-// A condition that holds for `some` of the lights is known if it holds for none or for all.
-static void add_known_lights(struct known_condition out[KNOWN_MAX], const char *condition, int some, int all)
-{
-    if (some == 0 || some == all)
-        add_known(out, condition, some > 0);
-}
-
-static void known_conditions(struct known_condition out[KNOWN_MAX], const struct glsl_facts *f)
-{
-    const struct glsl_choices *c = f->choices;
-    int kinds[GLSL_KINDS] = {0}, falloffs[GLSL_FALLOFFS] = {0}, all = c->light_count;
-    for (int i = 0; i < c->group_count; i++) {
-        kinds[c->groups[i].kind] += c->groups[i].count;
-        falloffs[c->groups[i].falloff] += c->groups[i].count;
-    }
-    if (c->distant_viewer)
-        add_known(out, "viewer == VIEWER_LOCAL", false);
-    add_known(out, "scattering != 0", !c->single_scattering);
-#define LAYER_KNOWN(name) add_known(out, "(set & LAYER_" #name ") != 0", (f->layers & LAYER_##name) != 0)
-    LAYER_KNOWN(DIELECTRIC);
-    LAYER_KNOWN(CLEARCOAT);
-    LAYER_KNOWN(SHEEN);
-    LAYER_KNOWN(ANISOTROPY);
-    LAYER_KNOWN(IRIDESCENCE);
-    LAYER_KNOWN(TRANSMISSION);
-    LAYER_KNOWN(VOLUME);
-#undef LAYER_KNOWN
-    if (f->output_vector) // the shader evaluates a single light, with a kind of its own
-        return;
-    add_known_lights(out, "kind == LIGHT_DIRECTIONAL", kinds[LIGHT_DIRECTIONAL], all);
-    add_known_lights(out, "kind >= LIGHT_SPOT_CUTOFF", all - kinds[LIGHT_POINT] - kinds[LIGHT_DIRECTIONAL], all);
-    add_known_lights(out, "kind == LIGHT_SPOT_CUTOFF", kinds[LIGHT_SPOT_CUTOFF], all);
-    add_known_lights(out, "kind == LIGHT_SPOT_EXPONENT", kinds[LIGHT_SPOT_EXPONENT], all);
-    add_known_lights(out, "kind == LIGHT_SPOT_CONES", kinds[LIGHT_SPOT_CONES], all);
-    add_known_lights(out, "falloff != FALLOFF_NONE", all - falloffs[FALLOFF_NONE], all);
-    add_known_lights(out, "falloff == FALLOFF_RANGE", falloffs[FALLOFF_RANGE], all);
-}
-
 static const char *const version_lines[] = {"#version 120\n", "#version 330 core\n",
                                             "#version 300 es\nprecision highp float;\nprecision highp int;\n"};
 
@@ -569,7 +521,7 @@ static char *make_stage(const struct glsl_facts *f, bool fragment, lam_error *er
         text_print(&text, "precision highp %s;\n", c->environment == GLSL_CUBE ? "samplerCube" : "sampler2DArray");
     if (body.bytes && !body.failed) {
         struct known_condition known[KNOWN_MAX + 1] = {{NULL, false}};
-        known_conditions(known, f);
+        glsl_known_conditions(known, f);
         if (!c->lecture)
             equations_add(&text, body.bytes, known);
         glsl_declare(&text, f, fragment);

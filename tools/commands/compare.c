@@ -9,16 +9,17 @@
 #include "console.h"
 #include "device_option.h"
 #include "drawing.h"
+#include "highlight.h"
 #include "interrupt.h"
 #include "job.h"
 #include "json.h"
 #include "output.h"
 #include "report.h"
 #include "shader.h"
-#include "terminal.h"
+#include "sandbox_start.h"
 #include "sheet.h"
 #include "sheet_defaults.h"
-#include "sandbox_start.h"
+#include "terminal.h"
 
 enum { CELL_WIDTH = 480, CELL_HEIGHT = 400, ENLARGED = 3, INK = 0x222222, GREY = 0x777777, FRAME = 0xd55e00 };
 
@@ -31,10 +32,6 @@ struct page {
     int rows;
 };
 
-struct difference {
-    double mean, largest; // of a channel, 0...1
-};
-
 struct compare {
     const struct options *options;
     const char *model;
@@ -43,10 +40,10 @@ struct compare {
     struct sheet sheet;
     struct page page;
     struct drawing drawing;
-    int done;                                 // pictures drawn so far
-    lam_image right;                          // of a sheet of mistakes: its first picture
-    struct difference differences[CELLS_MAX]; // from that
-    bool exposure_fitted;                     // for the first picture; the others have the same
+    int done;                              // pictures drawn so far
+    lam_image right;                       // of a sheet of mistakes: its first picture
+    lam_difference differences[CELLS_MAX]; // from that
+    bool exposure_fitted;                  // for the first picture; the others have the same
     double exposure;
     const char *defaults[2 * SHEET_DEFAULTS_MAX]; // words of every picture that the command line does not have
     int default_count;
@@ -224,56 +221,7 @@ static bool choose_mistakes(struct compare *c, lam_error *error)
     return true;
 }
 
-static struct difference difference_of(const lam_image *a, const lam_image *b)
-{
-    const uint8_t *x = a->pixels, *y = b->pixels;
-    size_t count = 4 * (size_t)a->width * (size_t)a->height;
-    uint64_t sum = 0;
-    int largest = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (i % 4 == 3)
-            continue;
-        int off = x[i] > y[i] ? x[i] - y[i] : y[i] - x[i];
-        sum += (uint64_t)off;
-        largest = off > largest ? off : largest;
-    }
-    return (struct difference){(double)sum / (255.0 * 0.75 * (double)count), largest / 255.0};
-}
-
-// --- the brightest highlight
-
-struct box {
-    int left, top, width, height; // pixels of a cell's picture
-};
-
-// Slides a window over the highlight's contribution to the picture; the brightest position is the centre of the box.
-static struct box find_highlight(const lam_image *whole, const lam_image *matt)
-{
-    int w = whole->width, h = whole->height, width = w / ENLARGED, height = h / (2 * ENLARGED);
-    int span = w / 40 > 1 ? w / 40 : 1; // of the search window
-    const uint8_t *a = whole->pixels, *b = matt->pixels;
-    int64_t best = -1;
-    int best_x = w / 2, best_y = h / 2;
-    for (int y = 0; y + span <= h; y += (span + 1) / 2)
-        for (int x = 0; x + span <= w; x += (span + 1) / 2) {
-            int64_t sum = 0;
-            for (int j = y; j < y + span; j++)
-                for (int i = x; i < x + span; i++)
-                    for (int k = 0; k < 3; k++) {
-                        size_t at = 4 * ((size_t)j * (size_t)w + (size_t)i) + (size_t)k;
-                        sum += a[at] - b[at];
-                    }
-            if (sum > best) {
-                best = sum;
-                best_x = x + span / 2;
-                best_y = y + span / 2;
-            }
-        }
-    struct box box = {best_x - width / 2, best_y - height / 2, width > 0 ? width : 1, height > 0 ? height : 1};
-    box.left = box.left < 0 ? 0 : box.left > w - box.width ? w - box.width : box.left;
-    box.top = box.top < 0 ? 0 : box.top > h - box.height ? h - box.height : box.top;
-    return box;
-}
+// --- the enlarged highlight
 
 static bool draw_frame(struct compare *c, double left, double top, double width, double height, lam_error *error)
 {
@@ -283,7 +231,8 @@ static bool draw_frame(struct compare *c, double left, double top, double width,
 }
 
 // Draws the framed part of a cell's picture and, below it, the same part enlarged.
-static bool draw_inset(struct compare *c, const struct cell *cell, struct box box, int left, int top, lam_error *error)
+static bool draw_inset(struct compare *c, const struct cell *cell, struct highlight box, int left, int top,
+                       lam_error *error)
 {
     lam_image large, part;
     if (!draw_cell(c, cell, ENLARGED, NULL, NULL, &large, error))
@@ -352,11 +301,11 @@ static void draw_caption(struct compare *c, const struct cell *cell, int left, i
     // The options of the picture as typed.
     char line[512];
     const char *words[CELL_WORDS + 2];
-    const struct difference *d = &c->differences[cell - c->sheet.cells];
-    if (cell->mistake && d->largest == 0)
+    const lam_difference *d = &c->differences[cell - c->sheet.cells];
+    if (cell->mistake && d->maximum == 0)
         snprintf(line, sizeof line, "not visible in this scene");
     else if (cell->mistake)
-        snprintf(line, sizeof line, "mean difference %.4f, at most %.2f", d->mean, d->largest);
+        snprintf(line, sizeof line, "mean difference %.4f, at most %.2f", d->mean, d->maximum);
     else
         join(words, words_of(c, cell, words), line);
     draw_words(c, (struct point){middle, top + 55 * u}, width, line);
@@ -418,7 +367,7 @@ static bool describe(struct compare *c, const char *title, lam_error *error)
 static bool draw_sheet(struct compare *c, lam_error *error)
 {
     const struct page *p = &c->page;
-    struct box box = {0};
+    struct highlight box = {0};
     if (c->sheet.inset) { // from the last picture, which is lit per fragment
         const struct cell *cell = &c->sheet.cells[c->sheet.count - 1];
         lam_image whole, matt;
@@ -426,7 +375,7 @@ static bool draw_sheet(struct compare *c, lam_error *error)
             return false;
         bool ok = draw_cell(c, cell, 1, "--reflection", "lambert", &matt, error);
         if (ok) {
-            box = find_highlight(&whole, &matt);
+            box = highlight_find(&whole, &matt, ENLARGED);
             lam_image_free(&matt);
         }
         lam_image_free(&whole);
@@ -454,7 +403,7 @@ static bool draw_sheet(struct compare *c, lam_error *error)
             c->right = image;
         } else {
             if (ok && c->sheet.mistakes)
-                c->differences[i] = difference_of(&image, &c->right);
+                ok = lam_image_compare(&image, &c->right, &c->differences[i], error);
             lam_image_free(&image);
         }
         if (!ok)
@@ -505,7 +454,7 @@ static void print_json(const struct compare *c, const char *path)
         if (c->sheet.mistakes) {
             json_text(&json, "mistake", cell->mistake);
             json_number(&json, "mean_difference", c->differences[i].mean);
-            json_number(&json, "largest_difference", c->differences[i].largest);
+            json_number(&json, "largest_difference", c->differences[i].maximum);
         }
         json_close(&json, '}');
     }

@@ -10,7 +10,7 @@
 enum { INK = 0x222222, GREY = 0x707070, RULE = 0xd8d8d8, WHITE = 0xffffff };
 enum { ARROWS = 5, PANEL = 500, PANEL_HEIGHT = 690, SIDE_HEIGHT = 190 }; // the panel's parts, in units
 
-// Colours that are told apart without red and green too (Okabe and Ito, https://jfly.uni-koeln.de/color/).
+// Colours that can be distinguished without red and green too (Okabe and Ito, https://jfly.uni-koeln.de/color/).
 static const struct {
     const char *name, *meaning;
     uint32_t color;

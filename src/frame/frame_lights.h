@@ -1,0 +1,16 @@
+// frame_lights.h: the lights of a frame.
+#ifndef FRAME_LIGHTS_H
+#define FRAME_LIGHTS_H
+
+#include "frame.h"
+
+// Adds all lights or, with `only` >= 0, that light alone, without the scene's ambient light. Error: LAM_BAD_ARGUMENT.
+bool frame_lights_build(struct frame *frame, const lam_scene *scene, lam_rig rig, int only, const lam_mat4 *view,
+                        lam_error *error);
+
+// Where the environment lights all that is lit, and shadows are asked for, takes its brightest lamp as a light of its own. In a picture
+// of one light it is none.
+bool frame_lights_add_lamp(struct frame *frame, const lam_scene *scene, const lam_draw_params *params,
+                           const lam_mat4 *view, struct call_control *call, lam_error *error);
+
+#endif

@@ -1,0 +1,11 @@
+// gl_vertex_key.h: what the colours of a draw's vertices depend on.
+#ifndef GL_VERTEX_KEY_H
+#define GL_VERTEX_KEY_H
+
+#include "gl_device.h"
+
+// Collects every input of a draw's colours in row->frame_key. `size`: starts at 0; the bytes of the key.
+bool vertex_lighting_key(struct gl_frame *f, struct gl_vertex_lighting *row, const struct gl_mesh *mesh, int number,
+                         size_t *size, lam_error *error);
+
+#endif

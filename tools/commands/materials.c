@@ -246,6 +246,10 @@ int run_materials(int operand_count, char **operands, const struct options *opti
     interrupt_start();
     const char *output = options->output ? options->output : "-"; // --term alone shows the sheet and writes no file
     bool ok = terminal_start(options, true, &error);
+    if (ok && !options->output && !isatty(STDOUT_FILENO) && !terminal_shows()) {
+        print_list(options);
+        return 0;
+    }
     if (ok && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO) && !terminal_shows())
         ok = terminal_refuse("materials", &error);
     char *path = ok ? output_path(output, "materials", ".png") : NULL;

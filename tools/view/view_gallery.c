@@ -122,7 +122,7 @@ bool view_gallery_make(const struct view *view, char **text, size_t *size, lam_e
     const struct options standard = option_defaults();
     if (!batch_plan_start(&plan, &standard, error))
         return false;
-    bool ok = batch_add_operand(&plan, *view->files.prefix ? view->files.prefix : "/", error);
+    bool ok = batch_add_folder(&plan, *view->files.prefix ? view->files.prefix : "/", error);
     FILE *out = ok ? open_memstream(text, size) : NULL;
     if (ok && !out)
         ok = complain(error, LAM_LIMIT, "out of memory");

@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <netinet/in.h>
 #include <poll.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -225,6 +226,7 @@ bool view_run(const char *operand, const struct options *options, lam_error *err
         view_watch_start(&view.watch);
         setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0}); // drawing processes leave no files
         interrupt_start();
+        signal(SIGPIPE, SIG_IGN); // of closed connections and of drawing processes that have ended
         ok = start_daemon(&view, error);
     }
     if (ok) {

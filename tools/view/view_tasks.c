@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <poll.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -103,7 +104,7 @@ void view_tasks_drop(struct view_tasks *tasks, struct view_task *task)
 static struct view_process *find_process(struct view_tasks *tasks, const struct view_task *task)
 {
     struct view_process *free_one = NULL, *waiting = NULL;
-    int pictures = 0, count = task->client ? tasks->count : tasks->count - 1;
+    int pictures = 0;
     for (int i = 0; i < tasks->count; i++) {
         struct view_process *p = &tasks->processes[i];
         pictures += p->pid > 0 && p->task && !((const struct view_task *)p->task)->client;
@@ -112,7 +113,7 @@ static struct view_process *find_process(struct view_tasks *tasks, const struct 
         free_one = !p->pid && !free_one ? p : free_one;
         waiting = p->pid > 0 && !p->task && !waiting ? p : waiting;
     }
-    if (!task->client && pictures >= count)
+    if (!task->client && pictures >= tasks->count - 1)
         return NULL;
     if (!free_one && waiting) {
         view_process_end(waiting); // each model has a process of its own
@@ -134,7 +135,9 @@ static bool begin(struct view_tasks *tasks, struct view_task *task, struct view_
         return false;
     task->running = true;
     if (!view_process_ask(process, &task->request, task->words, task)) {
+        int reason = errno;
         view_process_end(process);
+        errno = reason;
         return false;
     }
     process->stop_ms = tasks->time_limit_ms > 0 ? clock_ms() + tasks->time_limit_ms : 0;
@@ -205,17 +208,12 @@ void view_tasks_step(struct view_tasks *tasks)
         struct view_process *p = &tasks->processes[i];
         for (int pieces = 0; pieces < 64 && p->pid > 0 && is_readable(p->from); pieces++)
             receive(tasks, p);
+        if (p->pid > 0 && p->task && p->cancelled)
+            kill(p->pid, SIGUSR1); // again: it may have come before the process had read the request
         if (p->pid > 0 && p->task && p->stop_ms > 0 && now > p->stop_ms)
             lose(tasks, p, "the time limit was reached (--time-limit)");
     }
     begin_waiting(tasks);
-}
-
-void view_tasks_rest(struct view_tasks *tasks)
-{
-    for (int i = 0; i < tasks->count; i++)
-        if (tasks->processes[i].pid > 0 && !tasks->processes[i].task)
-            view_process_end(&tasks->processes[i]);
 }
 
 void view_tasks_end(struct view_tasks *tasks)
@@ -226,5 +224,3 @@ void view_tasks_end(struct view_tasks *tasks)
     while (tasks->first)
         fail(tasks, tasks->first, 503, "the viewer has ended");
 }
-
-bool view_tasks_busy(const struct view_tasks *tasks) { return tasks->first != NULL; }

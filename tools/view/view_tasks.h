@@ -47,12 +47,7 @@ void view_tasks_drop(struct view_tasks *tasks, struct view_task *task);
 // Gives waiting tasks to processes, and reads what those have sent. Call it when one of their files can be read, and now and then.
 void view_tasks_step(struct view_tasks *tasks);
 
-// Ends processes that wait.
-void view_tasks_rest(struct view_tasks *tasks);
-
 // Ends all processes, and all tasks, with 503.
 void view_tasks_end(struct view_tasks *tasks);
-
-bool view_tasks_busy(const struct view_tasks *tasks);
 
 #endif

@@ -124,6 +124,14 @@ bool batch_add_list(struct batch_plan *plan, const char *path, lam_error *error)
     return ok;
 }
 
+bool batch_add_folder(struct batch_plan *plan, const char *folder, lam_error *error)
+{
+    size_t before = plan->count;
+    return add_folder(plan, folder, folder, error) &&
+           (plan->count > before ||
+            complain(error, LAM_CANNOT_READ, "%s: found no model in the folder or below it", folder));
+}
+
 bool batch_add_operand(struct batch_plan *plan, const char *operand, lam_error *error)
 {
     struct stat found;
@@ -131,11 +139,7 @@ bool batch_add_operand(struct batch_plan *plan, const char *operand, lam_error *
         return complain(error, LAM_BAD_ARGUMENT, "a model's name is empty");
     if (strcmp(operand, "-") == 0 || operand[0] == '@')
         return batch_add_list(plan, operand + (operand[0] == '@'), error);
-    if (lam_shape_find(operand) < 0 && stat(operand, &found) == 0 && S_ISDIR(found.st_mode)) {
-        size_t before = plan->count;
-        return add_folder(plan, operand, operand, error) &&
-               (plan->count > before ||
-                complain(error, LAM_CANNOT_READ, "%s: found no model in the folder or below it", operand));
-    }
+    if (lam_shape_find(operand) < 0 && stat(operand, &found) == 0 && S_ISDIR(found.st_mode))
+        return batch_add_folder(plan, operand, error);
     return batch_plan_add(plan, operand, NULL, error);
 }

@@ -103,11 +103,11 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
     const struct hierarchy *h = hierarchy_of_frame(&device->hierarchy, frame, NULL, f->call, &built, error);
     if (!h)
         return false;
+    if (built)
+        device->surface_texels = SIZE_MAX; // the texture has another hierarchy, or none
     device->base.report.hierarchy_ms += built ? (double)(now_ns() - start) * 1e-6 : 0;
-    if (f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->output)) { // no shader walks it
-        device->surface_texels = SIZE_MAX;
+    if (f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->output)) // no shader walks it
         return true;
-    }
     // Triangles are counted in floats, and in texels of a texture.
     size_t triangles = (size_t)NODE * h->node_count, places = triangles + (size_t)TRIANGLE * (h->triangle_count + 1);
     size_t surfaces = places + h->triangle_count / 4 + 1, surface_texels = 0;
@@ -118,9 +118,6 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
                     "OpenGL: the hierarchy of %u triangles needs a texture of %zu texels, this device can have %zu; "
                     "the CPU device has no such limit",
                     h->triangle_count, surfaces, most);
-    if (built && depth_of(h) > STACK)
-        return fail(error, LAM_LIMIT, "OpenGL: the hierarchy is %d nodes deep, at most %d can be walked here",
-                    depth_of(h), STACK);
     device->shadow_places[0] = (float)triangles;
     device->shadow_places[1] = (float)places;
     if (frame->passes_rays && !surfaces_pack(f, surfaces, most, &device->next_surfaces, &surface_texels, error))
@@ -128,12 +125,15 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
     bool same =
         surface_texels == device->surface_texels &&
         (!surface_texels || memcmp(device->surfaces.data, device->next_surfaces.data, surface_texels * TEXEL) == 0);
-    if (!built && same && device->shadow_texture)
+    if (same)
         return true;
+    device->surface_texels = SIZE_MAX;
+    if (depth_of(h) > STACK)
+        return fail(error, LAM_LIMIT, "OpenGL: the hierarchy is %d nodes deep, at most %d can be walked here",
+                    depth_of(h), STACK);
     struct buffer swapped = device->surfaces;
     device->surfaces = device->next_surfaces;
     device->next_surfaces = swapped;
-    device->surface_texels = surface_texels;
     size_t rows = (surfaces + surface_texels + WIDTH - 1) / WIDTH, bytes = rows * WIDTH * TEXEL;
     if (!gl_charge(f, &device->shadow_bytes, bytes, error) || !buffer_reserve(&device->scratch, bytes, f->call, error))
         return false;
@@ -154,6 +154,7 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, WIDTH, (GLsizei)rows, 0, GL_RGBA, GL_FLOAT, out);
+    device->surface_texels = surface_texels;
     device->base.report.bytes_uploaded += bytes;
     return true;
 }

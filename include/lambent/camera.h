@@ -31,7 +31,7 @@ LAM_API lam_camera lam_camera_default(void);
 LAM_API lam_mat4 lam_camera_view_matrix(const lam_camera *camera);
 
 // Where a point of eye space lies in a picture of width × height pixels: *x and *y in pixels from its upper left corner, outside
-// of it too. False, with nothing changed: it lies beside or behind the eye of a perspective camera.
+// of it too. Both sides are above 0; the near and far planes do not count. False, with nothing changed: it lies beside or behind the eye of a perspective camera.
 LAM_API bool lam_camera_project(const lam_camera *camera, int width, int height, lam_vec3 eye_position, double *x,
                                 double *y);
 

@@ -43,7 +43,8 @@ typedef struct lam_gl_params {
     // Draw with shaders of the lecture style (lam_shader_style); a draw fails with LAM_UNSUPPORTED where it does not have what
     // the scene asks for.
     bool lecture;
-    const char *mistake; // of that style, by its id; NULL: none
+    // A mistake of that style, by its id; a draw fails with LAM_UNSUPPORTED where its shader lacks what the mistake needs. NULL: none.
+    const char *mistake;
     LAM_RESERVED(6);
 } lam_gl_params;
 

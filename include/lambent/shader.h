@@ -58,9 +58,8 @@ typedef struct lam_shader_params {
     lam_shader_lights lights; // where the lights are
     // true: the uniforms are the products ka·La, kd·Ld, ks·Ls, formed before drawing. false: materials and lights.
     bool products;
-    // In the lecture style, LAM_SHADER_LIGHTS_AUTO is an array.
-    lam_shader_style style;
-    const char *mistake; // of the lecture style, by its id; NULL: none
+    lam_shader_style style; // how the text is written
+    const char *mistake;    // of the lecture style, by its id; NULL: none
     LAM_RESERVED(7);
 } lam_shader_params;
 
@@ -142,7 +141,8 @@ typedef struct lam_shader {
 //
 // `draw` and `params` may be NULL. `object` −1: the whole scene; else only that object. Names belong to the scene; the
 // caller frees the result. NULL on failure:
-//   LAM_BAD_ARGUMENT  as lam_draw; blocks or textures in GLSL 120; objects with one and with two sides, or with and
+//   LAM_BAD_ARGUMENT  as lam_draw; a style that is none; a mistake that is not known, or that is not of the lecture style's
+//                     shaders; blocks or textures in GLSL 120; objects with one and with two sides, or with and
 //                     without tangents, which one pair of shaders cannot serve: choose one by `object`
 //   LAM_UNSUPPORTED   the output is not light; there are no triangles (lines and points have no shader); the style does not
 //                     have what the scene asks for, or the shader does not have what the mistake needs

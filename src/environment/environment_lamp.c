@@ -44,7 +44,9 @@ static int list_bright(const struct lam_environment *cube, struct bright_texel *
 {
     double weights = 0, sum = 0;
     int count = 0, n = cube->size;
-    for (int pass = 0; pass < 2; pass++)
+    for (int pass = 0; pass < 2; pass++) {
+        if (pass == 1)
+            *mean = sum / weights;
         for (int face = 0; face < LAM_FACE_COUNT; face++)
             for (int i = 0; i < n * n; i++) {
                 const float *rgb = cube_texel(cube, face, i % n, i / n);
@@ -60,9 +62,8 @@ static int list_bright(const struct lam_environment *cube, struct bright_texel *
                     b->luminance = y;
                     b->share = weight / weights;
                 }
-                if (pass == 0)
-                    *mean = sum / weights;
             }
+    }
     return count;
 }
 

@@ -93,7 +93,7 @@ vec3 lit(@parameters@)
 //@end
 //@if has_environment
     vec3 mirrored = environment_matrix * reflect(-V, N); // the way that the eye sees in a mirror
-    color += @reflectivity@ * @texture_cube@(environment, mirrored).rgb;
+    color = color + @reflectivity@ * @texture_cube@(environment, mirrored).rgb;
 //@end
     return color;
 }

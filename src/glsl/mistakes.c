@@ -174,7 +174,7 @@ static const struct mistake mistakes[] = {
      {{"max(dot(N, L), 0.0); // Lambert", "abs(dot(N, L)); // Lambert"}}},
     // --- attenuation
     {"no-attenuation", "Near and far surfaces are lit alike.", FALLOFF, {{SUM, "(diffuse + specular)"}}},
-    {"no-attenuation", "Near and far surfaces are lit alike.", FALLOFF, {{"attenuation * diffuse;", "diffuse;"}}},
+    {"no-attenuation", NULL, NULL, {{"attenuation * diffuse;", "diffuse;"}}},
     {"specular-not-attenuated",
      "Highlights stay bright, however far the light is.",
      FALLOFF " and a highlight",

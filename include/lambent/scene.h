@@ -70,7 +70,7 @@ typedef struct lam_load_params {
     // all use LAM_NORMALS_FACET.
     double crease_angle_rad;
     int threads; // that load; 0: one for each processor
-    // Leaves smooth normals that the file lacks to the CPU device, which makes those of the visible triangles each time
+    // Leaves normals that are not the file's to the CPU device, which makes those of the visible triangles each time
     // it draws: faster for a large model that is drawn once. lam_mesh.normals stays NULL; lam_scene_make_normals makes
     // all of them later. Not for scene files, and not for other devices.
     bool normals_when_drawn;

@@ -4,6 +4,7 @@
 
 #include "call_control.h"
 #include "file.h"
+#include "normals.h"
 #include "pool.h"
 #include "scene_internal.h"
 
@@ -49,11 +50,11 @@ struct importer {
 
 extern const struct importer importer_obj, importer_stl, importer_ply, importer_gltf, importer_scene;
 
-// The crease angle for scene_prepare, of a load with these parameters (0: the default). Flat normals are smooth ones that
-// are split at every edge.
+// The crease angle for scene_prepare, of a load with these parameters (0: the default). Flat normals are those of facets.
 static inline double importer_crease(const struct importer *importer, lam_normals normals, double crease_angle_rad)
 {
-    return importer->flat_normals && normals == LAM_NORMALS_FILE && crease_angle_rad == 0 ? 1e-6 : crease_angle_rad;
+    return importer->flat_normals && normals == LAM_NORMALS_FILE && crease_angle_rad == 0 ? FACET_CREASE_RAD
+                                                                                          : crease_angle_rad;
 }
 
 // LAM_CANNOT_READ with "NAME:LINE: sentence" or "NAME: byte OFFSET: sentence". Return false.

@@ -79,7 +79,7 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     call_progress(source->call, 0.8, "normals");
     double crease_angle_rad = importer_crease(importer, params->normals, params->crease_angle_rad);
     bool tangents = scene_needs_tangents(scene); // which need normals first
-    if (params->normals_when_drawn && params->normals != LAM_NORMALS_FACET && !importer->is_scene_file && !tangents)
+    if (params->normals_when_drawn && !importer->is_scene_file && !tangents)
         scene_defer_normals(scene, params->normals, crease_angle_rad);
     else if (!scene_prepare(scene, params->normals, crease_angle_rad, source->pool, source->call, error))
         return false;

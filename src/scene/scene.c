@@ -212,11 +212,13 @@ bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_a
 
 void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double crease_angle_rad)
 {
+    if (normals == LAM_NORMALS_FACET)
+        crease_angle_rad = FACET_CREASE_RAD;
     for (int i = 0; i < scene->meshes.count; i++) {
         lam_mesh *mesh = (lam_mesh *)scene->meshes.items + i;
         if (mesh_is_strokes(mesh))
             continue;
-        if (normals == LAM_NORMALS_SMOOTH) {
+        if (normals != LAM_NORMALS_FILE) {
             mesh->normals = NULL;
             mesh->normal_count = 0;
             mesh->normal_indices = NULL;

@@ -325,7 +325,7 @@ static void test_fit(void **state)
 }
 
 // A bumpy sheet with a fold, without normals, as OBJ.
-static lam_scene *load_sheet(bool when_drawn, bool clear)
+static lam_scene *load_sheet(bool when_drawn, lam_normals normals, bool clear)
 {
     enum { SIDE = 60 };
     static char text[SIDE * SIDE * 80];
@@ -342,7 +342,8 @@ static lam_scene *load_sheet(bool when_drawn, bool clear)
         }
     lam_error error = {0};
     lam_scene *scene = lam_scene_load_memory(
-        text, used, "sheet.obj", &(lam_load_params){.normals_when_drawn = when_drawn, .crease_angle_rad = 0.6}, NULL,
+        text, used, "sheet.obj",
+        &(lam_load_params){.normals_when_drawn = when_drawn, .normals = normals, .crease_angle_rad = 0.6}, NULL,
         &error);
     if (!scene)
         fail_msg("%s", error.text);
@@ -363,13 +364,15 @@ static lam_scene *load_sheet(bool when_drawn, bool clear)
 static void test_normals_when_drawn(void **state)
 {
     (void)state;
-    for (int i = 0; i < 2 * 3 * 2 * 3; i++) {
+    for (int all = 0; all < 2 * 2 * 3 * 2 * 3; all++) {
+        const int i = all / 2;
+        const lam_normals normals = all % 2 ? LAM_NORMALS_FACET : LAM_NORMALS_FILE;
         bool clear = i % 2;
         lam_draw_params params = {.shading = (lam_shading)(i / 2 % 3), .samples = i / 6 % 2 ? 4 : 1};
         params.flat_normal = i / 6 % 2 ? LAM_FLAT_NORMAL_VERTEX : LAM_FLAT_NORMAL_FACE;
         params.output = i / 12 == 0 ? LAM_OUTPUT_PICTURE : i / 12 == 1 ? LAM_OUTPUT_NORMALS : LAM_OUTPUT_DEPTH;
         lam_image images[3];
-        lam_scene *scenes[2] = {load_sheet(false, clear), load_sheet(true, clear)};
+        lam_scene *scenes[2] = {load_sheet(false, normals, clear), load_sheet(true, normals, clear)};
         lam_camera camera = lam_camera_fit(scenes[0], 1, 1, NULL);
         camera.fovy_rad *= 0.6; // some triangles are outside, some cross the edge
         lam_device *device = make_device(2);
@@ -392,7 +395,7 @@ static void test_normals_when_drawn(void **state)
         assert_true(lam_draw(device, scenes[1], &camera, &params, &images[1], NULL, NULL));
         assert_memory_equal(images[1].pixels, images[0].pixels, 200 * 150 * 4);
         // A budget that is too small ends it.
-        lam_scene *again = load_sheet(true, clear);
+        lam_scene *again = load_sheet(true, normals, clear);
         lam_error error = {0};
         lam_device *fresh = make_device(2);
         assert_false(

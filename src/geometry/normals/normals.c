@@ -5,7 +5,7 @@
 #include "normals.h"
 
 #include "corner_fan.h"
-#include "linear.h"
+#include "facets.h"
 #include "loop_status.h"
 #include "visible_normals.h"
 
@@ -94,6 +94,8 @@ static bool number(struct numbering *n, struct arena *scratch, struct arena *are
 bool normals_smooth(lam_mesh *mesh, double crease_angle_rad, struct arena *arena, struct pool *pool,
                     struct call_control *call, lam_error *error)
 {
+    if (crease_angle_rad <= FACET_CREASE_RAD)
+        return normals_facet(mesh, arena, pool, call, error);
     size_t corners = 3 * (size_t)mesh->triangle_count;
     struct numbering n = {.corners = corners};
     struct arena scratch;
@@ -134,16 +136,9 @@ static void facet_chunk(void *user, size_t index, int thread)
     if (!should_continue(&f->loop))
         return;
     for (size_t t = index * CHUNK; t < chunk_end(index, f->mesh->triangle_count); t++) {
-        lam_vec3 p[3];
-        for (size_t k = 0; k < 3; k++) {
-            const float *at = f->mesh->positions + 3 * (size_t)corner_vertex(f->mesh, 3 * t + k);
-            p[k] = v3((double)at[0], (double)at[1], (double)at[2]);
+        facet_normal(f->mesh, t, f->normals[t]);
+        for (size_t k = 0; k < 3; k++)
             f->indices[3 * t + k] = (uint32_t)t;
-        }
-        lam_vec3 n = v3_unit(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0])));
-        f->normals[t][0] = (float)n.x;
-        f->normals[t][1] = (float)n.y;
-        f->normals[t][2] = (float)n.z;
     }
 }
 

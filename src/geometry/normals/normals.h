@@ -23,9 +23,13 @@
 // vertex that is not closed is still welded to all corners at its position. Meshes with fewer than three corners per
 // vertex have no closed ones.
 //
+// A crease angle of at most FACET_CREASE_RAD splits at every edge: the normals are those of facets.
+//
 // Fills mesh->normals, normal_count and normal_indices from `arena`. The result does not depend on the pool.
 bool normals_smooth(lam_mesh *mesh, double crease_angle_rad, struct arena *arena, struct pool *pool,
                     struct call_control *call, lam_error *error);
+
+#define FACET_CREASE_RAD 1e-6
 
 // Facet normals: each triangle's own at its three corners; a triangle without area gets zero.
 bool normals_facet(lam_mesh *mesh, struct arena *arena, struct pool *pool, struct call_control *call, lam_error *error);

@@ -9,6 +9,8 @@
 
 #include "corner_fan.h"
 #include "corner_fan_batch.h"
+#include "facets.h"
+#include "normals.h"
 #include "position_bins.h"
 
 #include <string.h>
@@ -301,6 +303,8 @@ bool make_visible_normals(const lam_mesh *mesh, uint32_t first, double crease_an
                           struct visible_normals *visible, struct scratch_memory scratch, int lanes, struct pool *pool,
                           struct call_control *call, lam_error *error)
 {
+    if (crease_angle_rad <= FACET_CREASE_RAD)
+        return make_visible_facets(mesh, first, visible, pool, call, error);
     size_t corners = 3 * (size_t)mesh->triangle_count;
     struct position_search s = {.mesh = mesh,
                                 .triangles = &visible->triangles,

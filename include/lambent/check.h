@@ -190,7 +190,8 @@ typedef struct lam_check_painter {
     void (*close)(void *place); // frees it; its programs are forgotten before
     // A cache of the caller's keeps places: they come to rest after a check, and wake for another, perhaps on another thread.
     void (*rest)(void *place);
-    // False: see `error`; the place is not closed then.
+    // False: see `error`; the place stays at rest. Its programs are forgotten and it is closed all the same, without another call
+    // that wakes it: memory and the device's objects have to be freed then too.
     bool (*wake)(void *place, lam_error *error);
     // Compiles both texts, so that the messages of both are known at once, and links them. A program that is refused is no
     // error. False: `error`; nothing is kept then.

@@ -1,5 +1,5 @@
 // test_painter.c: checks drawn by painters of the caller's: one that compiles OpenGL ES alone, as a page's WebGL 2 does, one
-// that has bytes in place of floats, one that is of a newer header. TEST_SHADERS: this folder.
+// that has bytes in place of floats, one that is of a newer header, one whose place does not wake. TEST_SHADERS: this folder.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -218,6 +218,125 @@ static void a_painter_that_does_not_open_says_why(void **state)
     free(fragment);
 }
 
+// --- places at rest
+
+static int opened, closed, compiled, forgotten;
+static bool sleeps; // a place that does not wake
+
+static void *open_counted(void *user, lam_check_language language, int size, char renderer[128], lam_error *error)
+{
+    void *place = gl_painter(NULL).open(user, language, size, renderer, error);
+    opened += place != NULL;
+    return place;
+}
+
+static void close_counted(void *place)
+{
+    closed++;
+    gl_painter(NULL).close(place);
+}
+
+static bool wake_unless_asleep(void *place, lam_error *error)
+{
+    if (!sleeps)
+        return gl_painter(NULL).wake(place, error);
+    *error = (lam_error){.code = LAM_UNSUPPORTED, .text = "the place does not wake"};
+    return false;
+}
+
+static bool compile_counted(void *place, const char *vertex, const char *fragment, lam_check_program *program,
+                            lam_error *error)
+{
+    bool ok = gl_painter(NULL).compile(place, vertex, fragment, program, error);
+    compiled += ok && program->program;
+    return ok;
+}
+
+static void forget_counted(void *place, lam_check_program *program)
+{
+    forgotten += program->program != NULL;
+    gl_painter(NULL).forget(place, program);
+}
+
+// All that was made is freed, by a check that cannot wake a place and by a cache.
+static void a_place_that_does_not_wake_is_freed(void **state)
+{
+    (void)state;
+    skip_without_gl();
+    lam_check_painter painter = gl_painter(NULL);
+    painter.open = open_counted;
+    painter.close = close_counted;
+    painter.wake = wake_unless_asleep;
+    painter.compile = compile_counted;
+    painter.forget = forget_counted;
+    char *vertex = read_text("oregon", "vert"), *fragment = read_text("oregon-no-gate", "frag");
+    lam_check_params params = {.vertex = vertex, .fragment = fragment, .painter = &painter};
+    lam_check_report report;
+    lam_error error = {0};
+    params.cache = lam_check_cache_make(0, &error); // keeps places, and no pictures
+    assert_non_null(params.cache);
+    opened = closed = compiled = forgotten = 0;
+    sleeps = false;
+    assert_true(lam_check_run(&params, &report, &error));
+    lam_check_report_free(&report);
+    int kept = opened - closed;
+    assert_true(kept > 0 && compiled > forgotten);
+    sleeps = true;
+    assert_false(lam_check_run(&params, &report, &error));
+    assert_string_equal(error.text, "the place does not wake");
+    assert_true(opened - closed < kept);
+    sleeps = false;
+    assert_true(lam_check_run(&params, &report, &error));
+    lam_check_report_free(&report);
+    assert_true(opened > closed);
+    sleeps = true;
+    lam_check_cache_free(params.cache);
+    assert_int_equal(opened, closed);
+    assert_int_equal(compiled, forgotten);
+    free(vertex);
+    free(fragment);
+}
+
+// The objects of two places have the same names, each in its own context.
+static void a_place_at_rest_is_closed_beside_another(void **state)
+{
+    (void)state;
+    skip_without_gl();
+    enum { SIZE = 32 };
+    static const char vertex[] = "#version 330 core\nin vec3 at;\nvoid main() { gl_Position = vec4(at, 1.0); }\n";
+    static const char fragment[] = "#version 330 core\nout vec4 color;\nvoid main() { color = vec4(0.25); }\n";
+    static const float corners[] = {-1, -1, 0, 3, -1, 0, -1, 3, 0}, others[12] = {0};
+    static const uint16_t indices[] = {0, 1, 2};
+    lam_check_mesh mesh = {.vertex_count = 3,
+                           .index_count = 3,
+                           .positions = corners,
+                           .normals = others,
+                           .tangents = others,
+                           .indices = indices};
+    lam_check_painter painter = gl_painter(NULL);
+    lam_check_program made[2] = {{0}};
+    void *places[2];
+    char renderer[128];
+    float pixels[SIZE * SIZE * 4];
+    lam_error error = {0};
+    for (int i = 0; i < 2; i++) {
+        places[i] = painter.open(painter.user, LAM_CHECK_LANGUAGE_CORE, SIZE, renderer, &error);
+        assert_non_null(places[i]);
+        assert_true(painter.compile(places[i], vertex, fragment, &made[i], &error));
+        assert_non_null(made[i].program);
+        if (i == 0)
+            painter.rest(places[i]);
+    }
+    painter.forget(places[0], &made[0]);
+    painter.close(places[0]);
+    lam_check_drawing drawing = {.program = &made[1], .mesh = &mesh, .position = 0, .normal = -1, .tangent = -1};
+    assert_true(painter.draw(places[1], &drawing, pixels, &error));
+    for (int i = 0; i < SIZE * SIZE * 4; i++)
+        assert_true(pixels[i] == 0.25F);
+    painter.forget(places[1], &made[1]);
+    painter.close(places[1]);
+}
+
 // --- texts
 
 static void desktop_texts_become_es(void **state)
@@ -256,6 +375,8 @@ int main(void)
         cmocka_unit_test(bytes_give_the_same_verdicts),
         cmocka_unit_test(a_refused_text_keeps_its_lines_and_names),
         cmocka_unit_test(a_painter_that_does_not_open_says_why),
+        cmocka_unit_test(a_place_that_does_not_wake_is_freed),
+        cmocka_unit_test(a_place_at_rest_is_closed_beside_another),
         cmocka_unit_test(desktop_texts_become_es),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -20,6 +20,7 @@ struct gl_place {
     struct gl_context context; // must not move while it is current
     struct gl_previous_context previous;
     int size;
+    bool rests;     // the context is not current
     bool built_ins; // a compatibility context, with gl_Vertex and gl_Normal
     GLuint framebuffer, color, depth, array;
     struct gl_mesh meshes[MESH_COUNT];
@@ -42,9 +43,8 @@ struct gl_program {
 
 // --- the place
 
-static void close(void *place)
+static void delete_objects(struct gl_place *t)
 {
-    struct gl_place *t = place;
     const struct gl *gl = &t->context.gl;
     for (int i = 0; i < MESH_COUNT; i++) {
         gl->DeleteBuffers(1, &t->meshes[i].positions); // ignores 0
@@ -56,7 +56,16 @@ static void close(void *place)
     gl->DeleteFramebuffers(1, &t->framebuffer);
     gl->DeleteRenderbuffers(1, &t->color);
     gl->DeleteRenderbuffers(1, &t->depth);
-    gl_context_leave(&t->context, &t->previous);
+}
+
+// At rest another context may be current: the objects go with their own.
+static void close(void *place)
+{
+    struct gl_place *t = place;
+    if (!t->rests) {
+        delete_objects(t);
+        gl_context_leave(&t->context, &t->previous);
+    }
     gl_context_free(&t->context);
     free(t);
 }
@@ -115,12 +124,14 @@ static void rest(void *place)
 {
     struct gl_place *t = place;
     gl_context_leave(&t->context, &t->previous);
+    t->rests = true;
 }
 
 static bool wake(void *place, lam_error *error)
 {
     struct gl_place *t = place;
-    return gl_context_enter(&t->context, &t->previous, error);
+    t->rests = !gl_context_enter(&t->context, &t->previous, error);
+    return !t->rests;
 }
 
 // --- programs
@@ -242,10 +253,12 @@ static void forget(void *place, lam_check_program *program)
 {
     struct gl_place *t = place;
     struct gl_program *p = program->program;
-    if (p) {
+    if (p && !t->rests) { // else they go with the context
         t->context.gl.DeleteProgram(p->name);
         t->context.gl.DeleteBuffers(MAX_BLOCKS, p->blocks); // ignores 0, as the next
         t->context.gl.DeleteTextures(MAX_TEXTURES, p->textures);
+    }
+    if (p) {
         free(p->inputs);
         free(p);
     }

@@ -12,9 +12,7 @@ bool buffer_reserve(struct buffer *buffer, size_t bytes, struct call_control *ca
     size_t old = buffer->capacity;
     // Grow by half again at least, so that slowly growing frames do not allocate each time.
     size_t capacity = bytes > old + old / 2 ? bytes : old + old / 2;
-    buffer_free(buffer);
-    if (call)
-        call_refund(call, old);
+    buffer_release(buffer, call);
     if (call && !call_charge(call, capacity))
         return call_memory_error(call, capacity, error);
     buffer->data = pages_get(capacity, &buffer->capacity);
@@ -33,4 +31,11 @@ void buffer_free(struct buffer *buffer)
 {
     pages_free(buffer->data, buffer->capacity);
     *buffer = (struct buffer){0};
+}
+
+void buffer_release(struct buffer *buffer, struct call_control *call)
+{
+    if (call)
+        call_refund(call, buffer->capacity);
+    buffer_free(buffer);
 }

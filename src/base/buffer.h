@@ -14,4 +14,7 @@ struct buffer {
 bool buffer_reserve(struct buffer *buffer, size_t bytes, struct call_control *call, lam_error *error);
 void buffer_free(struct buffer *buffer);
 
+// Frees a buffer that the call does not need any more, and refunds it. `call` may be NULL.
+void buffer_release(struct buffer *buffer, struct call_control *call);
+
 #endif

@@ -305,8 +305,7 @@ static bool draw_occlusion(struct gl_frame *f, struct screen_occlusion *occlusio
                          .stage = LAM_STAGE_FRAGMENT,
                          .only_opaque = true};
     bool ok = draw_frame(&g, error) && occlusion_find(f, &image, occlusion, error);
-    call_refund(f->call, pixels.capacity);
-    buffer_free(&pixels);
+    buffer_release(&pixels, f->call);
     f->occlusion = occlusion;
     return ok;
 }

@@ -9,7 +9,6 @@
 
 #include "fail.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -27,6 +26,12 @@ struct grid {
     uint32_t cell_count;
 };
 
+// Ranges that are still to be divided.
+struct list {
+    struct buffer memory;
+    size_t count;
+};
+
 struct large {
     struct builder *builder;
     const struct range *range;
@@ -36,9 +41,9 @@ struct large {
     uint32_t *places;        // of each piece and cell: how many triangles, then where the next one goes
     struct primitive *cells; // those with triangles
     uint32_t used_cells;
-    struct box *boxes;             // of each piece: of its triangles, and of twice their middles
-    struct range *small, *waiting; // to be divided by one thread; in grids of their own
-    size_t small_count, small_capacity, waiting_count, waiting_capacity;
+    struct box *boxes;          // of each piece: of its triangles, and of twice their middles
+    struct list small, waiting; // to be divided by one thread; in grids of their own
+    struct buffer keys_memory, places_memory, cells_memory;
 };
 
 // --- the grid
@@ -154,16 +159,16 @@ static bool sort_into_cells(struct large *l, struct range *r)
     }
     l->grid = grid_over(&r->middles, r->count);
     size_t cells = l->grid.cell_count;
-    free(l->keys);
-    free(l->places);
-    free(l->cells);
-    l->keys = malloc(r->count * sizeof *l->keys);
-    l->places = calloc(l->pieces * cells, sizeof *l->places);
-    l->cells = aligned_alloc(64, (cells * sizeof *l->cells + 63) & ~(size_t)63);
-    if (!l->keys || !l->places || !l->cells) {
+    size_t keys_bytes = r->count * sizeof *l->keys, places_bytes = l->pieces * cells * sizeof *l->places;
+    if (!buffer_reserve(&l->keys_memory, keys_bytes, b->loop.call, NULL) ||
+        !buffer_reserve(&l->places_memory, places_bytes, b->loop.call, NULL) ||
+        !buffer_reserve(&l->cells_memory, cells * sizeof *l->cells, b->loop.call, NULL)) {
         no_memory(&b->loop);
         return false;
     }
+    l->keys = l->keys_memory.data;
+    l->places = memset(l->places_memory.data, 0, places_bytes);
+    l->cells = l->cells_memory.data;
     pool_run(b->pool, l->pieces, count_task, l);
     uint32_t at = 0;
     l->used_cells = 0;
@@ -188,22 +193,24 @@ static bool sort_into_cells(struct large *l, struct range *r)
 
 // --- the division
 
-static void add(struct large *l, const struct range *r, struct range **list, size_t *count, size_t *capacity)
+static struct range *ranges_of(const struct list *list) { return list->memory.data; }
+
+static void add(struct large *l, const struct range *r, struct list *list)
 {
-    if (*count == *capacity) {
-        size_t more = *capacity ? 2 * *capacity : 64;
-        struct range *grown = aligned_alloc(64, (more * sizeof *grown + 63) & ~(size_t)63);
-        if (!grown) {
+    size_t bytes = list->count * sizeof *r;
+    if (bytes + sizeof *r > list->memory.capacity) {
+        struct call_control *call = l->builder->loop.call;
+        struct buffer grown = {0};
+        if (!buffer_reserve(&grown, bytes ? 2 * bytes : 64 * sizeof *r, call, NULL)) {
             no_memory(&l->builder->loop);
             return;
         }
-        if (*count)
-            memcpy(grown, *list, *count * sizeof *grown);
-        free(*list);
-        *list = grown;
-        *capacity = more;
+        if (bytes)
+            memcpy(grown.data, list->memory.data, bytes);
+        buffer_release(&list->memory, call);
+        list->memory = grown;
     }
-    (*list)[(*count)++] = *r;
+    ranges_of(list)[list->count++] = *r;
 }
 
 // Divides a range by its cells. False: it has one, or all their middles are the same, or it is too deep.
@@ -261,9 +268,9 @@ static void divide_by_cells(struct large *l, const struct range *r)
         if (parts[i].count > SMALL && parts[i].cell_count)
             divide_by_cells(l, &parts[i]);
         else if (parts[i].count > SMALL && parts[i].depth < BALANCED_AT && !parts[i].sorted)
-            add(l, &parts[i], &l->waiting, &l->waiting_count, &l->waiting_capacity);
+            add(l, &parts[i], &l->waiting);
         else
-            add(l, &parts[i], &l->small, &l->small_count, &l->small_capacity);
+            add(l, &parts[i], &l->small);
 }
 
 static void small_task(void *user, size_t index, int thread)
@@ -272,8 +279,9 @@ static void small_task(void *user, size_t index, int thread)
     struct large *l = user;
     if (!should_continue(&l->builder->loop))
         return;
-    leave_cells(l, &l->small[index]);
-    range_divide(l->builder, &l->small[index]);
+    struct range *r = &ranges_of(&l->small)[index];
+    leave_cells(l, r);
+    range_divide(l->builder, r);
 }
 
 bool ray_nodes_build(struct builder *b, lam_error *error)
@@ -281,23 +289,21 @@ bool ray_nodes_build(struct builder *b, lam_error *error)
     struct large l = {.builder = b};
     struct range r = {.count = b->frame->triangle_count};
     if (r.count > SMALL) {
-        add(&l, &r, &l.waiting, &l.waiting_count, &l.waiting_capacity);
+        add(&l, &r, &l.waiting);
     } else {
         range_measure(b->primitives, r.count, &r.box, &r.middles);
         range_divide(b, &r);
     }
-    while (l.waiting_count && should_continue(&b->loop)) {
-        r = l.waiting[--l.waiting_count];
-        l.small_count = 0;
+    while (l.waiting.count && should_continue(&b->loop)) {
+        r = ranges_of(&l.waiting)[--l.waiting.count];
+        l.small.count = 0;
         if (sort_into_cells(&l, &r)) {
             divide_by_cells(&l, &r);
-            pool_run(b->pool, l.small_count, small_task, &l);
+            pool_run(b->pool, l.small.count, small_task, &l);
         }
     }
-    free(l.keys);
-    free(l.places);
-    free(l.cells);
-    free(l.small);
-    free(l.waiting);
+    struct buffer *own[] = {&l.keys_memory, &l.places_memory, &l.cells_memory, &l.small.memory, &l.waiting.memory};
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        buffer_release(own[i], b->loop.call);
     return should_continue(&b->loop) || loop_error(&b->loop, (size_t)b->frame->triangle_count * 4, error);
 }

@@ -83,10 +83,7 @@ const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, cons
                             .triangle_count = (uint32_t)count};
     bool ok = ray_triangles_prepare(&builder, error) && ray_nodes_build(&builder, error);
     // The scratch memory is half as large as the hierarchy, and not needed again before something moves.
-    uint64_t scratch = memory->scratch.capacity;
-    buffer_free(&memory->scratch);
-    if (call)
-        call_refund(call, scratch);
+    buffer_release(&memory->scratch, call);
     if (!ok)
         return NULL;
     note_sources(memory, frame);

@@ -190,9 +190,13 @@ static bool sort_group(struct builder *b, const struct range *r)
 {
     struct placement place = {0};
     struct primitive *p = b->primitives + r->first;
-    size_t bytes = r->count * sizeof(struct sorted_triangle);
-    struct sorted_triangle *sorted = aligned_alloc(64, (bytes + 63) & ~(size_t)63);
+    struct call_control *call = b->loop.call;
+    size_t bytes = (r->count * sizeof(struct sorted_triangle) + 63) & ~(size_t)63;
+    bool counted = !call || call_charge(call, bytes);
+    struct sorted_triangle *sorted = counted ? aligned_alloc(64, bytes) : NULL;
     if (!sorted) {
+        if (call && counted)
+            call_refund(call, bytes);
         no_memory(&b->loop);
         return false;
     }
@@ -211,6 +215,8 @@ static bool sort_group(struct builder *b, const struct range *r)
         p[i] = sorted[i].primitive;
     }
     free(sorted);
+    if (call)
+        call_refund(call, bytes);
     return true;
 }
 

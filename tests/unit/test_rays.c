@@ -266,6 +266,52 @@ static void test_tree(void **unused)
         }
 }
 
+static bool fits(size_t limit, size_t *used)
+{
+    struct hierarchy_memory memory = {0};
+    struct call_control call;
+    lam_control control = {.memory_limit_bytes = limit};
+    lam_error error = {0};
+    bool built;
+    struct pool *pool = pool_make(2);
+    call_start(&call, &control);
+    bool ok = hierarchy_of_frame(&memory, &soup.frame, pool, &call, &built, &error) != NULL;
+    if (!ok) {
+        assert_int_equal(error.code, LAM_LIMIT);
+        assert_non_null(strstr(error.text, "--memory-limit"));
+    }
+    assert_int_equal(call.memory_used, hierarchy_bytes(&memory)); // what was for the call alone is given back
+    *used = call.memory_used;
+    hierarchy_free(&memory);
+    pool_free(pool);
+    return ok;
+}
+
+// The memory limit counts what is used while the hierarchy is built: the cells of large ranges, and a group of triangles with
+// the same middle while it is sorted.
+static void test_memory_limit(void **unused)
+{
+    (void)unused;
+    for (int same_middles = 0; same_middles < 2; same_middles++) {
+        seed = 5;
+        random_soup(&soup, TRIANGLES_MAX, 1);
+        for (uint32_t i = 0; i < soup.count && same_middles; i++)
+            for (int k = 0; k < 3; k++) {
+                soup.p[3 * i + 1][k] = -soup.p[3 * i][k];
+                soup.p[3 * i + 2][k] = 0;
+            }
+        build(&soup, 2, NULL);
+        // The boxes of all triangles, twice; the cell of each; of the group, a record of more than a triangle's corners.
+        size_t boxes = 64 * (size_t)soup.count, kept, used;
+        size_t keys = 2 * (size_t)soup.count, group = same_middles ? 72 * (size_t)soup.count : 0;
+        assert_true(fits(SIZE_MAX, &kept));
+        assert_false(fits(kept + boxes + keys + group, &used));
+        assert_true(fits(kept + boxes + keys + 2 * group + 500000, &used));
+        assert_int_equal(used, kept);
+        drop(&soup);
+    }
+}
+
 // Triangles with the same three positions, in any order, have the lowest number among them as their twin.
 static void test_twins(void **unused)
 {
@@ -406,8 +452,9 @@ static void test_nothing(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_exact), cmocka_unit_test(test_random),     cmocka_unit_test(test_tree),
-        cmocka_unit_test(test_twins), cmocka_unit_test(test_watertight), cmocka_unit_test(test_nothing),
+        cmocka_unit_test(test_exact),   cmocka_unit_test(test_random),       cmocka_unit_test(test_tree),
+        cmocka_unit_test(test_twins),   cmocka_unit_test(test_memory_limit), cmocka_unit_test(test_watertight),
+        cmocka_unit_test(test_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,10 +44,10 @@ def check_picture(results, program, folder, kind, said):
     os.remove(path)
 
 
-# Known mistakes that are tried without --long: of a highlight, of a gate, of a vertex shader.
 # What the browser's pictures say of a mistake where native OpenGL says something else: it is named without certainty, and a browser hides
 # colours that are no numbers.
 IN_BROWSER = {("learnopengl-pbr", "no-masking"): "no-masking?", ("learnopengl-pbr", "no-clamp"): ""}
+# Known mistakes that are tried without --long: of a highlight, of a gate, of a vertex shader.
 SOME_MISTAKES = [("pittsburgh", "phong-lobe"), ("oregon", "no-gate"), ("pittsburgh", "normal-by-model-view")]
 
 
@@ -58,9 +58,8 @@ def shader_tasks(long):
         return open(path).read() if os.path.exists(path) else ""
 
     tasks = []
-    for name in sorted(name[:-5] for name in os.listdir(os.path.join(ROOT, "tests", "check")) if name.endswith(".vert")):
-        if name != "pittsburgh-blocks": # ES 3.00 has no blocks of varyings
-            tasks.append({"name": name, "vertex": text(name, "vert"), "fragment": text(name, "frag"), "contract": "", "verdict": "passes", "mistakes": ""})
+    for name in build.correct_programs():
+        tasks.append({"name": name, "vertex": text(name, "vert"), "fragment": text(name, "frag"), "contract": "", "verdict": "passes", "mistakes": ""})
     for name, ids, edits in MISTAKES:
         if long or (name, ids) in SOME_MISTAKES:
             task = {"name": name, "vertex": text(name, "vert"), "fragment": text(name, "frag"), "contract": "", "verdict": "differs",
@@ -79,7 +78,7 @@ def check_shaders(results, modules, chromium, folder, long):
     path = os.path.join(folder, "shaders.json")
     tasks = shader_tasks(long)
     json.dump(tasks, open(path, "w"))
-    done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "shaders.mjs"), modules, chromium, OUT, path], stdout=subprocess.PIPE,
+    done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "shaders.mjs"), modules, chromium, OUT, path, "all" if long else "some"], stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, text=True)
     for line in done.stdout.splitlines():
         if line.startswith("#"):

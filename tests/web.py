@@ -187,7 +187,7 @@ def check_checks(results, recorder):
         for line in lines:
             if not line.startswith("#"):
                 results.ok(line.startswith("ok "), "check: " + line.split("ok ", 1)[1], "\n".join(lines))
-        results.ok(done.returncode == 0 and sum(line.startswith("ok ") for line in lines) == 2 * len(CHECKS) + 3, "check: all were replayed", done.stderr + done.stdout)
+        results.ok(done.returncode == 0 and sum(line.startswith("ok ") for line in lines) == 2 * len(CHECKS) + 6, "check: all were replayed", done.stderr + done.stdout)
 
 
 def check_sizes(results):

@@ -42,12 +42,13 @@ CHECK_WORKER = "check_worker.js"
 CODEMIRROR = "codemirror.js" # made from npm's
 
 # The one-file page has in it what the served one fetches: scripts of workers as texts, the rest packed. These functions stand before its script,
-# and in place of those of the same names.
+# and in place of those of the same names; "": it needs none.
 INSIDE_FIRST = """const insideText = (id) => document.getElementById(id).textContent;
 const insideStream = (id) => new Response(new Blob([Uint8Array.from(atob(insideText(id)), (letter) => letter.charCodeAt(0))]).stream().pipeThrough(new DecompressionStream('gzip')));
 const insideScript = (text) => URL.createObjectURL(new Blob([text], { type: 'text/javascript' }));
 """
 INSIDE = {
+    "fetchModule": "",
     "openWorker": """function openWorker() {
   return caller(new Worker(insideScript(insideText('worker'))), insideStream('wasm').arrayBuffer());
 }
@@ -76,23 +77,20 @@ def with_files(page, files):
     return page.replace('<script type="text/plain" id="worker">', texts + '<script type="text/plain" id="worker">', 1)
 
 
+def correct_programs():
+    """The correct programs of the contracts (tests/check) that WebGL 2 can draw: GLSL ES 3.00 has no blocks of varyings."""
+    return sorted(name[:-5] for name in os.listdir(os.path.join(ROOT, "tests", "check")) if name.endswith(".vert") and name != "pittsburgh-blocks.vert")
+
+
 def programs():
-    """The script with the shaders that the page offers: the correct programs of the contracts (tests/check), and exercises, which are those with a known
-    mistake: [program, mistakes, [[text, old, new]]]."""
-    folder = os.path.join(ROOT, "tests", "check")
-    sys.path.insert(0, folder)
-    from mistakes import MISTAKES
+    """The script with the correct programs that the page offers."""
     contracts = [name[:-5] for name in os.listdir(os.path.join(ROOT, "src", "check", "contracts"))]
-    parts = {"vertex": ".vert", "fragment": ".frag"}
     rows = []
-    for name in sorted(name[:-5] for name in os.listdir(folder) if name.endswith(".vert")):
+    for name in correct_programs():
         mine = max((contract for contract in contracts if name == contract or name.startswith(contract + "-")), key=len)
-        if name != "pittsburgh-blocks": # GLSL ES 3.00 has no blocks of varyings
-            rows.append({"name": name, "contract": mine, **{part: open(os.path.join(folder, name + ending)).read() for part, ending in parts.items()}})
-    names = {row["name"] for row in rows}
-    exercises = [{"program": name, "mistakes": ids.split(), "edits": [["vertex" if ending == "vert" else "fragment", old, new] for ending, old, new in edits]}
-                 for name, ids, edits in MISTAKES if name in names]
-    return "export const PROGRAMS = %s;\nexport const EXERCISES = %s;\n" % (json.dumps(rows), json.dumps(exercises))
+        texts = {part: open(os.path.join(ROOT, "tests", "check", name + ending)).read() for part, ending in (("vertex", ".vert"), ("fragment", ".frag"))}
+        rows.append({"name": name, "contract": mine, **texts})
+    return "export const PROGRAMS = %s;\n" % json.dumps(rows)
 
 
 def packages(folder):
@@ -181,7 +179,7 @@ def plain_script(first):
         variable = "module_" + re.sub(r"\W", "_", name)
         text = IMPORT.sub(lambda m: "const %s = %s;\n" % (m[1].replace(" as ", ": "), module(m[2])) if m[1] else module(m[2]) + ";\n", page_file(name))
         for function, inside in INSIDE.items():
-            text = re.sub(r"^(export )?(async )?function %s\(\) \{.*?\n\}\n" % function, lambda m: (m[1] or "") + inside, text, count=1, flags=re.S | re.M)
+            text = re.sub(r"^(export )?(async )?function %s\([^\n]*\) \{\n.*?\n\}\n" % function, lambda m: (m[1] or "") + inside if inside else "", text, count=1, flags=re.S | re.M)
         text = LATER.sub(lambda m: "Promise.resolve().then(() => %s)" % module(m[1]), text)
         listed = [word.strip() for group in re.findall(r"^export \{(.*)\};\n", text, flags=re.M) for word in group.split(",")]
         text = re.sub(r"^export \{.*\};\n", "", text, flags=re.M)

@@ -174,3 +174,11 @@ ok(refused({ fragment: 'void main() {}' }).startsWith('no uniform or attribute o
 ok(refused({ fragment: 'void main() {}', contract: 'x' }) === "there is no contract 'x'", 'a contract that is not there is refused', refused({ fragment: '', contract: 'x' }));
 const lists = empty.lists();
 ok(lists.contracts.length >= 10 && lists.mistakes.length > 50 && lists.scenes.length > 10, 'the lists', JSON.stringify(lists).slice(0, 200));
+const { texts, correct, highlight } = empty.exercise('reflect-sign');
+ok(highlight === 'phong' && texts.vertex === correct.vertex && correct.fragment.includes('reflect(-L, N)') && texts.fragment === correct.fragment.replace('reflect(-L, N)', 'reflect(L, N)'), 'an exercise', texts.fragment);
+ok(lists.exercises.every(({ mistake, looks, wrong }) => looks && wrong && empty.exercise(mistake).texts), 'every exercise is made', JSON.stringify(lists.exercises));
+try {
+  ok(false, 'an exercise that is not there', JSON.stringify(empty.exercise('x')));
+} catch (error) {
+  ok(error.message === "mistake 'x' is not known; expected one of lam_shader_mistake_row", 'an exercise that is not there is refused', error.message);
+}

@@ -1,11 +1,11 @@
-// shaders.mjs PLAYWRIGHT CHROMIUM BUILD_WEB TASKS: checks of shaders in a browser, by its WebGL 2. TASKS: a JSON file, a list of {name, vertex, fragment,
-// contract, verdict, mistakes}. Prints lines of the Test Anything Protocol without numbers, and what the browser's pictures differ by from the references.
+// shaders.mjs PLAYWRIGHT CHROMIUM BUILD_WEB TASKS EXERCISES: checks of shaders in a browser, by its WebGL 2. TASKS: a JSON file, a list of {name, vertex, fragment,
+// contract, verdict, mistakes}; EXERCISES: all or some. Prints lines of the Test Anything Protocol without numbers, and what the browser's pictures differ by from the references.
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { openBrowser } from './serve.mjs';
 
-const [, , playwright, executablePath, built, tasks] = process.argv;
+const [, , playwright, executablePath, built, tasks, exercises] = process.argv;
 const ok = (good, label, why = '') => console.log(`${good ? 'ok' : 'not ok'} ${label}${good || why === '' ? '' : `\n# ${String(why).replaceAll('\n', '\n# ')}`}`);
 const { browser, origin, close } = await openBrowser(playwright, executablePath, built);
 const page = await browser.newPage();
@@ -56,6 +56,17 @@ const quantile = (share) => {
 console.log(`# ${all} channels of correct shaders: 99 % within ${quantile(0.99)}/255, 99.9 % within ${quantile(0.999)}/255 of the reference; of those compared at most ` +
   `${(100 * Math.max(...shares)).toFixed(3)} % of a scene's pixels over the tolerance, the largest ${maximum.toFixed(4)}`);
 
+// Exercises: the correct texts pass, and the others have the name of their mistake.
+for (const { mistake, looks, wrong } of lists.exercises.filter((_, i) => exercises === 'all' || i % 16 === 0)) {
+  const [report, correct] = await page.evaluate(async (mistake) => {
+    const { texts, correct, highlight } = await ask({ call: 'exercise', mistake }), asked = { call: 'check', contract: 'lambent', highlight, size: 64 };
+    return [await ask({ ...asked, ...texts }), await ask({ ...asked, ...correct })];
+  }, mistake);
+  const named = report.mistakes.some(({ id, also }) => id === mistake || (also ?? '').split(' ').includes(mistake));
+  ok(correct.verdict === 'passes' && report.verdict === 'differs' && named && looks && wrong, `exercise ${mistake}`, JSON.stringify([correct.verdict, report.verdict, report.mistakes]));
+}
+ok(lists.exercises.length > 40, `${lists.exercises.length} exercises`);
+
 // --- the tab
 
 const until = async (there, f, argument) => {
@@ -71,12 +82,17 @@ const judged = (there, verdict) =>
     throw new Error(`no verdict '${verdict}': ${await there.locator('#panel-shaders').innerText().catch(() => '')}`, { cause: error });
   });
 
-async function open(address) {
-  const context = await browser.newContext({ viewport: { width: 1200, height: 900 } });
-  const there = await context.newPage();
+async function newPage() {
+  const there = await (await browser.newContext({ viewport: { width: 1200, height: 900 }, serviceWorkers: 'block' })).newPage();
   there.on('pageerror', (error) => reports.push(error.message));
   there.on('console', (message) => message.type() === 'error' && reports.push(message.text()));
   await there.addInitScript(() => addEventListener('securitypolicyviolation', (event) => console.error(`policy: ${event.violatedDirective} ${event.blockedURI}`)));
+  return there;
+}
+
+async function open(address, prepare = null) {
+  const there = await newPage();
+  if (prepare) await there.addInitScript(prepare);
   await there.goto(address);
   await there.locator('#tab-shaders').click();
   await judged(there, 'passes');
@@ -121,29 +137,127 @@ async function tab(address, label) {
   await judged(there, 'passes');
 
   // An exercise: hints come when they are asked for, and writing what they say solves it.
-  const exercises = await there.locator('#shader-task option[value^=exercise]').count();
-  say(exercises > 5, `${exercises} exercises`);
-  await there.locator('#shader-task').selectOption({ label: 'Find what is wrong 1' });
+  await there.locator('#shader-task').selectOption('exercise:normal-not-unit');
   await judged(there, 'differs');
-  say((await there.locator('.shader-mistakes').count()) === 0, 'an exercise does not tell its mistake');
-  await there.getByRole('button', { name: 'Hint' }).click();
-  say((await there.locator('#shader-report').innerText()).includes('Look at these pictures') && (await there.locator('.shader-mistakes').count()) === 0, 'the first hint');
-  await there.getByRole('button', { name: 'Hint' }).click();
-  say((await there.locator('.shader-mistakes li').count()) > 0 && (await there.locator('.shader-mistakes code').count()) === 0, 'the second hint');
-  await there.getByRole('button', { name: 'Hint' }).click();
-  say((await there.locator('.shader-mistakes code').count()) > 0, 'the third hint');
-  for (const [name, ending] of [['Fragment shader', 'frag'], ['Vertex shader', 'vert']]) {
-    await textIn(there, name).click();
-    await there.keyboard.press('Control+a');
-    await there.keyboard.press('Delete');
-    await there.keyboard.insertText(readFileSync(new URL(`../check/angel.${ending}`, import.meta.url), 'utf8'));
-  }
+  const reportText = () => there.locator('#shader-report').innerText(), hint = there.getByRole('button', { name: 'Hint' });
+  say((await there.locator('#shader-contract').inputValue()) === 'lambent' && !(await reportText()).includes('normal-not-unit'), 'an exercise has the names of lambent shader, and does not tell its mistake');
+  await hint.click();
+  say((await reportText()).includes('Look at these pictures') && !(await reportText()).includes('normal-not-unit'), 'the first hint');
+  await hint.click();
+  say(/normal-not-unit the interpolated normal/.test(await reportText()) && (await there.locator('.shader-mistakes code').count()) === 0, 'the second hint', await reportText());
+  await hint.click();
+  const lines = await there.locator('.shader-mistakes code').allInnerTexts();
+  say(lines.length === 1 && /normalize\(eye_normal\)/.test(lines[0]) && (await hint.isDisabled()), 'the third hint is the last', lines.join('\n'));
+  await there.locator('.shader-mistakes button').click();
+  await there.keyboard.press('Home');
+  await there.keyboard.press('Shift+End');
+  await there.keyboard.insertText(lines[0]);
   await judged(there, 'passes');
-  say((await there.locator('#shader-verdict').textContent()).startsWith('Solved'), 'it is solved');
+  say((await there.locator('#shader-verdict').textContent()).startsWith('Solved') && (await hint.isDisabled()), 'it is solved');
+  await there.locator('#shader-task').selectOption('exercise:reflect-sign');
+  await judged(there, 'differs');
+  say(!(await hint.isDisabled()), 'another one has hints again');
   await there.setViewportSize({ width: 320, height: 700 });
   say(await until(there, () => document.documentElement.scrollWidth <= 320).catch(() => false), 'it fits 320 pixels', await there.evaluate(() =>
     [document.documentElement.scrollWidth, ...[...document.querySelectorAll('*')].filter((node) => node.getBoundingClientRect().right > 320 && !node.closest('.wide'))
       .map((node) => `${node.tagName} ${node.id} ${node.className} ${node.getBoundingClientRect().right}`)].join('\n')));
+  await there.context().close();
+}
+
+// Delays that a test makes: checks are held back by `hold` (of their messages), time limits are kept until they are asked for.
+function delays() {
+  const post = Worker.prototype.postMessage, timeout = setTimeout;
+  const test = (globalThis.test = { hold: () => false, held: [], limits: [], sent: 0 });
+  Worker.prototype.postMessage = function (message, ...more) {
+    const send = () => post.call(this, message, ...more);
+    if (message.call === 'check') test.sent++;
+    if (message.call === 'check' && test.hold(message)) test.held.push(send);
+    else send();
+  };
+  globalThis.setTimeout = (f, ms, ...more) => (ms === 30000 || ms === 1500 ? void test.limits.push({ f, ms }) : timeout(f, ms, ...more));
+}
+
+const stateOf = (there) => there.locator('#shader-verdict').evaluate((node) => ({ ...node.dataset, sentence: node.textContent }));
+const testIn = (there, f, argument) => there.evaluate(f, argument);
+
+async function delayed() {
+  const there = await open(origin, delays), choose = (task) => there.locator('#shader-task').selectOption(task);
+  const heldIs = (count) => until(there, (wanted) => test.held.length === wanted, count);
+  const wrong = async () => {
+    await there.locator('#shader-contract').selectOption('angel');
+    await judged(there, 'passes');
+    await textIn(there, 'Fragment shader').click();
+    await there.keyboard.press('Control+a');
+    await there.keyboard.press('Delete');
+    await there.keyboard.insertText(readFileSync(new URL('../check/angel.frag', import.meta.url), 'utf8').replace('pow(', '0.5 * pow('));
+  };
+
+  // The search takes too long: the report without it stays.
+  await testIn(there, () => (test.hold = ({ pictures }) => pictures === 0));
+  await wrong();
+  await heldIs(1);
+  const before = await stateOf(there);
+  await testIn(there, () => test.limits.filter(({ ms }) => ms === 30000).at(-1).f());
+  await until(there, () => document.getElementById('shader-verdict').dataset.searched === 'true');
+  const after = await stateOf(there);
+  ok(before.verdict === 'differs' && before.searched === 'false' && after.verdict === 'differs' && /search .* took too long/.test(after.sentence) && !/No known mistake/.test(await there.locator('#shader-report').innerText()),
+    'a search that takes too long leaves the verdict as it is, and says so', JSON.stringify([before, after]));
+  ok((await there.locator('.shader-scenes tbody tr').count()) > 5, 'and its pictures');
+
+  // Newer texts while a check goes on: the worker gets one at a time, and the older answer is shown nowhere.
+  await testIn(there, () => Object.assign(test, { hold: ({ pictures }) => pictures === 1, held: [], sent: 0 }));
+  await textIn(there, 'Fragment shader').press('Control+End');
+  await there.keyboard.type(' ');
+  await heldIs(1);
+  await choose('angel'); // correct
+  await choose('angel-vertex');
+  await testIn(there, () => ((test.hold = () => false), test.held[0]()));
+  await judged(there, 'passes');
+  ok((await testIn(there, () => test.sent)) === 2, 'texts in between are not checked', await testIn(there, () => test.sent));
+
+  // One that goes on for too long is ended by newer texts, and its time limit then means nothing.
+  await testIn(there, () => Object.assign(test, { hold: ({ pictures }) => pictures === 1, held: [], limits: [] }));
+  await textIn(there, 'Fragment shader').press('Control+End');
+  await there.keyboard.type(' ');
+  await heldIs(1);
+  await choose('angel');
+  await until(there, () => test.limits.some(({ ms }) => ms === 1500));
+  await testIn(there, () => ((test.hold = () => false), test.limits.find(({ ms }) => ms === 1500).f()));
+  await judged(there, 'passes');
+  await testIn(there, () => test.limits.forEach(({ f }) => f()));
+  await choose('angel-vertex');
+  await judged(there, 'passes');
+  ok(true, 'a check that goes on is ended by newer texts, which have their own verdict');
+
+  // Nothing comes in time: that is the verdict, and the next texts have one again.
+  await testIn(there, () => Object.assign(test, { hold: ({ pictures }) => pictures === 1, held: [], limits: [] }));
+  await choose('angel');
+  await heldIs(1);
+  await testIn(there, () => ((test.hold = () => false), test.limits.find(({ ms }) => ms === 30000).f()));
+  await judged(there, 'endless');
+  await choose('angel-vertex');
+  await judged(there, 'passes');
+  ok(true, 'what does not end is endless, and what follows is not');
+  await there.context().close();
+}
+
+// The module of checks cannot be fetched at first.
+async function refetched() {
+  const there = await newPage();
+  let refused = 'abort';
+  await there.route('**/check.wasm', (route) => (refused === 'abort' ? route.abort() : refused ? route.fulfill({ status: refused }) : route.continue()));
+  await there.goto(origin);
+  await there.locator('#tab-shaders').click();
+  const again = there.getByRole('button', { name: 'Try again' });
+  for (const [next, sentence] of [[404, 'check.wasm could not be loaded: the server cannot be reached'], [null, 'check.wasm could not be loaded: the server answers 404']]) {
+    await until(there, (wanted) => document.getElementById('shader-verdict')?.textContent === wanted, sentence);
+    ok(true, sentence);
+    refused = next;
+    await again.click();
+  }
+  await judged(there, 'passes');
+  ok(await again.isHidden(), 'and another attempt loads it');
+  reports.splice(0, reports.length, ...reports.filter((report) => !report.includes('Failed to load resource'))); // these two
   await there.context().close();
 }
 
@@ -159,8 +273,11 @@ async function pseudo() {
   await there.context().close();
 }
 
-for (const [name, part] of Object.entries({ served: () => tab(origin, 'served'), oneFile: () => tab(pathToFileURL(resolve(built, 'lambent.html')).href, 'one file'), pseudo }))
+const only = process.env.LAMBENT_BROWSER?.split(',');
+for (const [name, part] of Object.entries({ served: () => tab(origin, 'served'), oneFile: () => tab(pathToFileURL(resolve(built, 'lambent.html')).href, 'one file'), delayed, refetched, pseudo })) {
+  if (only && !only.includes(name)) continue;
   await part().then(() => ok(true, `${name} ran`), (error) => ok(false, name, error.stack));
+}
 
 ok(reports.length === 0, 'the browser reports nothing, and the content-security policy refuses nothing', reports.join('\n'));
 await close();

@@ -33,9 +33,9 @@ export class Check {
   }
 
   // The report of `lambent check --json`. Without a vertex shader one is generated, without a contract it is recognised. `pictures`: the search
-  // for mistakes ends after so many, 0: the default.
-  check({ fragment, vertex = '', contract = '', size = 0, pictures = 0 }) {
-    this.#texts([fragment, vertex, contract]);
+  // for mistakes ends after so many, 0: the default. `highlight`: 'phong', or '' for that of the contract.
+  check({ fragment, vertex = '', contract = '', highlight = '', size = 0, pictures = 0 }) {
+    this.#texts([fragment, vertex, contract, highlight]);
     return this.#call('web_check', size, pictures);
   }
 
@@ -46,8 +46,14 @@ export class Check {
     return at ? new Uint8ClampedArray(memory.buffer, at, 4 * size * size).slice() : null;
   }
 
-  // Contracts with their names, scenes, known mistakes.
+  // Contracts with their names, scenes, known mistakes, exercises {mistake, looks, wrong}.
   lists() {
     return this.#call('web_check_lists');
+  }
+
+  // A program with a known mistake: {texts: {vertex, fragment}, correct, highlight}; the last is check()'s.
+  exercise(mistake) {
+    this.#texts([mistake]);
+    return this.#call('web_exercise');
   }
 }

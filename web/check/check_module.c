@@ -6,6 +6,7 @@
 
 #include "check.h"
 #include "console.h"
+#include "exercises.h"
 #include "json.h"
 #include "painter.h"
 
@@ -66,7 +67,7 @@ void web_check(int size, double max_pictures)
 {
     static const double tolerance = 2; // of 255, as the command has it
     lam_error error = {0};
-    const char *vertex = text_of(1), *contract_name = text_of(2);
+    const char *vertex = text_of(1), *contract_name = text_of(2), *highlight = text_of(3);
     lam_check_contract *contract = NULL;
     if (*contract_name) {
         const char *text = lam_check_contract_text(contract_name);
@@ -84,6 +85,8 @@ void web_check(int size, double max_pictures)
                                .contract = contract,
                                .size = size,
                                .tolerance = tolerance / 255,
+                               .reflection =
+                                   strcmp(highlight, "phong") == 0 ? LAM_REFLECTION_PHONG : LAM_REFLECTION_AUTO,
                                .max_pictures = max_pictures < 0 ? 0 : (uint64_t)max_pictures,
                                .painter = &web_painter};
     if (!error.code && check(&params, &error))
@@ -176,6 +179,15 @@ void web_check_lists(void)
     json_close(&json, ']');
     list_texts(&json, "scenes", lam_check_scene_name, lam_check_scene_description);
     list_texts(&json, "mistakes", lam_check_mistake, lam_check_mistake_explanation);
+    exercises_list(&json);
     json_close(&json, '}');
+    fflush(stdout);
+}
+
+void web_exercise(void)
+{
+    lam_error error = {0};
+    if (!exercise_put(text_of(0), &error))
+        answer_error(&error);
     fflush(stdout);
 }

@@ -10,7 +10,8 @@
 // Memory for the texts of the next call, each with a 0 at its end. NULL: there is none.
 char *web_texts(uint32_t bytes) WEB_EXPORT(web_texts);
 
-// Checks the texts: fragment shader, vertex shader ("": one is generated), name of a contract ("": it is recognised).
+// Checks the texts: fragment shader, vertex shader ("": one is generated), name of a contract ("": it is recognised), highlight ("phong", or "": that
+// of the contract).
 // `size`: of the pictures, 0: the default. `max_pictures`: as in lam_check_params. The report is as `lambent check --json` has it.
 void web_check(int size, double max_pictures) WEB_EXPORT(web_check);
 
@@ -18,7 +19,10 @@ void web_check(int size, double max_pictures) WEB_EXPORT(web_check);
 // difference, 8 times as large. NULL: there is none.
 const void *web_check_picture(int scene, int which) WEB_EXPORT(web_check_picture);
 
-// Lists contracts with their names, scenes and known mistakes.
+// Lists contracts with their names, scenes, known mistakes and exercises.
 void web_check_lists(void) WEB_EXPORT(web_check_lists);
+
+// The exercise with the mistake that the text of the call names: its shaders with the mistake and without it.
+void web_exercise(void) WEB_EXPORT(web_exercise);
 
 #endif

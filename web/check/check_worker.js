@@ -10,6 +10,7 @@ const calls = {
     check = new Check(await WebAssembly.compile(wasm), new Painter(() => new OffscreenCanvas(1, 1)));
     return check.lists();
   },
+  exercise: ({ mistake }) => check.exercise(mistake),
   // The report, and of each scene its pictures: RGBA of size² pixels.
   check({ size, ...asked }) {
     const report = check.check({ ...asked, size });

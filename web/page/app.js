@@ -13,7 +13,7 @@ import { openWorker } from './start.js';
 import { START, State, fromFragment } from './state.js';
 
 // The size that fills the stage, at most 1.6 million pixels.
-export function stageSize() {
+function stageSize() {
   const { clientWidth, clientHeight } = $('view'), ratio = devicePixelRatio || 1;
   const width = Math.max(320, clientWidth * ratio), height = Math.max(240, clientHeight * ratio), k = Math.min(1, Math.sqrt(1.6e6 / (width * height)));
   return `${Math.floor((k * width) / 8) * 8}x${Math.floor((k * height) / 8) * 8}`;
@@ -48,9 +48,10 @@ export function emit(name) {
   for (const listener of listeners.get(name) ?? []) listener();
 }
 
-// A sentence of the program, or of the page, that stays until the next picture.
+// A sentence of the program, or of the page, that stays until the next picture. The files of the page lie in the root of a tree; a person knows them
+// by names without it, as the command line below the picture has them.
 export function refuse(sentence) {
-  $('message').textContent = sentence;
+  $('message').textContent = sentence.replace(/(^|[\s'"(])\/(?=[^\s/])/g, '$1');
   $('message').hidden = false;
 }
 

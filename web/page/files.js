@@ -30,7 +30,7 @@ function takeModel(name) {
 // What a tab can hold: the files are there three times while they are read, in an address space of 4 GB.
 const MOST = 1.2e9;
 
-export async function takeFiles(list) {
+async function takeFiles(list) {
   const taken = new Map();
   const size = list.reduce((sum, [, file]) => sum + file.size, 0), large = list.reduce((a, b) => (a && a[1].size >= b[1].size ? a : b), null);
   const megabytes = (bytes) => Math.round(bytes / 1e6).toLocaleString('en');

@@ -18,7 +18,7 @@ export async function explainAt(across, down) {
 }
 
 on('still', () => {
-  fetchRest().catch(() => {}); // what needs it asks again, and says why it cannot be had
+  fetchRest().catch(() => {}); // what needs it asks again, and says why it cannot be loaded
   if (state.values('light').length) used(import('./handles.js'));
 });
 

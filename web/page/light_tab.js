@@ -58,7 +58,7 @@ function slidersOf(i, light) {
 }
 
 // The explained light of a command line's light: those of the command line are the last ones that the scene has.
-export function explainedLight(pixel, i, texts) {
+function explainedLight(pixel, i, texts) {
   const reaching = texts.map(parseLight).map(({ type }, at) => ({ type, at })).filter(({ type }) => ['point', 'spot', 'directional'].includes(type));
   const own = pixel?.triangles[0]?.points[0].lights.filter((light) => light.light !== null).slice(-reaching.length);
   return own?.[reaching.findIndex(({ at }) => at === i)] ?? null;

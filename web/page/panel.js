@@ -2,7 +2,7 @@
 // people try, and by what it says of itself.
 import { on, state, view } from './app.js';
 import { $, element, ours } from './dom.js';
-import { Row, setOption } from './row.js';
+import { Row } from './row.js';
 
 // They name files to write, which the page does by buttons, or a terminal.
 const LEFT_OUT = ['output', 'save-scene', 'durable', 'compress', 'quality', 'term'];

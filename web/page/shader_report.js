@@ -23,9 +23,11 @@ function scenesTable(report, size) {
   return element('div', { className: 'wide', tabIndex: 0, attributes: { role: 'region', 'aria-label': text('shaderScenes') } }, table);
 }
 
+const lineButton = (file, line, goTo) => button('shaderLine', () => goTo(file, line), { textContent: text('shaderLine', { file, line }) });
+
 function notesList(report, goTo) {
   return element('ul', { className: 'shader-notes' }, ...report.notes.map(({ file, line, text: said }) => {
-    const place = file && line ? [button('shaderLine', () => goTo(file, line), { textContent: text('shaderLine', { file, line }) }), ' '] : [];
+    const place = file && line ? [lineButton(file, line, goTo), ' '] : [];
     return element('li', {}, ...place, ours('span', said));
   }));
 }
@@ -42,24 +44,32 @@ function mistakesList(report, withCode) {
   return [element('p', { textContent: title }), element('ul', { className: 'shader-mistakes' }, ...items)];
 }
 
-// What an exercise shows of the mistakes: after one hint the pictures to look at, after two the mistake, after three what to write.
-function hintsOf(report, hints) {
-  if (!hints) return [];
-  if (report.verdict === 'passes') return [element('p', { textContent: text('shaderHintNone') })];
-  const scenes = report.scenes.filter((scene) => !scene.passes).map((scene) => scene.name).join(', ');
-  const out = [element('p', {}, text('shaderHintScenes', { scenes }))];
-  return hints > 1 && report.mistakes.length ? [...out, ...mistakesList(report, hints > 2)] : out;
+// How many hints an exercise has: the pictures to look at; the mistake; what to write. What else is wrong by now comes with the second.
+export const HINTS = 3;
+
+function hintsOf(report, { hints, exercise }, goTo) {
+  const { mistake, wrong, missing } = exercise, named = element('p', {}, ours('strong', mistake), ours('span', ` ${wrong}`));
+  if (report.verdict === 'passes') return [named];
+  const out = [], scenes = report.scenes.filter((scene) => !scene.passes).map((scene) => scene.name).join(', ');
+  if (hints > 0 && scenes) out.push(element('p', {}, text('shaderHintScenes', { scenes })));
+  if (hints > 1) out.push(named);
+  if (hints > 2) out.push(element('p', { textContent: text('shaderHintLines') }), element('ul', { className: 'shader-mistakes' },
+    ...missing.map(({ file, line, code }) => element('li', {}, lineButton(file, line, goTo), ' ', ours('code', code.trim())))));
+  const known = ({ id, also }) => id === mistake || (also ?? '').split(' ').includes(mistake);
+  if (hints > 1 && report.mistakes.some((one) => !known(one))) out.push(...mistakesList(report, hints > 2));
+  return out;
 }
 
-// The verdict as a sentence, and what stands below it. `asked`: whether it is an exercise, and how many hints were asked for.
+// The verdict as a sentence, and what stands below it. `asked`: of an exercise, and how many hints were asked for.
 export function report(report, asked, size, goTo) {
   const solved = asked.exercise && report.verdict === 'passes';
   const verdict = text(solved ? 'shaderSolved' : (VERDICTS[report.verdict] ?? 'shaderFails'));
   const content = report.notes.length ? [notesList(report, goTo)] : [];
-  if (asked.exercise) content.push(...hintsOf(report, asked.hints));
+  if (asked.exercise) content.push(...hintsOf(report, asked, goTo));
   else if (report.mistakes.length) content.push(...mistakesList(report, true));
-  else if (report.verdict === 'differs' && report.searched) content.push(element('p', { textContent: text('shaderUnknown', { tried: report.tried }) }));
+  else if (report.verdict === 'differs' && report.searched && !report.cut) content.push(element('p', { textContent: text('shaderUnknown', { tried: report.tried }) }));
   if (report.scenes.length) content.push(scenesTable(report, size));
   if (report.driver) content.push(element('p', { className: 'hint' }, text('shaderDrawnBy', { driver: report.driver })));
-  return { sentence: report.searched || asked.exercise ? verdict : text('shaderSearches', { verdict }), content };
+  const search = asked.exercise ? null : !report.searched ? 'shaderSearches' : report.cut ? 'shaderCut' : null;
+  return { sentence: search ? text(search, { verdict }) : verdict, content };
 }

@@ -1,14 +1,14 @@
 // shaders.js: the tab of shaders: texts, what they draw beside the reference, the verdict of `lambent check` and the mistakes that it names;
-// exercises are programs with a known mistake.
+// exercises are programs with a known mistake, made by the module.
 import './shader_strings.js';
-import { openCheck } from './check_start.js';
 import { $, button, element, ours } from './dom.js';
-import { EXERCISES, PROGRAMS } from './programs.js';
+import { PROGRAMS } from './programs.js';
+import { Checks } from './shader_checks.js';
 import { makeEditor } from './shader_editor.js';
-import { report } from './shader_report.js';
+import { HINTS, report } from './shader_report.js';
 import { text } from './strings.js';
 
-const SIZE = 128, TYPING_MS = 350, ENDLESS_MS = 30000;
+const SIZE = 128, TYPING_MS = 350;
 
 const place = $('panel-shaders');
 const contracts = element('select', { id: 'shader-contract', translate: false });
@@ -21,65 +21,43 @@ const hint = button('shaderAskHint', () => {
   asked.hints++;
   show();
 });
+const again = button('shaderAgain', () => open(), { hidden: true });
 
 place.append(
   element('p', { className: 'hint', textContent: text('shaderHint') }),
   element('div', { className: 'buttons shader-bar' }, element('label', { textContent: text('shaderContract') + ' ' }, contracts),
-    element('label', { textContent: text('shaderTask') + ' ' }, tasks), button('shaderReset', () => begin()), hint),
-  verdict,
+    element('label', { textContent: text('shaderTask') + ' ' }, tasks), button('shaderReset', () => start()), hint),
+  verdict, again,
   element('div', { className: 'shader-texts' }, element('section', {}, element('h3', { textContent: text('shaderFragment') }), places.fragment),
     element('section', {}, element('h3', { textContent: text('shaderVertexMade') }), places.vertex)),
   found, names);
 
 // --- checking: the newest texts alone
 
-let check = null, started = null; // the worker, and the promise of its lists
-let asked = { hints: 0, exercise: false }; // what the report is about
+const checks = new Checks();
+let asked = { hints: 0, exercise: null }; // what the report is about
 let shown = null; // the last report
-let round = 0, timer = 0, searching = false;
-
-function restart() {
-  check?.end();
-  check = openCheck();
-  started = check.call('start', {});
-  searching = false;
-}
-
-// A report, or null where newer texts came in between.
-async function ask(mine, pictures) {
-  const late = new Promise((resolve) => setTimeout(resolve, ENDLESS_MS, 'late'));
-  await started;
-  const answer = await Promise.race([late, check.call('check', { fragment: editors.fragment.text, vertex: editors.vertex.text, contract: contracts.value, size: SIZE, pictures })]);
-  if (mine !== round) return null;
-  if (answer !== 'late') return answer;
-  restart();
-  return { verdict: 'endless', mistakes: [], notes: [], scenes: [] };
-}
+let timer = 0;
 
 async function run() {
-  const mine = ++round;
-  if (searching) restart();
+  clearTimeout(timer);
   verdict.textContent = text('shaderWaits');
-  try {
-    const quick = await ask(mine, 1); // pictures and verdict, without a search
-    if (!quick) return;
-    shown = { ...quick, searched: quick.verdict !== 'differs' };
+  const texts = { fragment: editors.fragment.text, vertex: editors.vertex.text };
+  const highlight = asked.exercise?.highlight ?? '';
+  await checks.run({ ...texts, contract: contracts.value, highlight, size: SIZE }, (report) => {
+    shown = report;
     show();
-    if (shown.searched) return;
-    searching = true;
-    const whole = await ask(mine, 0);
-    if (!whole) return;
-    searching = false;
-    shown = { ...whole, searched: true };
-    show();
-  } catch (error) {
-    if (mine !== round) return;
-    shown = { verdict: 'fails', mistakes: [], notes: [{ kind: 'hint', file: null, line: 0, text: error.message }], scenes: [], searched: true };
-    show();
-  }
+  }).catch(refused);
+}
+
+// What keeps the worker from an answer.
+function refused({ message }) {
+  shown = { verdict: 'fails', mistakes: [], notes: [{ kind: 'hint', file: null, line: 0, text: message }], scenes: [], searched: true };
+  show();
 }
 
 function changed() {
+  if (!lists) return;
   clearTimeout(timer);
   timer = setTimeout(run, TYPING_MS);
 }
@@ -88,6 +66,7 @@ function show() {
   verdict.dataset.verdict = shown?.verdict ?? '';
   verdict.dataset.searched = String(shown?.searched ?? false);
   hint.hidden = !asked.exercise;
+  hint.disabled = asked.hints >= HINTS || shown?.verdict === 'passes';
   if (!shown) return;
   const { sentence, content } = report(shown, asked, SIZE, (file, line) => editorOf(file).goTo(line));
   verdict.textContent = sentence;
@@ -100,49 +79,80 @@ function show() {
 
 const editors = {};
 const editorOf = (file) => (file.endsWith('.vert') ? editors.vertex : editors.fragment);
-const named = (name) => PROGRAMS.find((program) => program.name === name);
+const FILES = { fragment: 'shader.frag', vertex: 'shader.vert' };
+const EXERCISE = 'exercise:'; // before the mistake's id
 
-// The texts of a program of the list: correct, or with the edits of an exercise.
-function textsOf(value) {
-  const [kind, which] = value.split(':');
-  if (kind === 'program') return { ...named(which) };
-  const { program, edits } = EXERCISES[Number(which)], texts = { ...named(program) };
-  for (const [part, old, wrong] of edits) texts[part] = texts[part].replace(old, () => wrong);
-  return texts;
+// The lines of the correct texts that an exercise has not.
+function missingLines({ texts, correct }) {
+  return Object.entries(FILES).flatMap(([part, file]) => {
+    const there = new Set(texts[part].split('\n'));
+    return correct[part].split('\n').map((code, i) => ({ file, line: i + 1, code })).filter(({ code }) => code.trim() && !there.has(code));
+  });
 }
 
-function begin() {
-  const texts = textsOf(tasks.value);
+function begin(texts, exercise = null) {
   editors.fragment.text = texts.fragment;
   editors.vertex.text = texts.vertex;
-  asked = { hints: 0, exercise: tasks.value.startsWith('exercise:') };
+  asked = { hints: 0, exercise };
   shown = null;
   found.replaceChildren();
   show();
-  run();
+  return run();
 }
 
-function chooseContract(lists) {
-  const mine = PROGRAMS.filter(({ contract }) => contract === contracts.value);
-  const exercises = [...EXERCISES.entries()].filter(([, { program }]) => mine.some(({ name }) => name === program));
-  tasks.replaceChildren(
-    ...mine.map(({ name }) => element('option', { value: `program:${name}`, textContent: text('shaderCorrect', { name }) })),
-    ...exercises.map(([index], i) => element('option', { value: `exercise:${index}`, textContent: text('shaderExercise', { number: i + 1 }) })));
-  const contract = lists.contracts.find(({ name }) => name === contracts.value);
+// Exercises are in the names of `lambent shader`.
+async function beginTask() {
+  const task = tasks.value;
+  clearTimeout(timer);
+  if (!task.startsWith(EXERCISE)) return begin(PROGRAMS.find(({ name }) => name === task));
+  if (contracts.value !== 'lambent') showContract('lambent', task);
+  verdict.textContent = text('shaderWaits');
+  const row = lists.exercises.find(({ mistake }) => EXERCISE + mistake === task), made = await checks.exercise(row.mistake);
+  return made && begin(made.texts, { ...row, highlight: made.highlight, missing: missingLines(made) });
+}
+
+const start = () => beginTask().catch(refused);
+
+let lists = null;
+
+// The names of a contract, its correct programs, and the exercises, of which `task` is chosen; null: the first program.
+function showContract(name, task = null) {
+  const group = (key, options) => element('optgroup', { label: text(key) }, ...options);
+  const mine = PROGRAMS.filter(({ contract }) => contract === name);
+  contracts.value = name;
+  tasks.replaceChildren(group('shaderPrograms', mine.map(({ name }) => ours('option', name, { value: name }))),
+    group('shaderExercises', lists.exercises.map(({ mistake, looks }, i) => ours('option', `${i + 1}. ${looks}`, { value: EXERCISE + mistake }))));
+  tasks.value = task ?? mine[0].name;
+  const contract = lists.contracts.find((one) => one.name === name);
   names.lastChild.replaceChildren(...contract.names.map((row) => element('tr', {}, ours('td', row.name), ours('td', row.type), ours('td', row.meaning))));
-  begin();
 }
 
-async function start() {
-  restart();
+// The lists come with the module of checks; where that cannot be loaded, a button tries it again.
+async function connect() {
+  again.hidden = true;
+  verdict.textContent = text('shaderWaits');
+  lists = await checks.lists();
+  const usable = lists.contracts.filter(({ name }) => PROGRAMS.some(({ contract }) => contract === name));
+  contracts.replaceChildren(...usable.map(({ name, title }) => ours('option', title, { value: name })));
+  contracts.onchange = () => {
+    showContract(contracts.value);
+    start();
+  };
+  tasks.onchange = start;
+  showContract(usable[0].name);
+  start();
+}
+
+function open() {
+  connect().catch(({ message }) => {
+    verdict.textContent = message;
+    again.hidden = false;
+  });
+}
+
+async function makeEditors() {
   editors.fragment = await makeEditor(places.fragment, { label: text('shaderFragment'), onchange: changed });
   editors.vertex = await makeEditor(places.vertex, { label: text('shaderVertex'), onchange: changed });
-  const lists = await started;
-  const usable = lists.contracts.filter(({ name }) => PROGRAMS.some(({ contract }) => contract === name));
-  contracts.replaceChildren(...usable.map(({ name, title }) => element('option', { value: name, textContent: title })));
-  contracts.onchange = () => chooseContract(lists);
-  tasks.onchange = begin;
-  chooseContract(lists);
 }
 
-start().catch((error) => (verdict.textContent = text('shaderNoPlace', { error: error.message })));
+makeEditors().then(open);

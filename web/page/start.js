@@ -1,26 +1,31 @@
 // start.js: the worker, and calls to it. (The one-file page has a part of its own in place of this one: web/build.py.)
 import { text } from './strings.js';
 
-export function openWorker() {
-  const worker = new Worker(new URL('worker.js', import.meta.url), { type: 'module' });
-  // Fetches the module, and says how much of it is there.
-  const load = async (address) => {
-    const answer = await fetch(address), whole = Number(answer.headers.get('content-length')), packed = answer.headers.get('content-encoding');
-    if (!answer.ok) throw new Error(text('notLoaded', { name: 'lambent.wasm', code: answer.status }));
-    const parts = [], reader = answer.body.getReader();
+// The bytes of a module beside the page. `progress`: called with the bytes that are there, and how many there will be (0: unknown).
+export async function fetchModule(name, progress = () => {}) {
+  const answer = await fetch(new URL(name, import.meta.url)).catch(() => {
+    throw new Error(text('notReached', { name }));
+  });
+  if (!answer.ok) throw new Error(text('notLoaded', { name, code: answer.status }));
+  const whole = answer.headers.get('content-encoding') ? 0 : Number(answer.headers.get('content-length')), parts = [], reader = answer.body.getReader();
+  try {
     for (let size = 0, part; !(part = await reader.read()).done; ) {
       parts.push(part.value);
-      size += part.value.length;
-      const amount = whole && !packed ? `${Math.min(100, Math.round((100 * size) / whole))} %` : `${Math.round(size / 1000)} kB`;
-      document.getElementById('status').textContent = text('loading', { name: 'lambent.wasm', amount });
+      progress((size += part.value.length), whole);
     }
-    return new Blob(parts).arrayBuffer();
-  };
-  const rest = () => fetch(new URL('lambent-rest.wasm', import.meta.url)).then((answer) => {
-    if (!answer.ok) throw new Error(text('notLoaded', { name: 'lambent-rest.wasm', code: answer.status }));
-    return answer.arrayBuffer();
+  } catch {
+    throw new Error(text('notReached', { name }));
+  }
+  return new Blob(parts).arrayBuffer();
+}
+
+export function openWorker() {
+  const name = 'lambent.wasm', worker = new Worker(new URL('worker.js', import.meta.url), { type: 'module' });
+  const wasm = fetchModule(name, (size, whole) => {
+    const amount = whole ? `${Math.min(100, Math.round((100 * size) / whole))} %` : `${Math.round(size / 1000)} kB`;
+    document.getElementById('status').textContent = text('loading', { name, amount });
   });
-  return caller(worker, load(new URL('lambent.wasm', import.meta.url)), rest);
+  return caller(worker, wasm, () => fetchModule('lambent-rest.wasm'));
 }
 
 // `rest`: fetches the second part of a module that is in two (web/build.py); null: it is whole.

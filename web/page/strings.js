@@ -1,6 +1,7 @@
-// strings.js: every text of the page, in one table. What the program says (names and summaries of options, sentences of errors, words of
-// command lines) comes from the module and stands in elements with translate="no". ?locale=pseudo writes the table with accents between
-// ⟦ and ⟧: a text without them has escaped the table, and one that is cut off would be cut off in a longer language.
+// strings.js: every text of the page, in one table; a part of the page that is fetched later adds its own texts to it (shader_strings.js). What the
+// program says (names and summaries of options, sentences of errors, words of command lines) comes from the module and stands in elements with
+// translate="no". ?locale=pseudo writes the table with accents between ⟦ and ⟧: a text without them has escaped the table, and one that is cut
+// off would be cut off in a longer language.
 const STRINGS = {
   picture: 'Picture',
   model: 'Model',
@@ -52,6 +53,7 @@ const STRINGS = {
   loading: 'Loading {name}: {amount}',
   loadingModel: 'Loading {name}…',
   notLoaded: '{name} could not be loaded: the server answers {code}',
+  notReached: '{name} could not be loaded: the server cannot be reached',
   tooLarge: '{file}: the files have {size} MB together, more than the {most} MB that a tab can hold; the program lambent draws them',
   viewChanged: 'Seen from {around} degrees around and {above} degrees above, {far} radii away.',
   saveScene: 'Save scene file',

@@ -45,7 +45,11 @@ typedef struct lam_gl_params {
     bool lecture;
     // A mistake of that style, by its id; a draw fails with LAM_UNSUPPORTED where its shader lacks what the mistake needs. NULL: none.
     const char *mistake;
-    LAM_RESERVED(6);
+    // Textures are filtered by the graphics card, from texels of 8 bits where the picture has no more: faster, and by up to
+    // some hundredths of the range away from the CPU device's picture (docs/opengl.md). By default the shader filters them, as
+    // the CPU device does.
+    bool hardware_filter;
+    LAM_RESERVED(5);
 } lam_gl_params;
 
 // Makes an OpenGL device; lam_device_free frees it. `params` may be NULL. NULL on failure: LAM_UNSUPPORTED where a

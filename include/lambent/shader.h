@@ -60,7 +60,10 @@ typedef struct lam_shader_params {
     bool products;
     lam_shader_style style; // how the text is written
     const char *mistake;    // of the lecture style, by its id; NULL: none
-    LAM_RESERVED(7);
+    // Textures are filtered by the graphics card: the program that uses the shaders sets the filters and the wrapping of each
+    // texture. By default the shader filters them. GLSL 120 has the graphics card's in any case.
+    bool hardware_filter;
+    LAM_RESERVED(6);
 } lam_shader_params;
 
 // A vertex attribute.

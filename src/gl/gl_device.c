@@ -39,6 +39,8 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
         memcpy(c->alpha, wanted.alpha, sizeof c->alpha);
         memcpy(c->maps, wanted.maps, sizeof c->maps);
         c->anisotropy = wanted.anisotropy;
+        if (f->device->hardware_filter)
+            glsl_use_hardware_filter(c);
         c->back_material = wanted.back_material;
         c->colors = masks && output_is_value(c->output) && wanted.colors;
     }
@@ -69,6 +71,8 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->layers = wanted.layers;
     c->field_layers = wanted.field_layers;
     c->anisotropy = wanted.anisotropy;
+    if (f->device->hardware_filter)
+        glsl_use_hardware_filter(c);
     memcpy(c->groups, wanted.groups, sizeof c->groups);
     c->group_count = wanted.group_count;
     c->light_count = wanted.light_count;
@@ -414,6 +418,10 @@ static bool find_limits(struct gl_device *device, lam_error *error)
     if (device->block_alignment < 16)
         device->block_alignment = 16;
     device->has_norm16 = !c->es || gl_has_extension(gl, "GL_EXT_texture_norm16");
+    device->anisotropy_max = 1;
+    if (gl_has_extension(gl, "GL_EXT_texture_filter_anisotropic") ||
+        gl_has_extension(gl, "GL_ARB_texture_filter_anisotropic"))
+        gl->GetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY, &device->anisotropy_max);
     gl->GenQueries(1, &device->query);
     return targets_find_format(device, error) && program_copy_make(device, error) &&
            (!c->debug || gl_messages_clean(c, "starting", error));
@@ -444,6 +452,7 @@ lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
     device->base.type = &type;
     device->external_context = params->get_proc_address != NULL;
     device->lecture = params->lecture;
+    device->hardware_filter = params->hardware_filter;
     device->mistake = mistake;
     for (int i = 0; i < 256; i++)
         device->decode_srgb[i] = (float)srgb_linear(i / 255.0);

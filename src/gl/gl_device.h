@@ -88,6 +88,13 @@ struct gl_texture {
     uint64_t last_frame; // number of the last frame that read it
 };
 
+// The state of a texture unit that says how its texture is wrapped and filtered.
+struct gl_sampler {
+    GLuint name; // 0: not made
+    int anisotropy;
+};
+enum { SAMPLER_COUNT = LAM_WRAP_COUNT * LAM_WRAP_COUNT * LAM_FILTER_COUNT * LAM_FILTER_COUNT * LAM_MIP_COUNT };
+
 // Lit vertex colours of one draw, for LAM_STAGE_APPLICATION.
 struct gl_vertex_lighting {
     // Every input of the colours, as bytes: of the colours in the buffer, and of the current frame.
@@ -180,7 +187,7 @@ enum gl_blending {
 struct gl_current_state {
     GLuint program, array, framebuffer;
     int unit; // active texture unit; −1: unknown
-    GLuint textures[UNIT_COUNT];
+    GLuint textures[UNIT_COUNT], samplers[UNIT_COUNT];
     struct {
         GLuint buffer;
         size_t offset, size;
@@ -196,9 +203,9 @@ struct gl_current_state {
 struct gl_device {
     struct lam_device base;
     struct gl_context context;
-    bool external_context; // the context is the caller's
-    bool lecture;          // lam_gl_params
-    int mistake;           // as glsl_choices.mistake
+    bool external_context;         // the context is the caller's
+    bool lecture, hardware_filter; // lam_gl_params
+    int mistake;                   // as glsl_choices.mistake
     GLint block_size_max, block_alignment, texture_size_max;
     GLint unit_count;    // texture units of the fragment shader that are used, up to UNIT_COUNT
     bool has_norm16;     // textures of 16 bits for 0…1
@@ -208,6 +215,9 @@ struct gl_device {
     int mesh_count, mesh_capacity;
     struct gl_texture *textures;
     int texture_count, texture_capacity;
+    // With hardware_filter, one for each way of reading a texture, made when it is used.
+    struct gl_sampler samplers[SAMPLER_COUNT];
+    GLfloat anisotropy_max;                     // that samplers take
     struct gl_vertex_lighting *vertex_lighting; // one for each draw
     int vertex_lighting_capacity;
     struct gl_program *programs;
@@ -300,7 +310,8 @@ void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum 
 void gl_use_program(struct gl_device *device, GLuint program);
 void gl_use_array(struct gl_device *device, GLuint array);
 void gl_use_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture);
-// The same, and makes the unit the active one, to which uploads go.
+void gl_use_sampler(struct gl_device *device, enum texture_unit unit, GLuint sampler); // 0: the texture's own
+// As gl_use_texture, and makes the unit the active one, to which uploads go.
 void gl_edit_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture);
 void gl_use_framebuffer(struct gl_device *device, GLuint framebuffer);
 void gl_use_blending(struct gl_device *device, enum gl_blending blending);

@@ -47,6 +47,7 @@
     X(DeleteQueries)                                                                                                   \
     X(DeleteRenderbuffers)                                                                                             \
     X(DeleteShader)                                                                                                    \
+    X(DeleteSamplers)                                                                                                  \
     X(DeleteSync)                                                                                                      \
     X(DeleteTextures)                                                                                                  \
     X(DeleteVertexArrays)                                                                                              \
@@ -70,6 +71,7 @@
     X(GenFramebuffers)                                                                                                 \
     X(GenQueries)                                                                                                      \
     X(GenRenderbuffers)                                                                                                \
+    X(GenSamplers)                                                                                                     \
     X(GenTextures)                                                                                                     \
     X(GenVertexArrays)                                                                                                 \
     X(GetActiveAttrib)                                                                                                 \
@@ -101,6 +103,8 @@
     X(ReadPixels)                                                                                                      \
     X(RenderbufferStorage)                                                                                             \
     X(RenderbufferStorageMultisample)                                                                                  \
+    X(SamplerParameterf)                                                                                               \
+    X(SamplerParameteri)                                                                                               \
     X(Scissor)                                                                                                         \
     X(ShaderSource)                                                                                                    \
     X(TexImage2D)                                                                                                      \

@@ -121,8 +121,12 @@ static void issue_draw_call(struct gl_frame *f, const struct gl_draw_call *call)
         gl_use_texture(f->device, UNIT_ENVIRONMENT_LIGHT, GL_TEXTURE_2D, f->device->environment_light_texture);
     if (call->program->choices.shadows)
         shadows_use(f, call->program);
-    if (call->program->choices.occlusion)
-        gl_use_texture(f->device, gl_occlusion_unit(call->program), GL_TEXTURE_2D, f->device->occlusion_texture);
+    if (call->program->choices.occlusion) {
+        enum texture_unit unit = gl_occlusion_unit(call->program);
+        gl_use_texture(f->device, unit, GL_TEXTURE_2D, f->device->occlusion_texture);
+        if (f->device->hardware_filter) // a map was read there
+            gl_use_sampler(f->device, unit, 0);
+    }
     float object = (float)draw->object;
     program_set(f, call->program, UNIFORM_OBJECT, &object, 1);
     program_set_int(f, call->program, UNIFORM_FIRST_TRIANGLE, (int)draw->first_id);

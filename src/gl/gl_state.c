@@ -32,6 +32,12 @@ void gl_use_texture(struct gl_device *device, enum texture_unit unit, GLenum tar
     device->context.gl.BindTexture(target, device->current.textures[unit] = texture);
 }
 
+void gl_use_sampler(struct gl_device *device, enum texture_unit unit, GLuint sampler)
+{
+    if (device->current.samplers[unit] != sampler)
+        device->context.gl.BindSampler((GLuint)unit, device->current.samplers[unit] = sampler);
+}
+
 void gl_edit_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture)
 {
     gl_use_texture(device, unit, target, texture);
@@ -86,7 +92,7 @@ void gl_state_invalidate(struct gl_device *device)
     memset(&device->current, 0, sizeof device->current);
     device->current.program = device->current.array = device->current.framebuffer = UINT32_MAX;
     for (int i = 0; i < UNIT_COUNT; i++)
-        device->current.textures[i] = UINT32_MAX;
+        device->current.textures[i] = device->current.samplers[i] = UINT32_MAX;
     for (int i = 0; i < POINT_COUNT; i++)
         device->current.blocks[i].buffer = UINT32_MAX;
     device->current.cull = device->current.front = device->current.unit = -1;

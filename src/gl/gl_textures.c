@@ -1,28 +1,53 @@
 // gl_textures.c: uploads the textures of materials with all their levels, once, and binds those that a draw call reads.
 //
-// Numbers of 0…1 are kept in 16 bits, error 2⁻¹⁷; others, and all where an OpenGL ES driver has no such format, as floats.
-// Shaders read single texels and filter themselves (texture.glsl).
+// Shaders read single texels and filter themselves (texture.glsl): numbers of 0…1 are kept in 16 bits, error 2⁻¹⁷; others, and
+// all where an OpenGL ES driver has no such format, as floats. With lam_gl_params.hardware_filter texels of 8 bits stay such,
+// colours sRGB-encoded, and sampler objects say how they are read.
 #include "gl_device.h"
 
 #include "fail.h"
 #include "texture_levels.h"
 
-#include <stdlib.h>
+#define LANES 1
+#include "encoding.h"
 
-// The texels of a level as bytes of the format that it is uploaded in.
-static void pack_level(const struct lam_texture *texture, int level, bool wide, void *out)
+#include <stdlib.h>
+#include <string.h>
+
+// How a texture is uploaded.
+struct format {
+    GLenum stored, type; // of the graphics card's texels, of the numbers that are sent
+    size_t bytes;        // of a texel that is sent, and about those of one that is stored
+};
+
+static uint8_t encoded_byte(float linear) { return (uint8_t)byte_of(srgb_encode(linear)); }
+
+// The largest number of 16-bit floats.
+static float half_limited(float x) { return x > 65504 ? 65504 : x < -65504 ? -65504 : x; }
+
+// The texels of a level as they are sent.
+static void pack_level(const struct lam_texture *texture, int level, const struct format *format, void *out)
 {
     const struct texture_level *l = &texture->levels[level];
+    uint8_t *bytes = out;
     uint16_t *shorts = out;
     float *floats = out;
+    if (format->type == GL_UNSIGNED_BYTE && !l->floats) {
+        memcpy(out, texture->bytes, (size_t)l->width * (size_t)l->height * 4);
+        return;
+    }
     for (int y = 0; y < l->height; y++)
         for (int x = 0; x < l->width; x++) {
             texel t = texel_at(texture, level, x, y);
             for (int c = 0; c < 4; c++) {
-                if (wide)
+                if (format->stored == GL_RGBA16F)
+                    *floats++ = half_limited(t[c]);
+                else if (format->type == GL_FLOAT)
                     *floats++ = t[c];
-                else
+                else if (format->type == GL_UNSIGNED_SHORT)
                     *shorts++ = (uint16_t)(t[c] * 65535.0f + 0.5f);
+                else
+                    *bytes++ = format->stored == GL_SRGB8_ALPHA8 && c < 3 ? encoded_byte(t[c]) : (uint8_t)byte_of(t[c]);
             }
         }
 }
@@ -38,21 +63,31 @@ static bool needs_floats(const struct lam_texture *texture)
     return outside;
 }
 
-static bool send_levels(struct gl_frame *f, const struct lam_texture *texture, bool wide, lam_error *error)
+static struct format format_of(const struct gl_device *device, const struct lam_texture *texture)
+{
+    if (device->hardware_filter && !texture->levels[0].floats)
+        return (struct format){texture->values == LAM_TEXTURE_COLOR ? GL_SRGB8_ALPHA8 : GL_RGBA8, GL_UNSIGNED_BYTE, 4};
+    if (device->has_norm16 && !needs_floats(texture))
+        return (struct format){GL_RGBA16, GL_UNSIGNED_SHORT, 8};
+    // OpenGL ES does not promise to filter floats of 32 bits.
+    return (struct format){device->hardware_filter ? GL_RGBA16F : GL_RGBA32F, GL_FLOAT, 16};
+}
+
+static bool send_levels(struct gl_frame *f, const struct lam_texture *texture, const struct format *format,
+                        lam_error *error)
 {
     const struct gl *gl = f->gl;
-    size_t each = wide ? 4 * sizeof(float) : 4 * sizeof(uint16_t);
-    size_t bytes = (size_t)texture->levels[0].width * (size_t)texture->levels[0].height * each;
+    size_t bytes = (size_t)texture->levels[0].width * (size_t)texture->levels[0].height * format->bytes;
     if (!buffer_reserve(&f->device->scratch, bytes, f->call, error))
         return false;
     for (int level = 0; level < texture->level_count; level++) {
         const struct texture_level *l = &texture->levels[level];
         if (!call_should_continue(f->call))
             return call_error(f->call, error);
-        pack_level(texture, level, wide, f->device->scratch.data);
-        gl->TexImage2D(GL_TEXTURE_2D, level, wide ? GL_RGBA32F : GL_RGBA16, l->width, l->height, 0, GL_RGBA,
-                       wide ? GL_FLOAT : GL_UNSIGNED_SHORT, f->device->scratch.data);
-        f->device->base.report.bytes_uploaded += (size_t)l->width * (size_t)l->height * each;
+        pack_level(texture, level, format, f->device->scratch.data);
+        gl->TexImage2D(GL_TEXTURE_2D, level, (GLint)format->stored, l->width, l->height, 0, GL_RGBA, format->type,
+                       f->device->scratch.data);
+        f->device->base.report.bytes_uploaded += (size_t)l->width * (size_t)l->height * format->bytes;
     }
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -113,22 +148,54 @@ static bool upload(struct gl_frame *f, const struct lam_texture *texture, lam_er
     if (width > device->texture_size_max || height > device->texture_size_max)
         return fail(error, LAM_LIMIT, "OpenGL: a texture has %d×%d texels, this driver supports at most %d on a side",
                     width, height, device->texture_size_max);
-    bool wide = !device->has_norm16 || needs_floats(texture);
+    struct format format = format_of(device, texture);
     uint64_t texels = 0;
     for (int level = 0; level < texture->level_count; level++)
         texels += (uint64_t)texture->levels[level].width * (uint64_t)texture->levels[level].height;
     row = free_row(device, error);
-    if (!row || !gl_charge(f, &row->bytes, texels * (wide ? 16 : 8), error))
+    if (!row || !gl_charge(f, &row->bytes, texels * format.bytes, error))
         return false;
     row->texture = texture_share(texture);
     row->token = scene_token_hold(f->frame->token);
     row->last_frame = device->frame_number;
     f->gl->GenTextures(1, &row->name);
     gl_edit_texture(device, UNIT_COPY, GL_TEXTURE_2D, row->name);
-    if (send_levels(f, texture, wide, error))
+    if (send_levels(f, texture, &format, error))
         return true;
     drop(device, row);
     return false;
+}
+
+// The sampler of a map, at the anisotropy of the frame.
+static GLuint sampler_of(struct gl_frame *f, const lam_texture_map *map)
+{
+    static const GLint wraps[] = {GL_REPEAT, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT};
+    static const GLint magnifying[] = {GL_LINEAR, GL_NEAREST};
+    static const GLint minifying[][2] = {{GL_LINEAR_MIPMAP_LINEAR, GL_NEAREST_MIPMAP_LINEAR},
+                                         {GL_LINEAR_MIPMAP_NEAREST, GL_NEAREST_MIPMAP_NEAREST},
+                                         {GL_LINEAR, GL_NEAREST}};
+    const struct gl *gl = f->gl;
+    int number = (int)map->wrap_s * LAM_WRAP_COUNT + (int)map->wrap_t;
+    number = (number * LAM_FILTER_COUNT + (int)map->magnify) * LAM_FILTER_COUNT + (int)map->minify;
+    struct gl_sampler *sampler = &f->device->samplers[number * LAM_MIP_COUNT + (int)map->mip];
+    if (!sampler->name) {
+        gl->GenSamplers(1, &sampler->name);
+        gl->SamplerParameteri(sampler->name, GL_TEXTURE_WRAP_S, wraps[map->wrap_s]);
+        gl->SamplerParameteri(sampler->name, GL_TEXTURE_WRAP_T, wraps[map->wrap_t]);
+        gl->SamplerParameteri(sampler->name, GL_TEXTURE_MAG_FILTER, magnifying[map->magnify]);
+        gl->SamplerParameteri(sampler->name, GL_TEXTURE_MIN_FILTER, minifying[map->mip][map->minify]);
+        sampler->anisotropy = 1;
+    }
+    // Drivers disagree about the probes of filters that are not linear.
+    bool linear = !map->magnify && !map->minify && !map->mip;
+    int anisotropy = linear && f->device->anisotropy_max > 1 ? f->frame->anisotropy : 1;
+    if (sampler->anisotropy != anisotropy) {
+        GLfloat most = f->device->anisotropy_max;
+        gl->SamplerParameterf(sampler->name, GL_TEXTURE_MAX_ANISOTROPY,
+                              (float)anisotropy < most ? (float)anisotropy : most);
+        sampler->anisotropy = anisotropy;
+    }
+    return sampler->name;
 }
 
 bool textures_upload(struct gl_frame *f, const struct gl_program *program, const struct frame_draw_range *range,
@@ -158,9 +225,11 @@ void textures_use(struct gl_frame *f, struct gl_program *program, const struct f
             glsl_map_values(material->maps[i], f->frame->draws[range->draw].mesh, s, t);
             program_set(f, program, rows, s, 4);
             program_set(f, program, (enum uniform)(rows + 1), t, 4);
-            if (program->map_units[side][i])
-                gl_use_texture(f->device, (enum texture_unit)program->map_units[side][i], GL_TEXTURE_2D,
-                               find(f, material->maps[i]->texture)->name);
+            enum texture_unit unit = (enum texture_unit)program->map_units[side][i];
+            if (unit)
+                gl_use_texture(f->device, unit, GL_TEXTURE_2D, find(f, material->maps[i]->texture)->name);
+            if (unit && f->device->hardware_filter)
+                gl_use_sampler(f->device, unit, sampler_of(f, material->maps[i]));
         }
     }
 }
@@ -183,4 +252,7 @@ void textures_free(struct gl_device *device)
         if (device->textures[i].texture)
             drop(device, &device->textures[i]);
     free(device->textures);
+    for (int i = 0; i < SAMPLER_COUNT; i++)
+        if (device->samplers[i].name)
+            device->context.gl.DeleteSamplers(1, &device->samplers[i].name);
 }

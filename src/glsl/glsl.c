@@ -287,6 +287,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"passes_one_alpha", (f->layers & LAYER_TRANSMISSION) != 0 && f->per_fragment && c->layer == GLSL_NO_LAYERS},
         {"clearcoat", (f->layers & LAYER_CLEARCOAT) != 0},
         {"anisotropy", (f->layers & LAYER_ANISOTROPY) != 0},
+        {"exact_filter", !c->hardware_filter},
         {"tilts", f->tilts},
         {"alpha_ruled", alpha.bytes != NULL},
         {"mapped", f->mapped},
@@ -468,7 +469,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
             text->failed = true;
             text->error = parts[i]->error;
         }
-    if (!glsl_120 && (samples || (lights_here && c->passes_rays)))
+    if (!glsl_120 && ((samples && !c->hardware_filter) || (lights_here && c->passes_rays)))
         preprocess_add(text, text_wrapping_glsl, &words);
     if (samples) {
         preprocess_add(text, text_texture_glsl, &words);

@@ -77,6 +77,17 @@ void glsl_choose_maps(struct glsl_choices *c, const struct frame *frame, const s
                     seen, &count);
 }
 
+void glsl_use_hardware_filter(struct glsl_choices *c)
+{
+    c->hardware_filter = true;
+    c->anisotropy = 1;
+    for (int side = 0; side < 2; side++)
+        for (int i = 0; i < LAM_MAP_COUNT; i++) {
+            struct glsl_map *map = &c->maps[side][i];
+            map->wrap_s = map->wrap_t = map->magnify = map->minify = map->mip = 0;
+        }
+}
+
 void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4], float t[4])
 {
     static const float nothing[2][4] = {{1, 0, 0, 0}, {0, 1, 0, 1}};
@@ -397,7 +408,7 @@ static void add_sampling(struct text *text, const struct glsl_facts *f, const st
     static const char *const filters[] = {"FILTER_LINEAR", "FILTER_NEAREST"};
     static const char *const mips[] = {"MIP_LINEAR", "MIP_NEAREST", "MIP_NONE"};
     text_add(text, map->texcoords ? "second" : "first");
-    if (f->choices->version != GLSL_120)
+    if (f->choices->version != GLSL_120 && !f->choices->hardware_filter)
         text_print(text, ",\n        sampling(%s, %s, %s, %s, %s)", wraps[map->wrap_s], wraps[map->wrap_t],
                    filters[map->magnify], filters[map->minify], mips[map->mip]);
 }

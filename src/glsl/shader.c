@@ -90,7 +90,7 @@ static bool fail_nothing_selected(const struct build *m, int object, lam_error *
 
 // Merges the choices of all ranges, for one pair of sources. Vertex colours, back materials and the environment may be
 // used by some ranges only; the number of sides and the presence of tangents must be the same in all.
-static bool merge_choices(struct build *m, lam_stage stage, int object, lam_error *error)
+static bool merge_choices(struct build *m, lam_stage stage, int object, bool hardware_filter, lam_error *error)
 {
     const struct frame *frame = &m->frame;
     int first = -1;
@@ -104,6 +104,8 @@ static bool merge_choices(struct build *m, lam_stage stage, int object, lam_erro
         if (!is_selected(frame, range, object))
             continue;
         struct glsl_choices own = glsl_choose(frame, range, stage);
+        if (hardware_filter)
+            glsl_use_hardware_filter(&own);
         for (int side = 0; side < 2 && mapped && !range->translucent; side++)
             if (own.alpha[side] == LAM_ALPHA_BLEND) // as those with maps: their opacity is 1
                 own.alpha[side] = LAM_ALPHA_OPAQUE;
@@ -155,7 +157,7 @@ static bool choose(struct build *m, const lam_draw_params *draw, int object, con
     if (params->mistake && !mistake_find(params->mistake))
         return fail(error, LAM_BAD_ARGUMENT, "mistake '%.60s' is not known; expected one of lam_shader_mistake_row",
                     params->mistake);
-    if (!merge_choices(m, draw->stage, object, error))
+    if (!merge_choices(m, draw->stage, object, params->hardware_filter, error))
         return false;
     struct glsl_choices *c = &m->choices;
     c->version = versions[params->glsl];

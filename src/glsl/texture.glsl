@@ -25,6 +25,7 @@ vec4 map_texel(sampler2D map, vec4 s, vec4 t, footprint f)
     return texture2D(map, vec2(dot(s.xyz, vec3(f.at, 1.0)), dot(t.xyz, vec3(f.at, 1.0))));
 }
 //@else
+//@if exact_filter
 
 #define FILTER_LINEAR  0
 #define FILTER_NEAREST 1
@@ -86,6 +87,7 @@ vec4 texel_at(sampler2D map, vec2 at, float detail, sampling how)
     vec4 coarser = filtered(map, level + 1, place, how, how.minify);
     return finer + (coarser - finer) * (detail - float(level));
 }
+//@end
 
 //@if tilts
 // The directions in eye space in which the picture's rows and columns run on the triangle through p; not unit.
@@ -115,11 +117,16 @@ float map_level(sampler2D map, vec4 s, vec4 t, footprint f)
 
 //@end
 // A texel of a map. s and t are rows of the matrix from the mesh's texture coordinates to the picture's.
+//@if exact_filter
 vec4 map_texel(sampler2D map, vec4 s, vec4 t, footprint f, sampling how)
+//@else
+vec4 map_texel(sampler2D map, vec4 s, vec4 t, footprint f)
+//@end
 {
     vec2 at = vec2(s.x * f.at.x + s.y * f.at.y + s.z, t.x * f.at.x + t.y * f.at.y + t.z);
     vec2 dx = vec2(s.x * f.dx.x + s.y * f.dx.y, t.x * f.dx.x + t.y * f.dx.y);
     vec2 dy = vec2(s.x * f.dy.x + s.y * f.dy.y, t.x * f.dy.x + t.y * f.dy.y);
+//@if exact_filter
     vec2 size = vec2(textureSize(map, 0));
     float x = dot(dx * size, dx * size);
     float y = dot(dy * size, dy * size);
@@ -141,6 +148,9 @@ vec4 map_texel(sampler2D map, vec4 s, vec4 t, footprint f, sampling how)
     }
 //@end
     return texel_at(map, at, detail, how);
+//@else
+    return textureGrad(map, at, dx, dy);
+//@end
 }
 //@end
 

@@ -1,7 +1,9 @@
 # test_devices.py: the command `devices`, on this machine and on one whose OpenGL is broken; pictures by OpenGL.
 import json
 import os
+import struct
 import subprocess
+import zlib
 
 from harness import Case, PROGRAM
 
@@ -45,6 +47,8 @@ class Devices(Case):
         self.bad(1, "cube", "--device", "vulkan", says=("vulkan", "auto, cpu, gl or gles"))
         self.bad(1, "cube", "--device", "cpu", "--gl-device", "0", says=("--device cpu", "--gl-device"))
         self.bad(1, "cube", "--device", "gl", "--isa", "plain", says="--isa")
+        self.bad(1, "cube", "--texture-filter", "hardware", says=("--texture-filter hardware", "--device gl"))
+        self.bad(1, "cube", "--device", "gl", "--texture-filter", "fast", says=("fast", "exact or hardware"))
         self.bad(1, "cube", "--device", "gl", "--stage", "vertex", "--shading", "phong", says=("phong", "fragment"))
 
 
@@ -101,6 +105,28 @@ class Drawing(Case):
             differ, _ = self.apart("torus-knot", "--samples", 1, *more)
             self.assertLessEqual(differ, 8, more)
             self.assertNotEqual((self.folder / "gl.png").read_bytes(), plain, more)
+
+    def test_texture_filter(self):
+        """The graphics card's filters: another picture, near the exact one."""
+        rows = b"".join(b"\0" + bytes(c for x in range(64) for c in ((230, 220, 200) if x // 8 % 2 == y // 8 % 2 else (40, 30, 20)))
+                        for y in range(64))
+        chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        (self.folder / "tiles.png").write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 64, 64, 8, 2, 0, 0, 0)) +
+                                                chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+        (self.folder / "floor.mtl").write_text("newmtl a\nmap_Kd -s 5 5 tiles.png\n")
+        (self.folder / "floor.obj").write_text("mtllib floor.mtl\nusemtl a\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\n"
+                                               "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 4/4 3/3 2/2 1/1\n")
+        for name, options in (("given.ppm", []), ("exact.ppm", ["--texture-filter", "exact"]), ("fast.ppm", ["--texture-filter", "hardware"])):
+            self.good("floor.obj", "-s", "96x96", "--samples", "1", "--device", "gl", *options, "-o", name)
+        self.assertEqual(self.folder.joinpath("given.ppm").read_bytes(), self.folder.joinpath("exact.ppm").read_bytes())
+        report = json.loads(self.run_program("diff", "given.ppm", "fast.ppm", "--json").stdout)
+        self.assertGreater(report["maximum"], 0)
+        self.assertLess(report["mean"], 0.01)
+        # The shaders that are printed say the same.
+        self.assertIn("texelFetch(", self.good("shader", "floor.obj").stdout.decode())
+        printed = self.good("shader", "floor.obj", "--texture-filter", "hardware").stdout.decode()
+        self.assertIn("textureGrad(map, at, dx, dy)", printed)
+        self.assertNotIn("texelFetch(", printed)
 
     def test_samples_and_repeated_frames(self):
         differ, _ = self.apart("cube", "--samples", 8, "--show", "coverage")

@@ -208,6 +208,7 @@ CONTEXT = {
     "light-scale": ([], "1.1"), "shading": ([], "flat"), "stage": ([], None), "flat-normal": (["--shading", "flat"], "vertex"),
     "reference": (["--environment", "studio", "--material", "#ffc356,metallic=1,roughness=0.3"], "64"),
     "anisotropy": (["floor.obj"], "8"), "line-width": (["lines.obj"], "3"), "point-size": (["lines.obj"], "5"), "viewer": ([], "infinite"), "normals": ([], "facet"),
+    "texture-filter": (["floor.obj"], None),
     "shadow-terminator": (["--shadows", "--light", "point:position=2r/3r/1r"], "off"),
     "shadow-samples": (["--shadows", "--light", "point:position=2r/3r/1r,radius=0.5"], "3"),
     "wireframe-width": (["--wireframe"], "2"), "wireframe-color": (["--wireframe"], "red"), "edge-angle": (["--edges", "crease"], "20"),

@@ -1,4 +1,6 @@
 // test_textures.c: textures of the OpenGL device: every wrap and filter against the CPU device, numbers beyond 0…1, uploads.
+#include "floor_scene.h"
+
 #include <lambent/gl.h>
 #include <lambent/lambent.h>
 
@@ -17,86 +19,11 @@ enum { SIZE = 192, SIDE = 20 };
 
 static lam_device *cpu, *gl[2]; // OpenGL 3.3, OpenGL ES 3.0; NULL: not available
 
-// A picture of random texels; `scale` above 1: floats up to there.
-static lam_texture *random_texture(int width, int height, float scale)
-{
-    lam_error error = {0};
-    lam_image image = {.format = scale > 1 ? LAM_RGBA32F : LAM_RGBA8};
-    assert_true(lam_image_make(&image, width, height, image.format, &error));
-    unsigned state = 5;
-    for (int i = 0; i < width * height * 4; i++) {
-        state = state * 1664525u + 1013904223u;
-        if (scale > 1)
-            ((float *)image.pixels)[i] = i % 4 == 3 ? 1 : scale * (float)(state >> 8) / 16777216;
-        else
-            ((uint8_t *)image.pixels)[i] = i % 4 == 3 ? 255 : (uint8_t)(state >> 24);
-    }
-    lam_texture *texture = lam_texture_make(&image, LAM_TEXTURE_COLOR, NULL, &error);
-    lam_image_free(&image);
-    assert_non_null(texture);
-    return texture;
-}
-
-// A floor that leads away from the eye: near texels are many pixels wide, far ones a fraction of a pixel. The second set of
-// texture coordinates is turned by 90°.
-static lam_scene *floor_scene(const lam_texture_map *map)
-{
-    static const float positions[] = {-3, 0, 2, 3, 0, 2, 3, 0, -30, -3, 0, -30},
-                       normals[] = {0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0};
-    static const float first[] = {-1.3f, -1.1f, 2.2f, -1.1f, 2.2f, 9, -1.3f, 9};
-    static const float second[] = {-1.1f, 1.3f, -1.1f, -2.2f, 9, -2.2f, 9, 1.3f};
-    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
-    lam_error error = {0};
-    lam_scene *scene = lam_scene_make(&error);
-    lam_material material = lam_material_default();
-    material.unlit = true;
-    material.diffuse = (lam_rgba){1, 1, 1, 1};
-    material.maps[LAM_MAP_DIFFUSE] = map;
-    const lam_part part = {.triangle_count = 2, .material = lam_scene_add_material(scene, &material, &error)};
-    const lam_mesh mesh = {.positions = positions,
-                           .vertex_count = 4,
-                           .indices = indices,
-                           .triangle_count = 2,
-                           .normals = normals,
-                           .normal_count = 4,
-                           .texcoords = first,
-                           .texcoord_count = 4,
-                           .second_texcoords = second,
-                           .second_texcoord_count = 4,
-                           .parts = &part,
-                           .part_count = 1};
-    lam_object object = lam_object_default();
-    object.mesh = lam_scene_add_mesh(scene, &mesh, &error);
-    assert_true(part.material >= 0 && object.mesh >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);
-    return scene;
-}
-
 static lam_draw_params more; // shading, stage and output of what is drawn
 
 static lam_image draw(lam_device *device, const lam_scene *scene, int anisotropy)
 {
-    lam_error error = {0};
-    lam_image image = {0};
-    lam_camera camera = {.eye = {0.3, 1, 3},
-                         .target = {0, 0, -3},
-                         .up = {0, 1, 0},
-                         .fovy_rad = 0.9,
-                         .near_plane = 0.1,
-                         .far_plane = 100};
-    lam_draw_params params = more;
-    params.samples = 1;
-    params.anisotropy = anisotropy;
-    params.occlusion = LAM_OCCLUSION_OFF;
-    if (!lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error) ||
-        !lam_draw(device, scene, &camera, &params, &image, NULL, &error))
-        fail_msg("%s", error.text);
-    return image;
-}
-
-static double encoded(float x)
-{
-    double c = x < 0 ? 0 : x > 1 ? 1 : (double)x;
-    return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055;
+    return floor_draw(device, scene, SIZE, anisotropy, &more);
 }
 
 // At most one covered pixel of a thousand differs by more than 1/255 (by the same share of larger numbers).

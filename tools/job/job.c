@@ -567,7 +567,8 @@ lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *er
                                 .lights = (lam_shader_lights)o->lights_in,
                                 .products = o->products,
                                 .style = o->mistake ? LAM_SHADER_STYLE_LECTURE : (lam_shader_style)o->style,
-                                .mistake = o->mistake};
+                                .mistake = o->mistake,
+                                .hardware_filter = o->texture_filter == TEXTURE_FILTER_HARDWARE};
     if (!show_option_apply(o->show, job->scene, &draw, error) ||
         (job->device && !fit_exposure(job, &draw, o->width, o->height, error)))
         return NULL;

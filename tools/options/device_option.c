@@ -1,4 +1,4 @@
-// device_option.c: makes the device of `--device`, `--gl-device`, `--isa` and `--threads`.
+// device_option.c: makes the device of `--device`, `--gl-device`, `--texture-filter`, `--isa` and `--threads`.
 #include "device_option.h"
 
 #include "console.h"
@@ -15,11 +15,18 @@ lam_device *device_option_make(const struct options *o, lam_error *error)
         complain(error, LAM_BAD_ARGUMENT, "option '--isa' applies to the CPU device, not to OpenGL");
         return NULL;
     }
+    bool hardware_filter = o->texture_filter == TEXTURE_FILTER_HARDWARE;
+    if (hardware_filter && !gl) {
+        complain(error, LAM_BAD_ARGUMENT,
+                 "option '--texture-filter hardware' applies to OpenGL ('--device gl'), not to the CPU device");
+        return NULL;
+    }
     if (gl) {
         lam_gl_params params = {.api = o->device == DEVICE_GLES ? LAM_GL_ES : LAM_GL_CORE,
                                 .device = o->gl_device,
                                 .lecture = o->lecture_device,
-                                .mistake = o->lecture_device ? o->mistake : NULL};
+                                .mistake = o->lecture_device ? o->mistake : NULL,
+                                .hardware_filter = hardware_filter};
         return lam_device_gl(&params, error);
     }
     lam_cpu_params params = {.threads = o->threads, .isa = (lam_isa)o->isa};

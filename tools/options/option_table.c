@@ -234,6 +234,11 @@ static const struct word device_words[] = {{"auto", DEVICE_AUTO, "the CPU; OpenG
                                            {"gles", DEVICE_GLES, "OpenGL ES 3.0, as in WebGL 2"},
                                            {NULL, 0, NULL}};
 
+static const struct word texture_filter_words[] = {
+    {"exact", TEXTURE_FILTER_EXACT, "the shader filters: the CPU device's picture within 1/255"},
+    {"hardware", TEXTURE_FILTER_HARDWARE, "the graphics card filters: faster, less exact"},
+    {NULL, 0, NULL}};
+
 static const struct word viewer_words[] = {
     {"local", LAM_VIEWER_LOCAL, "the eye is at the camera"},
     {"infinite", LAM_VIEWER_INFINITE, "the eye is infinitely far away: one direction for every point"},
@@ -731,6 +736,13 @@ const struct option option_table[] = {
      device_words, .store = store_word, .others = "gpu cpu backend renderer engine opengl gl", FIELD(device)},
     {"gl-device", 0, GROUP_WORK, "N|NAME", "the first usable", "The OpenGL device, by number or part of its name.",
      "`lambent devices` lists the numbers, hardware before software.", .store = store_text, FIELD(gl_device)},
+    {"texture-filter", 0, GROUP_WORK, "NAME", "exact", "What filters textures with OpenGL: exact or hardware.",
+     "Graphics cards round the weights of their filters, mostly to 1/256, and approximate the level of detail: "
+     "`hardware` is "
+     "faster, and `docs/opengl.md` has its difference. The CPU device is always exact, and refuses `hardware`. Of "
+     "`shader` it "
+     "is how the printed shaders read textures.",
+     texture_filter_words, .store = store_word, .others = "texture-filtering texturefilter", FIELD(texture_filter)},
     {"repeat", 0, GROUP_WORK, "N", "1", "Draw N frames and report the median time.", NULL, .store = store_integer,
      .others = "iterations benchmark bench", FIELD(repeat), .min = 1, .max = 100000},
     {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter",

@@ -102,6 +102,7 @@ struct options {
     int isa;               // lam_isa
     int device;            // enum device_name
     const char *gl_device; // a number or a part of a name; NULL: the first
+    int texture_filter;    // enum texture_filter
     int repeat;
 
     // Limits (limit_options.h)
@@ -209,6 +210,7 @@ enum { RIG_DARK = 100 };
 // What the lights of a turntable stand still with.
 enum turntable_light { TURNTABLE_LIGHT_CAMERA, TURNTABLE_LIGHT_MODEL };
 
+enum texture_filter { TEXTURE_FILTER_EXACT, TEXTURE_FILTER_HARDWARE };
 enum device_name { DEVICE_AUTO, DEVICE_CPU, DEVICE_GL, DEVICE_GLES };
 
 enum sheet_name {

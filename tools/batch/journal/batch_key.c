@@ -13,7 +13,7 @@
 #include "xxh64.h"
 
 // Options outside of the groups of the picture that change it.
-static const char *const also[] = {"files-inside", "device", "gl-device", NULL};
+static const char *const also[] = {"files-inside", "device", "gl-device", "texture-filter", NULL};
 
 // Options of those groups that do not; sides and sizes belong to each picture, and a look is what its options are.
 static const char *const without[] = {"output", "save-scene", "size", "view", "durable", "look", NULL};

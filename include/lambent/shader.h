@@ -34,9 +34,9 @@ typedef enum lam_shader_lights {
 // How a shader's text is written.
 typedef enum lam_shader_style {
     LAM_SHADER_STYLE_FULL = 0, // the equations of this library, for all that it draws
-    // About thirty plain lines for each stage, as a lecture would show them, with the same uniforms and the same picture within
-    // 1/255. It has the reflection models Lambert, Phong and Blinn-Phong, all kinds of lights, and all shading methods; what it
-    // does not have is LAM_UNSUPPORTED.
+    // Plain lines, as a lecture would show them: about six in a vertex shader that lights nothing, thirty to forty in the stage
+    // that does. Same uniforms, same picture within 1/255. It has the reflection models Lambert, Phong, Blinn-Phong and
+    // Kajiya-Kay, all kinds of lights, and all shading methods; what it does not have is LAM_UNSUPPORTED.
     LAM_SHADER_STYLE_LECTURE,
     LAM_SHADER_STYLE_COUNT
 } lam_shader_style;
@@ -135,7 +135,10 @@ typedef struct lam_shader {
     int texture_count;                      // elements of `textures`
     // Each triangle needs three vertices of its own, with the face normal or its last vertex's.
     bool flat;
-    LAM_RESERVED(8);
+    // The stage `application` in the lecture style: the source of a C99 function light_vertex, which computes the attributes
+    // front_color and back_color of a vertex, with the lights, materials and matrices of the scene. NULL: other stages and styles.
+    const char *application;
+    LAM_RESERVED(7);
 } lam_shader;
 
 // Writes the shaders of a scene as lam_draw would draw it at that size, and computes the value of each uniform. One

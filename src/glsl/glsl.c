@@ -546,7 +546,10 @@ bool glsl_make(const struct glsl_choices *choices, struct glsl_text *text, lam_e
         return false;
     text->vertex = make_stage(&facts, false, error);
     text->fragment = text->vertex ? make_stage(&facts, true, error) : NULL;
-    bool ok = text->fragment && (!choices->mistake || mistake_apply(choices, text, error));
+    char *texts[2] = {text->vertex, text->fragment};
+    bool ok = text->fragment && (!choices->mistake || mistake_apply(choices, texts, 2, error));
+    if (text->fragment)
+        *text = (struct glsl_text){texts[0], texts[1]};
     if (!ok)
         glsl_free(text);
     return ok;

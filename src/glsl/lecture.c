@@ -6,20 +6,20 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 bool lecture_check(const struct glsl_choices *c, const struct glsl_facts *f, lam_error *error)
 {
     bool masked = c->alpha[0] == LAM_ALPHA_MASK || c->alpha[1] == LAM_ALPHA_MASK;
     bool other = f->lit && c->reflection != LAM_REFLECTION_LAMBERT && c->reflection != LAM_REFLECTION_PHONG &&
-                 c->reflection != LAM_REFLECTION_BLINN_PHONG;
+                 c->reflection != LAM_REFLECTION_BLINN_PHONG && c->reflection != LAM_REFLECTION_KAJIYA_KAY &&
+                 c->reflection != LAM_REFLECTION_KAJIYA_KAY_LECTURE;
     const lam_reflection_info *lobe = lam_reflection_describe(c->reflection);
     const struct {
         bool asked;
         const char *what, *instead;
     } missing[] = {
         {!output_is_picture(c->output), "'--show'", ""},
-        {other, NULL, "'--reflection lambert', 'phong' or 'blinn-phong', or "},
+        {other, NULL, "'--reflection lambert', 'phong', 'blinn-phong' or 'kajiya-kay', or "},
         {f->mapped || masked, "textures", ""},
         {c->storage == GLSL_TEXTURE, "'--lights-in texture'", "'--lights-in array' or "},
         {c->shadows || c->passed || c->catches, "'--shadows'", ""},
@@ -42,71 +42,32 @@ bool lecture_check(const struct glsl_choices *c, const struct glsl_facts *f, lam
     return true;
 }
 
-// The condition on a loop's index that selects the lights first...end-1 of all: "i >= 1 && i < 3"; "" for all lights.
-static void index_condition(char out[48], int first, int end, int all)
+// Lights of a kind are together. Writes the condition on a loop's index that selects them: "i >= 1 && i < 3"; "" if all lights
+// are. Returns their number.
+static int lights_of(const struct glsl_choices *c, int kind, char condition[48])
 {
+    int first = 0, count = 0, at = 0;
+    for (int i = 0; i < c->group_count; at += c->groups[i++].count)
+        if (c->groups[i].kind == kind) {
+            first = count ? first : at;
+            count += c->groups[i].count;
+        }
     char from[20] = "", to[20] = "";
     if (first > 0)
         snprintf(from, sizeof from, "i >= %d", first);
-    if (end < all)
-        snprintf(to, sizeof to, "i < %d", end);
-    snprintf(out, 48, "%s%s%s", from, *from && *to ? " && " : "", to);
+    if (first + count < c->light_count)
+        snprintf(to, sizeof to, "i < %d", first + count);
+    snprintf(condition, 48, "%s%s%s", from, *from && *to ? " && " : "", to);
+    return count;
 }
 
-// The vector from the point to the light. Directional lights, which are together, have none to a place.
-static void add_way(struct text *text, const struct glsl_choices *c)
+bool lecture_has_kind(const struct glsl_choices *c, int kind)
 {
-    int first = 0, directional = 0, before = 0;
-    for (int i = 0; i < c->group_count; i++) {
-        if (c->groups[i].kind == LIGHT_DIRECTIONAL) {
-            first = directional ? first : before;
-            directional += c->groups[i].count;
-        }
-        before += c->groups[i].count;
-    }
     char condition[48];
-    index_condition(condition, first, first + directional, c->light_count);
-    if (!directional)
-        text_add(text, "lights[i].position.xyz - P");
-    else if (!*condition)
-        text_add(text, "-lights[i].direction.xyz");
-    else
-        text_print(text, "%s ? -lights[i].direction.xyz : lights[i].position.xyz - P", condition);
+    return lights_of(c, kind, condition) > 0;
 }
 
-// The lines that set `spot`, the factor of a spotlight's cone, for each kind of cone.
-static void add_spots(struct text *text, const struct glsl_choices *c)
-{
-    static const char *const factors[GLSL_KINDS] = {
-        [LIGHT_SPOT_CUTOFF] = "c >= cutoff ? pow(max(c, 1.0e-6), exponent) : 0.0; // dark outside of the cone",
-        [LIGHT_SPOT_EXPONENT] = "pow(max(c, 1.0e-6), lights[i].cone.y); // brightest on the axis",
-        [LIGHT_SPOT_CONES] = "pow(clamp((c - lights[i].cone.z) * lights[i].cone.w, 0.0, 1.0), 2.0); // two cones"};
-    bool first = true;
-    int ends[GLSL_KINDS + 1] = {0}, begins[GLSL_KINDS] = {0}, at = 0;
-    for (int i = 0; i < c->group_count; i++) {
-        int kind = c->groups[i].kind;
-        if (ends[kind] == 0)
-            begins[kind] = at;
-        at += c->groups[i].count;
-        ends[kind] = at;
-    }
-    for (int kind = LIGHT_SPOT_CUTOFF; kind < GLSL_KINDS; kind++) {
-        if (!ends[kind])
-            continue;
-        char condition[48];
-        index_condition(condition, begins[kind], ends[kind], c->light_count);
-        if (!*condition) {
-            text_print(text, "        float spot = %s", factors[kind]);
-            continue;
-        }
-        if (first)
-            text_add(text, "        float spot = 1.0;\n");
-        text_print(text, "%s        if (%s)\n            spot = %s", first ? "" : "\n", condition, factors[kind]);
-        first = false;
-    }
-}
-
-static bool has_range(const struct glsl_choices *c)
+bool lecture_has_range(const struct glsl_choices *c)
 {
     bool any = false;
     for (int i = 0; i < c->group_count; i++)
@@ -114,12 +75,37 @@ static bool has_range(const struct glsl_choices *c)
     return any;
 }
 
-static bool has_cutoff(const struct glsl_choices *c)
+void lecture_add_way(struct text *text, const struct glsl_choices *c, const char *against, const char *towards)
 {
-    bool any = false;
-    for (int i = 0; i < c->group_count; i++)
-        any |= c->groups[i].kind == LIGHT_SPOT_CUTOFF;
-    return any;
+    char condition[48];
+    if (!lights_of(c, LIGHT_DIRECTIONAL, condition))
+        text_add(text, towards);
+    else if (!*condition)
+        text_add(text, against);
+    else
+        text_print(text, "%s ? %s : %s", condition, against, towards);
+}
+
+void lecture_add_spots(struct text *text, const struct glsl_choices *c, const char *number)
+{
+    static const char *const factors[GLSL_KINDS] = {
+        [LIGHT_SPOT_CUTOFF] = "c >= cutoff ? pow(max(c, 1.0e-6), exponent) : 0.0; // dark outside of the cone",
+        [LIGHT_SPOT_EXPONENT] = "pow(max(c, 1.0e-6), lights[i].cone.y); // brightest on the axis",
+        [LIGHT_SPOT_CONES] = "pow(clamp((c - lights[i].cone.z) * lights[i].cone.w, 0.0, 1.0), 2.0); // two cones"};
+    bool first = true;
+    for (int kind = LIGHT_SPOT_CUTOFF; kind < GLSL_KINDS; kind++) {
+        char condition[48];
+        if (!lights_of(c, kind, condition))
+            continue;
+        if (!*condition) {
+            text_print(text, "        %s spot = %s", number, factors[kind]);
+            continue;
+        }
+        if (first)
+            text_print(text, "        %s spot = 1.0;\n", number);
+        text_print(text, "%s        if (%s)\n            spot = %s", first ? "" : "\n", condition, factors[kind]);
+        first = false;
+    }
 }
 
 void lecture_add(struct text *text, const struct glsl_facts *f, bool fragment)
@@ -127,10 +113,11 @@ void lecture_add(struct text *text, const struct glsl_facts *f, bool fragment)
     const struct glsl_choices *c = f->choices;
     bool glsl_120 = c->version == GLSL_120, flat = f->shading == LAM_SHADING_FLAT;
     bool lights_here = f->lit && fragment == f->per_fragment, tints = c->colors && f->lit;
+    bool tangents = f->tangent && c->tangents;
     struct text attributes = {0}, way = {0}, spots = {0};
     glsl_declare_attributes(&attributes, f);
-    add_way(&way, c);
-    add_spots(&spots, c);
+    lecture_add_way(&way, c, "-lights[i].direction.xyz", "lights[i].position.xyz - P");
+    lecture_add_spots(&spots, c, "float");
     const struct preprocess_flag flags[] = {
         {"fragment", fragment},
         {"glsl_120", glsl_120},
@@ -146,10 +133,14 @@ void lecture_add(struct text *text, const struct glsl_facts *f, bool fragment)
         {"has_hemispheres", f->hemispheres},
         {"has_lights", f->lights},
         {"has_falloff", f->attenuated},
-        {"has_range", has_range(c)},
+        {"has_range", lecture_has_range(c)},
         {"has_cone", f->cones},
-        {"has_cutoff", has_cutoff(c)},
+        {"has_cutoff", lecture_has_kind(c, LIGHT_SPOT_CUTOFF)},
         {"has_environment", f->environment},
+        {"threads", f->tangent},
+        {"tangents", c->tangents},
+        {"passes_tangent", tangents},
+        {"gated_threads", c->reflection == LAM_REFLECTION_KAJIYA_KAY},
         {"phong", f->highlights && c->reflection == LAM_REFLECTION_PHONG},
         {"blinn_phong", f->highlights && c->reflection == LAM_REFLECTION_BLINN_PHONG},
         {"encodes", fragment && c->encoding == GLSL_ENCODED},
@@ -172,8 +163,13 @@ void lecture_add(struct text *text, const struct glsl_facts *f, bool fragment)
              tints && c->alpha[0] != LAM_ALPHA_OPAQUE ? (f->per_fragment ? "tint.a" : "color.a") : "");
     snprintf(diffuse, sizeof diffuse, "%s%s", tints ? "tint.rgb * " : "",
              c->products ? "diffuse_product[i].rgb" : "kd * lights[i].diffuse.rgb");
-    snprintf(parameters, sizeof parameters, "vec3 P, vec3 N%s", tints ? ", vec4 tint" : "");
-    snprintf(arguments, sizeof arguments, "eye_position, N%s%s", tints ? ", " : "", tints ? tint : "");
+    snprintf(parameters, sizeof parameters, "vec3 P, vec3 N%s%s", tangents ? ", vec3 T" : "",
+             tints ? ", vec4 tint" : "");
+    snprintf(arguments, sizeof arguments, "eye_position, N%s%s%s",
+             !tangents         ? ""
+             : f->per_fragment ? ", eye_tangent"
+                               : ", T",
+             tints ? ", " : "", tints ? tint : "");
     const struct preprocess_value values[] = {
         {"attributes", attributes.bytes ? attributes.bytes : ""},
         {"varying", varying},
@@ -188,6 +184,7 @@ void lecture_add(struct text *text, const struct glsl_facts *f, bool fragment)
         {"diffuse_light", diffuse},
         {"specular_light", c->products ? "specular_product[i].rgb" : "ks * lights[i].specular.rgb"},
         {"shininess", c->products ? "shininess" : "material.shininess"},
+        {"fibre", c->products ? "fibre" : "material.fibre"},
         {"reflectivity", c->products ? "reflectivity.rgb" : "material.reflectivity.rgb"},
         {"arriving", f->cones && f->attenuated ? "spot * attenuation * "
                      : f->cones                ? "spot * "

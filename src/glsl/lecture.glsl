@@ -6,6 +6,9 @@
 //@if per_fragment
 @varying@vec3 eye_position;
 @varying@vec3 eye_normal;
+//@if passes_tangent
+@varying@vec3 eye_tangent;
+//@end
 //@else
 @varying@vec4 front_light;
 //@if two_sided
@@ -38,6 +41,14 @@ vec3 lit(@parameters@)
 //@else
     vec3 V = normalize(-P);         // from the point to the eye
 //@end
+//@end
+//@if threads
+//@if !tangents
+    vec3 T = cross(normalize(model_view[1].xyz), N); // around the mesh's y axis, like the marks of a lathe
+    if (dot(T, T) < 1.0e-8)
+        T = model_view[0].xyz;      // along x where N is along y
+//@end
+    T = normalize(T - dot(T, N) * N); // the way that the threads run, along the surface
 //@end
 //@if products
     vec3 ambient = @tinted@ambient_product.rgb; // ka La
@@ -74,7 +85,19 @@ vec3 lit(@parameters@)
 //@end
 @spots@
 //@end
+//@if threads
+        float sin_TL = length(cross(T, L)), sin_TV = length(cross(T, V));
+//@if gated_threads
+        float faces = dot(N, L) > 0.0 || @fibre@ > 0.5 ? 1.0 : 0.0; // a fibre has no inside
+        vec3 diffuse = @diffuse_light@ * faces * sin_TL; // Kajiya and Kay
+        float S = faces * pow(max(sin_TL * sin_TV - dot(T, L) * dot(T, V), 0.0), @shininess@);
+//@else
+        vec3 diffuse = @diffuse_light@ * sin_TL; // Kajiya and Kay
+        float S = pow(max(sin_TL * sin_TV + dot(T, L) * dot(T, V), 0.0), @shininess@); // the sign that some lectures print
+//@end
+//@else
         vec3 diffuse = @diffuse_light@ * max(dot(N, L), 0.0); // Lambert
+//@end
 //@if phong
         vec3 R = reflect(-L, N);    // the mirror image of L
         float S = dot(N, L) > 0.0 ? pow(max(dot(R, V), 0.0), @shininess@) : 0.0; // Phong
@@ -137,6 +160,9 @@ void main()
 //@if per_fragment
     eye_position = (model_view * vec4(@lit_position@, 1.0)).xyz;
     eye_normal = normalize(normal_matrix * normal);
+//@if passes_tangent
+    eye_tangent = normalize(mat3(model_view) * tangent);
+//@end
 //@if passes_tint
     tint = color;
 //@end
@@ -148,6 +174,9 @@ void main()
 //@else
     vec3 eye_position = (model_view * vec4(@lit_position@, 1.0)).xyz;
     vec3 N = normalize(normal_matrix * normal);
+//@if passes_tangent
+    vec3 T = normalize(mat3(model_view) * tangent);
+//@end
     front_light = vec4(lit(@arguments@), @opacity@);
 //@if two_sided
     N = -N; // the back is lit as well; the fragment shader chooses

@@ -1,5 +1,6 @@
-// lecture.h: shaders in the lecture style: about thirty plain lines for each stage, with the names of the blackboard (N, L, V, R,
-// H, ka, kd, ks), the same uniforms as the full style and the same picture; and the known mistakes, which are edits of them.
+// lecture.h: shaders in the lecture style: plain lines, at most about forty for a stage, with the names of the blackboard (N, L,
+// V, R, H, T, ka, kd, ks), the same uniforms as the full style and the same picture; the application stage as a C function; and
+// the known mistakes, which are edits of them.
 #ifndef LECTURE_H
 #define LECTURE_H
 
@@ -11,9 +12,26 @@ bool lecture_check(const struct glsl_choices *choices, const struct glsl_facts *
 // Appends a stage after its version and its uniforms.
 void lecture_add(struct text *text, const struct glsl_facts *facts, bool fragment);
 
-// Introduces the mistake choices->mistake into both texts. False: LAM_UNSUPPORTED, if the shader lacks what the mistake needs;
-// LAM_LIMIT.
-bool mistake_apply(const struct glsl_choices *choices, struct glsl_text *text, lam_error *error);
+// Makes the C source of the application stage: a function `light_vertex` that computes the colours of a vertex of one of the
+// draws `ranges`. order[i] is the index in the frame of the shader's light i; choices->mistake is in it. The caller frees the
+// result. NULL: LAM_UNSUPPORTED, with the option that the style does not cover, or as mistake_apply; LAM_LIMIT.
+char *lecture_application(const struct glsl_choices *choices, const struct frame *frame, const int *order,
+                          const struct frame_draw_range *const *ranges, int count, lam_error *error);
+
+// --- parts of the text that GLSL and C share (lecture.c)
+
+bool lecture_has_kind(const struct glsl_choices *choices, int kind); // LIGHT_…
+bool lecture_has_range(const struct glsl_choices *choices);
+// Appends the vector from the point to light i: `against` of directional lights, `towards` of the others.
+void lecture_add_way(struct text *text, const struct glsl_choices *choices, const char *against, const char *towards);
+// Appends the lines that set `spot`, the factor of a spotlight's cone, of the type `number`.
+void lecture_add_spots(struct text *text, const struct glsl_choices *choices, const char *number);
+
+// --- mistakes
+
+// Introduces the mistake choices->mistake into one of the texts, which are freed and replaced. False: LAM_UNSUPPORTED, if they
+// lack what the mistake needs; LAM_LIMIT.
+bool mistake_apply(const struct glsl_choices *choices, char **texts, int count, lam_error *error);
 
 // The value of glsl_choices.mistake for an id. 0: there is no such mistake.
 int mistake_find(const char *id);

@@ -20,7 +20,8 @@ struct edit {
     const char *before, *after;
 };
 
-// Rows of one id are forms of one mistake and stand together: the first that applies is taken. The first has the sentences.
+// Rows of one id are forms of one mistake and stand together: the first that applies is taken. The first has the sentences. Forms
+// for the C function of the application stage are last.
 struct mistake {
     const char *id, *looks, *needs;
     struct edit edits[EDITS_MAX];
@@ -34,9 +35,17 @@ struct mistake {
 #define PHONG        "the reflection model phong"
 #define FALLOFF      "a light with attenuation"
 #define PLACE        "a light at a place: point or spot"
+#define MATT         "a reflection model with max(n.l, 0)"
 #define SEVERAL      "more than one light"
 #define NORMAL       "normal_matrix * normal"
 #define SUM          "attenuation * (diffuse + specular)"
+#define C_NORMAL     "transform(draw->normal_matrix, vector(normal), 0.0)"
+#define C_POINT      "transform(draw->model_view, vector(position), 1.0)"
+#define C_EYE        "normalize(scale(-1.0, P)); // from the point to the eye"
+#define C_HALF       "normalize(add(L, V))"
+#define C_MIRROR     "subtract(scale(2.0 * dot(N, L), N), L)"
+#define C_SUM        "scale(attenuation, add(diffuse, specular))"
+#define C_SPOT_SUM   "scale(spot * attenuation, add(diffuse, specular))"
 
 static const struct mistake mistakes[] = {
     // --- normals
@@ -48,10 +57,12 @@ static const struct mistake mistakes[] = {
      "Nothing is wrong until an object is stretched: then its shading leans, as if the light stood elsewhere.",
      NULL,
      {{NORMAL, "mat3(model_view) * normal"}}},
+    {"normal-by-model-view", NULL, NULL, {{C_NORMAL, "transform(draw->model_view, vector(normal), 0.0)"}}},
     {"normal-object-space",
      "The light turns with the object: the same side of the model stays lit from wherever one looks.",
      NULL,
      {{NORMAL, "normal"}}},
+    {"normal-object-space", NULL, NULL, {{C_NORMAL, "vector(normal)"}}},
     {"normal-clip-space",
      "Light and highlight are shifted, and slide over the object when the camera moves.",
      NULL,
@@ -60,14 +71,17 @@ static const struct mistake mistakes[] = {
      "Nearly every normal points the same way, away from the eye: the object looks flat and dark.",
      NULL,
      {{NORMAL, "(model_view * vec4(normal, 1.0)).xyz"}}},
+    {"normal-as-point", NULL, NULL, {{C_NORMAL, "transform(draw->model_view, vector(normal), 1.0)"}}},
     {"normal-inward",
      "The side that should be dark is lit, and the lit side is dark.",
      NULL,
      {{"normalize(" NORMAL ")", "-normalize(" NORMAL ")"}}},
+    {"normal-inward", NULL, NULL, {{"normalize(" C_NORMAL ")", "scale(-1.0, normalize(" C_NORMAL "))"}}},
     {"no-flip",
      "The inside of open objects stays dark, or has the light of the outside.",
      "an object that is lit on both sides, in the fragment shader",
      {{"    if (!gl_FrontFacing)\n        N = -N;                     // the back is lit as well\n", ""}}},
+    {"no-flip", NULL, NULL, {{", scale(-1.0, N)", ", N"}}},
     // --- spaces
     {"clip-space-vertex",
      "Highlights and nearby lights are in the wrong place, and move with the camera's lens.",
@@ -77,82 +91,106 @@ static const struct mistake mistakes[] = {
      "Nearby lights and highlights do not follow when the camera or the object moves.",
      "smooth shading, or GLSL above 120",
      {{"eye_position = (model_view * vec4(position, 1.0)).xyz", "eye_position = position"}}},
+    {"point-in-object-space", NULL, NULL, {{"vec3 P = " C_POINT, "vec3 P = vector(position)"}}},
     {"eye-backwards",
      "The highlight sits at the rim, or is gone.",
      BLINN,
      {{"normalize(-P);         // from the point to the eye", "normalize(P);"}},
      "normalize(L + V)"},
+    {"eye-backwards", NULL, NULL, {{C_EYE, "normalize(P);"}}, "add(L, V)"},
     {"viewer-infinite",
      "Each highlight is a little off, most at the border of the picture.",
      A_HIGHLIGHT " and a viewer at a place",
      {{"normalize(-P);         // from the point to the eye", "vec3(0.0, 0.0, 1.0);"}}},
+    {"viewer-infinite", NULL, NULL, {{C_EYE, "{0.0, 0.0, 1.0};"}}},
     // --- the light's direction
     {"light-backwards",
      "The object is lit from the other side.",
      PLACE,
      {{"lights[i].position.xyz - P", "P - lights[i].position.xyz"}}},
+    {"light-backwards", NULL, NULL, {{"subtract(lights[i].position, P)", "subtract(P, lights[i].position)"}}},
     {"direction-reversed",
      "The object is lit from the other side.",
      "a directional light",
      {{"-lights[i].direction.xyz", "lights[i].direction.xyz"}}},
+    {"direction-reversed", NULL, NULL, {{"scale(-1.0, lights[i].direction)", "lights[i].direction"}}},
     {"direction-as-point",
      "The distant light looks like a bulb beside the object: its light spreads.",
      "a directional light",
      {{"-lights[i].direction.xyz", "-lights[i].direction.xyz - P"}}},
+    {"direction-as-point",
+     NULL,
+     NULL,
+     {{"scale(-1.0, lights[i].direction)", "subtract(scale(-1.0, lights[i].direction), P)"}},
+     "vec3 P = "},
     {"light-not-unit",
      "Far lights are much too bright, and near ones too dark.",
      PLACE,
      {{"normalize(way);    // from the point to the light", "way;"}},
-     "lights[i].position.xyz"},
+     "lights[i].position"},
     // --- the highlight
     {"half-of-raw-light",
      "The highlight moves towards the light and grows: a far light outweighs the eye.",
      BLINN " and " PLACE,
      {{"normalize(L + V)", "normalize(way + V)"}},
      "lights[i].position.xyz"},
+    {"half-of-raw-light", NULL, NULL, {{C_HALF, "normalize(add(way, V))"}}, "lights[i].position"},
     {"half-not-unit",
      "The highlight is a burnt white spot, many times too large.",
      BLINN,
      {{"normalize(L + V)", "L + V"}}},
+    {"half-not-unit", NULL, NULL, {{C_HALF, "add(L, V)"}}},
     {"half-is-mean",
      "The highlight is dim or gone, most of all where light and eye are far apart.",
      BLINN,
      {{"normalize(L + V)", "(L + V) / 2.0"}}},
+    {"half-is-mean", NULL, NULL, {{C_HALF, "scale(0.5, add(L, V))"}}},
     {"no-gate",
      "The highlight shines through: it is seen where the surface faces away from the light.",
      A_HIGHLIGHT,
-     {{"float S = dot(N, L) > 0.0 ? pow", "float S = pow"}, {"shininess) : 0.0;", "shininess);"}}},
+     {{" S = dot(N, L) > 0.0 ? pow", " S = pow"}, {"shininess) : 0.0;", "shininess);"}}},
+    {"no-gate", NULL, NULL, {{" S = faces * pow", " S = pow"}}},
     {"phong-lobe",
      "The highlight is about half as wide as it should be.",
      BLINN,
-     {{"max(dot(N, H), 0.0)", "max(dot(reflect(-L, N), V), 0.0)"}}},
+     {{"max(dot(N, H), 0.0)", "max(dot(reflect(-L, N), V), 0.0)"}},
+     "normalize(L + V)"},
+    {"phong-lobe", NULL, NULL, {{"vec3 H = " C_HALF, "vec3 R = " C_MIRROR}, {"dot(N, H)", "dot(R, V)"}}},
     {"blinn-phong-lobe",
      "The highlight is about twice as wide as it should be.",
      PHONG,
-     {{"max(dot(R, V), 0.0)", "max(dot(N, normalize(L + V)), 0.0)"}}},
+     {{"max(dot(R, V), 0.0)", "max(dot(N, normalize(L + V)), 0.0)"}},
+     "reflect(-L, N)"},
+    {"blinn-phong-lobe", NULL, NULL, {{"vec3 R = " C_MIRROR, "vec3 H = " C_HALF}, {"dot(R, V)", "dot(N, H)"}}},
     {"reflect-sign", "The highlight is gone, or sits on the far side.", PHONG, {{"reflect(-L, N)", "reflect(L, N)"}}},
+    {"reflect-sign", NULL, NULL, {{C_MIRROR, "subtract(L, scale(2.0 * dot(N, L), N))"}}},
     {"shininess-times-4",
      "The highlight is half as wide as it should be.",
      A_HIGHLIGHT,
      {{"shininess) : 0.0;", "shininess * 4.0) : 0.0;"}}},
+    {"shininess-times-4", NULL, NULL, {{"shininess);", "shininess * 4.0);"}}},
     {"shininess-quarter",
      "The highlight is twice as wide as it should be, and looks dull.",
      A_HIGHLIGHT,
      {{"shininess) : 0.0;", "shininess / 4.0) : 0.0;"}}},
+    {"shininess-quarter", NULL, NULL, {{"shininess);", "shininess / 4.0);"}}},
     {"specular-times-n.l",
      "The highlight is weak where light grazes the surface.",
      A_HIGHLIGHT,
      {{" * S;", " * S * max(dot(N, L), 0.0);"}}},
+    {"specular-times-n.l", NULL, NULL, {{"specular = scale(S, ", "specular = scale(S * max(dot(N, L), 0.0), "}}},
     {"specular-tinted",
      "The highlight has the colour of the paint: plastic looks like metal.",
      A_HIGHLIGHT,
      {{"vec3 specular = ks", "vec3 specular = ks * kd"}}},
     {"specular-tinted", NULL, NULL, {{"specular_product[i].rgb", "specular_product[i].rgb * diffuse_product[i].rgb"}}},
+    {"specular-tinted", NULL, NULL, {{"times(ks, lights[i].specular)", "times(ks, times(kd, lights[i].specular))"}}},
     {"specular-in-diffuse-colour",
      "The highlight has the colour and the strength of the paint.",
      A_HIGHLIGHT,
      {{"vec3 specular = ks", "vec3 specular = kd"}}},
     {"specular-in-diffuse-colour", NULL, NULL, {{"specular_product[i].rgb", "diffuse_product[i].rgb"}}},
+    {"specular-in-diffuse-colour", NULL, NULL, {{"times(ks, lights[i].specular)", "times(kd, lights[i].specular)"}}},
     {"kd-ks-swapped",
      "The body has the highlight's colour, and the highlight the body's.",
      A_HIGHLIGHT,
@@ -161,32 +199,60 @@ static const struct mistake mistakes[] = {
     {"kd-ks-swapped",
      NULL,
      NULL,
-     {{"diffuse_product[i].rgb * max", "specular_product[i].rgb * max"},
+     {{"diffuse_product[i].rgb * ", "specular_product[i].rgb * "},
       {"specular_product[i].rgb * S", "diffuse_product[i].rgb * S"}}},
+    {"kd-ks-swapped",
+     NULL,
+     NULL,
+     {{"times(kd, lights[i].diffuse)", "times(ks, lights[i].diffuse)"},
+      {"times(ks, lights[i].specular)", "times(kd, lights[i].specular)"}}},
     // --- Lambert
     {"no-clamp",
      "The unlit side is black: there the diffuse term takes ambient and other light away.",
-     NULL,
+     MATT,
      {{"max(dot(N, L), 0.0); // Lambert", "dot(N, L); // Lambert"}}},
+    {"no-clamp", NULL, NULL, {{"scale(max(dot(N, L), 0.0), times(kd", "scale(dot(N, L), times(kd"}}},
     {"abs-of-n.l",
      "The side away from the light is lit as brightly as the other.",
-     NULL,
+     MATT,
      {{"max(dot(N, L), 0.0); // Lambert", "abs(dot(N, L)); // Lambert"}}},
+    {"abs-of-n.l", NULL, NULL, {{"scale(max(dot(N, L), 0.0), times(kd", "scale(fabs(dot(N, L)), times(kd"}}},
     // --- attenuation
     {"no-attenuation", "Near and far surfaces are lit alike.", FALLOFF, {{SUM, "(diffuse + specular)"}}},
     {"no-attenuation", NULL, NULL, {{"attenuation * diffuse;", "diffuse;"}}},
+    {"no-attenuation", NULL, NULL, {{C_SUM, "add(diffuse, specular)"}}},
+    {"no-attenuation", NULL, NULL, {{"spot * attenuation, ", "spot, "}}},
+    {"no-attenuation", NULL, NULL, {{"scale(attenuation, diffuse)", "diffuse"}}},
     {"specular-not-attenuated",
      "Highlights stay bright, however far the light is.",
      FALLOFF " and a highlight",
      {{SUM, "(attenuation * diffuse + specular)"}}},
+    {"specular-not-attenuated", NULL, NULL, {{C_SUM, "add(scale(attenuation, diffuse), specular)"}}},
+    {"specular-not-attenuated", NULL, NULL, {{C_SPOT_SUM, "scale(spot, add(scale(attenuation, diffuse), specular))"}}},
     {"diffuse-not-attenuated",
      "The body stays bright, however far the light is; only highlights fade.",
      FALLOFF " and a highlight",
      {{SUM, "(diffuse + attenuation * specular)"}}},
+    {"diffuse-not-attenuated", NULL, NULL, {{C_SUM, "add(diffuse, scale(attenuation, specular))"}}},
+    {"diffuse-not-attenuated", NULL, NULL, {{C_SPOT_SUM, "scale(spot, add(diffuse, scale(attenuation, specular)))"}}},
     {"ambient-attenuated",
      "Shadowed sides darken with the light's distance.",
      "one light, with attenuation, and a highlight",
      {{" + ambient;", ";"}, {SUM, "attenuation * (ambient + diffuse + specular)"}},
+     NULL,
+     ONE_LIGHT},
+    {"ambient-attenuated",
+     NULL,
+     NULL,
+     {{"add(draw->emission, ambient)", "draw->emission"},
+      {C_SUM, "scale(attenuation, add(ambient, add(diffuse, specular)))"}},
+     NULL,
+     ONE_LIGHT},
+    {"ambient-attenuated",
+     NULL,
+     NULL,
+     {{"add(draw->emission, ambient)", "draw->emission"},
+      {C_SPOT_SUM, "scale(attenuation, add(ambient, scale(spot, add(diffuse, specular))))"}},
      NULL,
      ONE_LIGHT},
     {"attenuation-swapped",
@@ -200,9 +266,12 @@ static const struct mistake mistakes[] = {
     {"distance-of-unit-vector",
      "Light does not fade: the distance is taken of L, whose length is 1.",
      FALLOFF,
-     {{"length(way);      // the light's distance", "length(L);"}}},
+     {{"length(way);", "length(L);"}}},
     // --- spotlights
     {"no-cone", "The spotlight shines to all sides.", "a spotlight", {{"color += spot * ", "color += "}}},
+    {"no-cone", NULL, NULL, {{"spot * attenuation, ", "attenuation, "}}},
+    {"no-cone", NULL, NULL, {{"scale(spot, add(diffuse, specular))", "add(diffuse, specular)"}}},
+    {"no-cone", NULL, NULL, {{"scale(spot, diffuse)", "diffuse"}}},
     {"no-cutoff",
      "The spotlight has no edge.",
      "a spotlight with a cutoff",
@@ -217,10 +286,17 @@ static const struct mistake mistakes[] = {
      {{"c >= cutoff", "c < cutoff"}}},
     // --- sums
     {"no-ambient", "Unlit sides are black.", NULL, {{" + ambient;", ";"}}},
+    {"no-ambient", NULL, NULL, {{"add(draw->emission, ambient)", "draw->emission"}}},
     {"ambient-for-each-light",
      "Shadows fade with every light that is added.",
      SEVERAL,
      {{"color += ", "color += ambient + "}, {" + ambient;", ";"}},
+     NULL,
+     MORE_LIGHTS},
+    {"ambient-for-each-light",
+     NULL,
+     NULL,
+     {{"color = add(color, ", "color = add(add(color, ambient), "}, {"add(draw->emission, ambient)", "draw->emission"}},
      NULL,
      MORE_LIGHTS},
     {"first-light-only",
@@ -238,6 +314,12 @@ static const struct mistake mistakes[] = {
      NULL,
      {{"color += ", "color = emission.rgb + ambient + "}},
      "vec3 color = emission.rgb + ambient;",
+     MORE_LIGHTS},
+    {"last-light-only",
+     NULL,
+     NULL,
+     {{"color = add(color, ", "color = add(add(draw->emission, ambient), "}},
+     "= add(draw->emission, ambient)",
      MORE_LIGHTS},
     {"alpha-one", "Glass is opaque.", PER_FRAGMENT " of a translucent material", {{"material.diffuse.a)", "1.0)"}}},
     {"alpha-one", NULL, NULL, {{"), diffuse.a)", "), 1.0)"}}},
@@ -303,56 +385,71 @@ static char *replaced(const char *text, const char *before, const char *after)
     return out;
 }
 
-static void free_texts(struct glsl_text *text)
-{
-    free(text->vertex);
-    free(text->fragment);
-}
-
+enum { TEXTS_MAX = 2 };
 enum outcome { APPLIED, NOT_APPLIED, NO_MEMORY };
 
-// Applies one form to copies of the texts.
-static enum outcome apply_row(const struct mistake *m, int lights, const struct glsl_text *text, struct glsl_text *out)
+static int count_in(char *const *texts, int count, const char *part, int *where)
 {
-    *out = (struct glsl_text){.vertex = replaced(text->vertex, "", ""), .fragment = replaced(text->fragment, "", "")};
-    enum outcome outcome = out->vertex && out->fragment ? APPLIED : NO_MEMORY;
+    int found = 0;
+    for (int i = 0; i < count; i++) {
+        int here = count_of(texts[i], part);
+        *where = here ? i : *where;
+        found += here;
+    }
+    return found;
+}
+
+static void free_texts(char **texts, int count)
+{
+    for (int i = 0; i < count; i++)
+        free(texts[i]);
+}
+
+// Applies one form to copies of the texts.
+static enum outcome apply_row(const struct mistake *m, int lights, char *const *texts, int count, char **out)
+{
+    enum outcome outcome = APPLIED;
+    int where = 0;
+    for (int i = 0; i < count; i++) {
+        out[i] = replaced(texts[i], "", "");
+        outcome = out[i] ? outcome : NO_MEMORY;
+    }
     if (outcome == APPLIED && m->lights != ANY_LIGHTS && (lights > 1) != (m->lights == MORE_LIGHTS))
         outcome = NOT_APPLIED;
-    if (outcome == APPLIED && m->contains && !strstr(text->vertex, m->contains) && !strstr(text->fragment, m->contains))
+    if (outcome == APPLIED && m->contains && !count_in(texts, count, m->contains, &where))
         outcome = NOT_APPLIED;
     for (int i = 0; outcome == APPLIED && i < EDITS_MAX && m->edits[i].before; i++) {
         char before[128], after[128];
         expand(before, m->edits[i].before, lights);
         expand(after, m->edits[i].after, lights);
-        int in_vertex = count_of(out->vertex, before), in_fragment = count_of(out->fragment, before);
-        if (in_vertex + in_fragment != 1 || strcmp(before, after) == 0) {
+        if (count_in(out, count, before, &where) != 1 || strcmp(before, after) == 0) {
             outcome = NOT_APPLIED;
             break;
         }
-        char **stage = in_vertex ? &out->vertex : &out->fragment, *edited = replaced(*stage, before, after);
+        char *edited = replaced(out[where], before, after);
         if (!edited) {
             outcome = NO_MEMORY;
             break;
         }
-        free(*stage);
-        *stage = edited;
+        free(out[where]);
+        out[where] = edited;
     }
     if (outcome != APPLIED)
-        free_texts(out);
+        free_texts(out, count);
     return outcome;
 }
 
-bool mistake_apply(const struct glsl_choices *c, struct glsl_text *text, lam_error *error)
+bool mistake_apply(const struct glsl_choices *c, char **texts, int count, lam_error *error)
 {
     int first = c->mistake - 1;
     for (int i = first; i < next_id(first); i++) {
-        struct glsl_text edited;
-        enum outcome outcome = apply_row(&mistakes[i], c->light_count, text, &edited);
+        char *edited[TEXTS_MAX];
+        enum outcome outcome = apply_row(&mistakes[i], c->light_count, texts, count, edited);
         if (outcome == NO_MEMORY)
             return fail(error, LAM_LIMIT, "out of memory");
         if (outcome == APPLIED) {
-            free_texts(text);
-            *text = edited;
+            free_texts(texts, count);
+            memcpy(texts, edited, (size_t)count * sizeof *texts);
             return true;
         }
     }

@@ -22,6 +22,7 @@ struct shader {
     lam_shader result; // the first member: lam_shader_free casts
     struct arena arena;
     struct glsl_text text;
+    char *application;
 };
 
 struct build {
@@ -491,6 +492,21 @@ static bool order_lights(struct build *m)
     return m->order != NULL;
 }
 
+// The C function of the application stage in the lecture style.
+static bool make_application(struct build *m, int object, lam_error *error)
+{
+    const struct frame_draw_range **ranges =
+        arena_array(&m->shader->arena, (size_t)m->frame.range_count, sizeof(*ranges));
+    int count = 0;
+    for (int i = 0; ranges && i < m->frame.range_count; i++)
+        if (is_selected(&m->frame, &m->frame.ranges[i], object))
+            ranges[count++] = &m->frame.ranges[i];
+    if (!ranges)
+        return fail(error, LAM_LIMIT, "out of memory");
+    m->shader->application = lecture_application(&m->choices, &m->frame, m->order, ranges, count, error);
+    return m->shader->application != NULL;
+}
+
 static bool make(struct build *m, const lam_camera *camera, const lam_draw_params *draw, int object,
                  const lam_shader_params *params, lam_error *error)
 {
@@ -500,7 +516,17 @@ static bool make(struct build *m, const lam_camera *camera, const lam_draw_param
     without.shadows |= without.ground != LAM_GROUND_NONE; // as a ground has them, which is no draw of the scene
     without.ground = LAM_GROUND_NONE;
     if (!frame_build(&m->frame, m->scene, camera, &without, m->width, m->height, &call, error) ||
-        !choose(m, draw, object, params, error) || !glsl_make(&m->choices, &m->shader->text, error))
+        !choose(m, draw, object, params, error))
+        return false;
+    if (!order_lights(m))
+        return fail(error, LAM_LIMIT, "out of memory");
+    struct glsl_choices shaders = m->choices;
+    if (m->choices.lecture && m->facts.application) {
+        if (!make_application(m, object, error))
+            return false;
+        shaders.mistake = 0; // it is in the C function, which has the light
+    }
+    if (!glsl_make(&shaders, &m->shader->text, error))
         return false;
     static const lam_shader_lights storages[] = {[GLSL_ARRAY] = LAM_SHADER_LIGHTS_ARRAY,
                                                  [GLSL_BLOCK] = LAM_SHADER_LIGHTS_BLOCK,
@@ -511,8 +537,9 @@ static bool make(struct build *m, const lam_camera *camera, const lam_draw_param
                            .products = m->choices.products,
                            .vertex = m->shader->text.vertex,
                            .fragment = m->shader->text.fragment,
+                           .application = m->shader->application,
                            .flat = m->facts.shading == LAM_SHADING_FLAT};
-    if (!order_lights(m) || !list_attributes(m) || !list_uniforms(m, NULL, &result->uniforms, &result->uniform_count) ||
+    if (!list_attributes(m) || !list_uniforms(m, NULL, &result->uniforms, &result->uniform_count) ||
         !list_draws(m, object) || !list_textures(m))
         return fail(error, LAM_LIMIT, "out of memory for the values of the uniforms");
     return true;
@@ -566,6 +593,7 @@ void lam_shader_free(lam_shader *shader)
         return;
     struct shader *owner = (struct shader *)shader;
     glsl_free(&owner->text);
+    free(owner->application);
     arena_free(&owner->arena);
     free(owner);
 }

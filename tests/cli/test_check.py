@@ -323,8 +323,9 @@ for number, row in enumerate(MISTAKES):
 
 # Scenes of which one has what each mistake of `lambent shader --mistake` needs. Phong's model needs its own highlight.
 LAMP = "point:attenuation=0.4/0.3/0.2"
+LAMP_AND_SUN = ("--light", LAMP, "--light", "directional:direction=-1/-1/-1")
 SCENES = (("--light", LAMP), ("--light", LAMP, "--reflection", "phong"), ("--light", "directional:direction=-1/-1/-1"),
-          ("--light", "spot:position=0/3/1,target=0/0/0,cutoff=24,exponent=4"), ("--light", LAMP, "--light", "directional:direction=-1/-1/-1"))
+          ("--light", "spot:position=0/3/1,target=0/0/0,cutoff=24,exponent=4"), LAMP_AND_SUN)
 
 
 class LectureStyle(CheckTest):
@@ -332,7 +333,8 @@ class LectureStyle(CheckTest):
         """Shaders in the lecture style pass, lit in either stage, whatever the lights."""
         flat, gouraud = ("--shading", "flat"), ("--shading", "gouraud")
         for number, words in enumerate((*SCENES, (*SCENES[0], *gouraud), (*SCENES[3], *flat), (*SCENES[1], *gouraud, "--products"),
-                                        ("--reflection", "lambert"), ("--viewer", "infinite"))):
+                                        ("--reflection", "lambert"), ("--viewer", "infinite"), ("--reflection", "kajiya-kay", *LAMP_AND_SUN),
+                                        ("--reflection", "kajiya-kay-lecture", *gouraud))):
             with self.subTest(words):
                 self.good("shader", "sphere", *words, "--style", "lecture", "-o", "s", "-q")
                 phong = ("--highlight", "phong") if "phong" in words else ()
@@ -368,6 +370,13 @@ class LectureStyle(CheckTest):
 
 
 class Refused(CheckTest):
+    def test_names_of_rewritten_texts_mean_nothing_on_the_desktop(self):
+        """`fixed_NormalMatrix` stands for gl_NormalMatrix only in texts that were rewritten for OpenGL ES."""
+        words = self.shader("lambent", [("vert", "uniform mat3 normal_matrix", "uniform mat3 fixed_NormalMatrix"), ("vert", "normal_matrix * ", "fixed_NormalMatrix * ")])
+        report = self.report_of(*words, code=6)
+        self.assertEqual(report["verdict"], "differs")
+        self.assertIn("uniform 'fixed_NormalMatrix' is not in the contract lambent", json.dumps(report))
+
     def told(self, name, edits, *hints):
         report = self.report_of(*self.shader(name, edits), code=6)
         self.assertEqual(report["verdict"], "refused")

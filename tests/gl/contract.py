@@ -6,6 +6,7 @@ with the CPU device's at one sample a pixel: at least 99.9 % of the pixels diffe
 than 2/255 only if its 3x3 neighbourhood contains an edge of the model, an object, a side or a light's cone, or the line n.l = 0
 of a light. Without a compiler, EGL or OpenGL the cases are skipped, with a sentence.
 """
+import ctypes
 import json
 import math
 import os
@@ -101,13 +102,15 @@ def vertices(model, contract, front):
     names = [a["name"] for a in contract["attributes"]]
     old_flat = contract["flat"] and contract["glsl"] == "120"
     out = bytearray()
-    for triangle in model.corners:
+    for number, triangle in enumerate(model.corners):
         p = [corner[0] for corner in triangle]
         face = unit(cross([b - a for a, b in zip(p[0], p[1])], [b - a for a, b in zip(p[0], p[2])]))
+        draw = next(d for d, run in enumerate(contract["draws"]) if run["first_triangle"] <= number < run["first_triangle"] + run["triangle_count"])
         for position, normal, color in triangle:
             given = {"position": position, "normal": face if contract["flat"] else normal,
-                     "color": triangle[2][2] if old_flat else color, "provoking_position": p[2],
-                     "front_color": front(color), "back_color": front(color)}
+                     "color": triangle[2][2] if old_flat else color, "provoking_position": p[2]}
+            if "front_color" in names:
+                given["front_color"], given["back_color"] = front(draw, p[2] if contract["flat"] else position, given["normal"], color)
             for name in names:
                 out += struct.pack("%df" % len(given[name]), *given[name])
     return bytes(out)
@@ -199,12 +202,20 @@ def draw(folder, name, model, words, shader_words, cube):
         raise Skip("the headers and libraries of OpenGL are not installed (packages libegl-dev, libgl-dev)")
     assert built.returncode == 0, built.stdout.decode()
     kd = [(0.8, 0.3, 0.2), (0.2, 0.4, 0.8)]
-    count = [0]
 
-    def front(color):  # lit by the application: the vertex colour times the material's
-        index = 0 if count[0] < 3 * 2 * 40 * 20 * 2 else 1
-        count[0] += 1
-        return [a * decoded(b) for a, b in zip(color[:3], kd[index])] + [1.0]
+    def front(draw, position, normal, color):  # lit by the application: the vertex colour times the material's
+        light = [a * decoded(b) for a, b in zip(color[:3], kd[draw])] + [1.0]
+        return light, light
+    if contract["application"]:
+        library = folder / (name + ".so")
+        built = run(["cc", "-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-shared", "-fPIC", str(base) + ".application.c", "-o", library, "-lm"])
+        assert built.returncode == 0, built.stdout.decode()
+        function, four, colors = ctypes.CDLL(str(library)).light_vertex, ctypes.c_float * 4, "const float color[4]" in contract["application"]
+
+        def front(draw, position, normal, color):
+            sides = four(), four()
+            function(ctypes.c_int(draw), four(*position), four(*normal), *([four(*color)] if colors else []), *sides)
+            return list(sides[0]), list(sides[1])
     (folder / (name + ".vertices")).write_bytes(vertices(model, contract, front))
     drawn = run([program, contract["glsl"], SIZE, SIZE, str(base) + ".vert", str(base) + ".frag", str(base) + ".vertices",
                  str(base) + ".raw", *(cube[1:] if cube else [])],
@@ -300,7 +311,12 @@ CASES = [
     ("lecture-lambert", ["--reflection", "lambert", "--one-sided", *LIGHTS], ["--style", "lecture", "--glsl", "300es"]),
     ("lecture-colors", ["--projection", "orthographic", *LIGHTS], ["--style", "lecture"], "colors"),
     ("lecture-colors-gouraud", ["--shading", "gouraud"], ["--style", "lecture", "--products"], "colors"),
-    ("lecture-application", ["--stage", "application", "--reflection", "none"], ["--style", "lecture"], "colors"),
+    ("lecture-kajiya-kay", ["--reflection", "kajiya-kay", *LIGHTS], ["--style", "lecture"]),
+    ("lecture-kajiya-kay-fibre", ["--reflection", "kajiya-kay", "--material", "copper,fibre"], ["--style", "lecture", "--glsl", "120", "--products"]),
+    ("lecture-kajiya-kay-lecture", ["--reflection", "kajiya-kay-lecture", "--shading", "gouraud"], ["--style", "lecture", "--glsl", "300es"]),
+    ("lecture-application", ["--stage", "application", *LIGHTS], ["--style", "lecture"]),
+    ("lecture-application-colors", ["--stage", "application", "--reflection", "phong", *LIGHTS], ["--style", "lecture", "--glsl", "120"], "colors"),
+    ("lecture-application-flat", ["--stage", "application", "--shading", "flat", *LIGHTS], ["--style", "lecture"]),
     ("lecture-environment", ["--reflectivity", "0.5"], ["--style", "lecture"], "plain", "cube"),
     ("environment-es", ["--reflectivity", "0.5", "--shading", "gouraud"], ["--glsl", "300es"], "plain", "cube"),
 ]

@@ -181,7 +181,11 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
     struct job job = {.options = &options, .model = c->model};
     job.times.start = clock_ms();
     lam_shader *shader = job_shader(&job, &c->progress, error);
-    bool ok = shader != NULL;
+    bool ok = shader && !shader->application;
+    if (shader && !ok)
+        complain(error, LAM_BAD_ARGUMENT,
+                 "options '--stage application' and '--across mistake': the sheet is drawn with shaders, which have no "
+                 "light there; expected '--stage vertex' or '--stage fragment'");
     lam_shader_free(shader);
     lam_scene_free(job.scene);
     options_free(&options);
@@ -195,7 +199,8 @@ static bool choose_mistakes(struct compare *c, lam_error *error)
     if (option_given(c->options, "device") && c->options->device == DEVICE_CPU)
         return complain(
             error, LAM_BAD_ARGUMENT,
-            "options '--device cpu' and '--across mistake': mistakes are edits of shaders, which OpenGL draws");
+            "options '--device cpu' and '--across mistake': mistakes are edits of shaders, which OpenGL draws; see "
+            "'lambent compare -h'");
     char left_out[1024] = "";
     int kept = 0;
     for (int i = 0; i < sheet->count; i++) {

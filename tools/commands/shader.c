@@ -112,6 +112,8 @@ static bool write_files(const struct options *o, const lam_shader *shader, const
         return complain(error, LAM_LIMIT, "out of memory");
     bool ok = write_file(o->output, base, ".vert", shader->vertex, strlen(shader->vertex), error) &&
               write_file(o->output, base, ".frag", shader->fragment, strlen(shader->fragment), error);
+    if (ok && shader->application)
+        ok = write_file(o->output, base, ".application.c", shader->application, strlen(shader->application), error);
     if (ok && o->host) {
         FILE *file = open_memstream(&host, &host_size);
         const char *name = strrchr(base, '/');
@@ -122,14 +124,18 @@ static bool write_files(const struct options *o, const lam_shader *shader, const
         free(host);
     }
     if (ok && !o->quiet)
-        say_plain("%s.vert, %s.frag%s%s%s: GLSL %s\n", base, base, o->host ? ", " : "", o->host ? base : "",
-                  o->host ? ".c" : "", lam_glsl_name(shader->glsl));
+        say_plain("%s.vert, %s.frag%s%s%s%s%s%s: GLSL %s%s\n", base, base, shader->application ? ", " : "",
+                  shader->application ? base : "", shader->application ? ".application.c" : "", o->host ? ", " : "",
+                  o->host ? base : "", o->host ? ".c" : "", lam_glsl_name(shader->glsl),
+                  shader->application ? ", C99" : "");
     free(base);
     return ok;
 }
 
 static void print(const struct options *o, const lam_shader *shader, const char *model, bool sources)
 {
+    if (sources && shader->application)
+        printf("// ===== application stage =====\n%s\n", shader->application);
     if (sources) {
         printf("// ===== vertex shader =====\n%s\n", shader->vertex);
         printf("// ===== fragment shader =====\n%s\n", shader->fragment);

@@ -342,6 +342,12 @@ void shader_host(FILE *file, const lam_shader *s, const char *name, const char *
             "// where the buffer holds three vertices for each triangle of the object's mesh, in the "
             "order of the file.\n\n",
             name, name, model, lam_version());
+    if (s->application)
+        fprintf(
+            file,
+            "// The colours of a vertex of draw d are computed by light_vertex(d, ...) of %s.application.c, which is\n"
+            "// compiled beside this program.\n\n",
+            name);
     bool maps = false;
     for (int i = 0; i < s->draw_count; i++)
         for (int k = 0; k < s->draws[i].uniform_count; k++)

@@ -103,6 +103,7 @@ void shader_json(FILE *file, const lam_shader *s, const char *model)
     yes_or_no(&json, "flat", s->flat);
     json_text(&json, "vertex", s->vertex);
     json_text(&json, "fragment", s->fragment);
+    json_text(&json, "application", s->application);
     json_open(&json, "attributes", '[');
     for (int i = 0; i < s->attribute_count; i++) {
         const lam_shader_attribute *a = &s->attributes[i];

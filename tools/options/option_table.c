@@ -125,7 +125,7 @@ static const struct word glsl_words[] = {{"330", LAM_GLSL_330, "OpenGL 3.3"},
 
 static const struct word style_words[] = {
     {"full", LAM_SHADER_STYLE_FULL, "the library's equations, for all that it draws"},
-    {"lecture", LAM_SHADER_STYLE_LECTURE, "about thirty plain lines for each stage, as a lecture shows them"},
+    {"lecture", LAM_SHADER_STYLE_LECTURE, "plain lines, as a lecture shows them"},
     {NULL, 0, NULL}};
 
 static const struct word lights_in_words[] = {
@@ -969,10 +969,9 @@ const struct option option_table[] = {
      lights_in_words, .store = store_word, FIELD(lights_in)},
     {"style", 0, GROUP_SHADER, "STYLE", "full", "How the shaders are written: full or lecture.",
      "The lecture style has the names of the blackboard: N, L, V, R, H, ka, kd, ks. Its uniforms and its picture are "
-     "those of "
-     "the full style, for lambert, phong and blinn-phong with any lights and any shading; textures and other "
-     "reflection "
-     "models are refused. See `docs/teaching.md`.",
+     "those of the full style, for lambert, phong, blinn-phong and kajiya-kay with any lights and any shading; "
+     "textures and other reflection models are refused. With `--stage application` a C function that lights the "
+     "vertices comes with the shaders. See `docs/teaching.md`.",
      style_words, .store = store_word, FIELD(style)},
     {"mistake", 0, GROUP_SHADER, "NAME", NULL,
      "Introduce a known mistake into shaders of the lecture style; `list` lists them.",

@@ -84,6 +84,13 @@ unsigned lecture_light_rules(const struct declarations *lit)
 
 lam_reflection lecture_model(const struct declarations *lit)
 {
+    bool threads = false, gated = false;
+    for (int i = 0; i < lit->word_count; i++) {
+        threads |= is(lit, i, "float") && is(lit, i + 1, "sin_TL");
+        gated |= is(lit, i, "float") && is(lit, i + 1, "faces");
+    }
+    if (threads)
+        return gated ? LAM_REFLECTION_KAJIYA_KAY : LAM_REFLECTION_KAJIYA_KAY_LECTURE;
     for (int i = 0; i < lit->word_count; i++)
         if (is(lit, i, "vec3") && is(lit, i + 2, "=")) {
             if (is(lit, i + 1, "R"))

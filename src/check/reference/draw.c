@@ -65,11 +65,17 @@ static const struct contract_name *look_up(const struct contract *contract, cons
     return found || !dot ? found : contract_find(contract, dot + 1, attribute, index); // Block.member
 }
 
+// Whether the program is compiled from desktop GLSL that was rewritten for OpenGL ES (shader_dialect_es).
+static bool is_rewritten(const struct shader_run *run)
+{
+    return run->place.painter.es_only && shader_dialect_language(&run->interface) != LAM_CHECK_LANGUAGE_ES;
+}
+
 static void add_binding(struct shader_run *run, int index)
 {
     const lam_check_input *input = &run->program.inputs[index];
     int light = 0;
-    const struct contract_name *known = shader_dialect_built_in(input->name);
+    const struct contract_name *known = is_rewritten(run) ? shader_dialect_built_in(input->name) : NULL;
     if (!known)
         known = look_up(run->interface.contract, input->name, false, &light);
     if (!known) {
@@ -94,7 +100,7 @@ static void add_binding(struct shader_run *run, int index)
 static void add_attribute(struct shader_run *run, int index)
 {
     const char *name = run->program.inputs[index].name;
-    const struct contract_name *known = shader_dialect_built_in(name);
+    const struct contract_name *known = is_rewritten(run) ? shader_dialect_built_in(name) : NULL;
     if (!known)
         known = contract_find(run->interface.contract, name, true, NULL);
     if (!known)
@@ -203,7 +209,7 @@ static bool compile(struct shader_run *run, const char *vertex, const char *frag
                     lam_error *error)
 {
     const lam_check_painter *painter = &run->place.painter;
-    if (!painter->es_only || shader_dialect_language(&run->interface) == LAM_CHECK_LANGUAGE_ES)
+    if (!is_rewritten(run))
         return painter->compile(run->place.place, vertex, fragment, program, error);
     char *es_vertex = shader_dialect_es(vertex, true, error);
     char *es_fragment = es_vertex ? shader_dialect_es(fragment, false, error) : NULL;

@@ -364,6 +364,15 @@ LAM_API bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const 
                               const lam_draw_params *params, int width, int height, const lam_control *control,
                               double *stops, lam_error *error);
 
+// lam_camera_fit for a picture with a ground (params->ground): the camera also shows the part of the ground where the
+// scene's shadows and its occlusion of the ground fall. A shadow longer than the picture can hold is cut: the scene keeps
+// at least 0.7 of the size that lam_camera_fit gives it. Lights that stand in the camera's frame are taken as that camera
+// has them. `axis` not NULL: the scene turns about an axis through `centre`, as in lam_camera_fit_turning, and its shadows of all
+// angles count; give it the scene before it turns. Without a ground, or where the camera would see its under side, it is
+// the camera of those functions, as it is where the frame could not be drawn. `params` NULL: no ground.
+LAM_API lam_camera lam_camera_fit_ground(const lam_scene *scene, const lam_draw_params *params, int width, int height,
+                                         const lam_view *view, lam_vec3 centre, const lam_vec3 *axis);
+
 // The lights of a frame: the scene's, then the rig's. Returns their number and copies the first `capacity` of them to
 // `lights`, which may be NULL. Names live as long as the scene is unchanged.
 LAM_API int lam_draw_lights(const lam_scene *scene, lam_rig rig, lam_light *lights, int capacity);

@@ -85,7 +85,8 @@ static bool draw(lam_scene *scene, const lam_render_params *params, lam_image *i
     }
     lam_camera camera = settings.camera;
     if (params->view || !(settings.present & LAM_SETTING_CAMERA))
-        camera = lam_camera_fit(scene, image->width, image->height, params->view);
+        camera =
+            lam_camera_fit_ground(scene, &drawn, image->width, image->height, params->view, (lam_vec3){0, 0, 0}, NULL);
     lam_device *device =
         params->device ? params->device : lam_device_cpu(&(lam_cpu_params){.threads = params->threads}, error);
     bool fitted = !params->draw && !(settings.present & LAM_SETTING_EXPOSURE) && has_file_lights(scene, &settings);

@@ -1,5 +1,5 @@
 // camera_fit.c: placing the camera so that a scene fills the picture.
-#include <lambent/camera.h>
+#include "camera_fit.h"
 
 #include "fail.h"
 #include "float_state.h"
@@ -124,7 +124,7 @@ static lam_camera fit(const struct fitting *fitting, const struct view_points *p
 
 // The camera of a view: false: a field of the view is unknown, or the scene has no triangles, and `camera` says so.
 static bool start(struct fitting *fitting, const lam_scene *scene, int width, int height, const lam_view *view,
-                  lam_camera *camera)
+                  const struct camera_points *also, lam_camera *camera)
 {
     static const lam_view defaults = {0};
     if (!view)
@@ -145,8 +145,9 @@ static bool start(struct fitting *fitting, const lam_scene *scene, int width, in
         .zoom = view->zoom > 0 ? view->zoom : 1,
         .orthographic = view->orthographic,
     };
-    *camera =
-        fit(fitting, &(struct view_points){.scene = scene, .axes = &fitting->axes, .axes_count = 1}, fitting->fill);
+    struct view_points points = {
+        .scene = scene, .axes = &fitting->axes, .axes_count = 1, .also = also->points, .also_count = also->count};
+    *camera = fit(fitting, &points, fitting->fill);
     return true;
 }
 
@@ -157,17 +158,6 @@ static void apply_zoom(const struct fitting *fitting, lam_camera *camera)
         camera->ortho_half_height /= fitting->zoom;
     else
         camera->fovy_rad = 2 * math_atan2(math_tan(fitting->fovy / 2), fitting->zoom);
-}
-
-lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view)
-{
-    uint64_t state = float_state_enter();
-    struct fitting fitting;
-    lam_camera camera;
-    if (start(&fitting, scene, width, height, view, &camera))
-        apply_zoom(&fitting, &camera);
-    float_state_leave(state);
-    return camera;
 }
 
 // --- a scene that turns
@@ -198,33 +188,52 @@ static bool holds(const struct fitting *fitting, const lam_camera *camera, const
            extents.value[EXTENT_BOTTOM] <= -y + extents.ky * z + half_height;
 }
 
-lam_camera lam_camera_fit_turning(const lam_scene *scene, lam_vec3 centre, lam_vec3 axis, int width, int height,
-                                  const lam_view *view)
+// Replaces the camera where it does not hold the scene at every angle by one that does.
+static void fit_turning(const struct fitting *fitting, const lam_scene *scene, lam_vec3 centre, lam_vec3 axis,
+                        const struct camera_points *also, lam_camera *camera)
+{
+    struct view_axes axes[TURNS];
+    bool any_axis = v3_length(axis) == 0;
+    struct view_points points = {.scene = scene,
+                                 .axes = axes,
+                                 .axes_count = any_axis ? 1 : TURNS,
+                                 .ball_radius = any_axis ? scene_radius(scene, centre) : 0,
+                                 .also = also->points,
+                                 .also_count = also->count};
+    for (int i = 0; i < points.axes_count; i++) { // the scene turns one way, or the view the other way
+        lam_mat4 turn = mat4_rotate(any_axis ? 0 : 2 * PI * i / TURNS, any_axis ? v3(0, 0, 1) : axis);
+        axes[i] = (struct view_axes){.right = mat4_vector(&turn, fitting->axes.right),
+                                     .above = mat4_vector(&turn, fitting->axes.above),
+                                     .back = mat4_vector(&turn, fitting->axes.back),
+                                     .centre = centre};
+    }
+    // A quarter of the margin is left, which is more than what lies between two angles.
+    if (!holds(fitting, camera, &points, fitting->fill + 0.75 * (1 - fitting->fill)))
+        *camera = fit(fitting, &points, fitting->fill);
+}
+
+lam_camera camera_fit(const lam_scene *scene, int width, int height, const lam_view *view, lam_vec3 centre,
+                      const lam_vec3 *axis, const struct camera_points *also)
 {
     uint64_t state = float_state_enter();
     struct fitting fitting;
     lam_camera camera;
-    bool fitted = start(&fitting, scene, width, height, view, &camera);
-    if (fitted && v3_finite(centre) && v3_finite(axis)) {
-        struct view_axes axes[TURNS];
-        bool any_axis = v3_length(axis) == 0;
-        struct view_points points = {.scene = scene,
-                                     .axes = axes,
-                                     .axes_count = any_axis ? 1 : TURNS,
-                                     .ball_radius = any_axis ? scene_radius(scene, centre) : 0};
-        for (int i = 0; i < points.axes_count; i++) { // the scene turns one way, or the view the other way
-            lam_mat4 turn = mat4_rotate(any_axis ? 0 : 2 * PI * i / TURNS, any_axis ? v3(0, 0, 1) : axis);
-            axes[i] = (struct view_axes){.right = mat4_vector(&turn, fitting.axes.right),
-                                         .above = mat4_vector(&turn, fitting.axes.above),
-                                         .back = mat4_vector(&turn, fitting.axes.back),
-                                         .centre = centre};
-        }
-        // A quarter of the margin is left, which is more than what lies between two angles.
-        if (!holds(&fitting, &camera, &points, fitting.fill + 0.75 * (1 - fitting.fill)))
-            camera = fit(&fitting, &points, fitting.fill);
-    }
-    if (fitted)
+    if (start(&fitting, scene, width, height, view, also, &camera)) {
+        if (axis && v3_finite(centre) && v3_finite(*axis))
+            fit_turning(&fitting, scene, centre, *axis, also, &camera);
         apply_zoom(&fitting, &camera);
+    }
     float_state_leave(state);
     return camera;
+}
+
+lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view)
+{
+    return camera_fit(scene, width, height, view, v3(0, 0, 0), NULL, &(struct camera_points){.count = 0});
+}
+
+lam_camera lam_camera_fit_turning(const lam_scene *scene, lam_vec3 centre, lam_vec3 axis, int width, int height,
+                                  const lam_view *view)
+{
+    return camera_fit(scene, width, height, view, centre, &axis, &(struct camera_points){.count = 0});
 }

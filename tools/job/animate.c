@@ -332,7 +332,7 @@ static bool fit_poses(struct job *job, lam_error *error)
     lam_scene_sphere(box, -1, &a->sphere.centre, &a->sphere.radius);
     a->has_sphere = a->sphere.radius > 0;
     if (!job->options->camera && !scene_settings_has_camera(job)) {
-        a->camera = job_fit_camera(box, a->sphere.centre, job->options);
+        a->camera = job_fit_camera(box, a->sphere.centre, job->options, job->rig);
         a->has_camera = true;
     }
     lam_scene_free(box);

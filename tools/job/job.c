@@ -277,12 +277,39 @@ static void choose_view(struct job *job, const struct job_view *view)
         job->own.view = view->side;
 }
 
-lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct options *o)
+lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct options *o, lam_rig rig)
 {
     lam_view view = view_of(o);
     lam_vec3 axis;
-    return job_turn_axis(o, &axis) ? lam_camera_fit_turning(scene, centre, axis, o->width, o->height, &view)
-                                   : lam_camera_fit(scene, o->width, o->height, &view);
+    bool turns = job_turn_axis(o, &axis);
+    lam_draw_params draw = draw_params_of(o, rig);
+    return lam_camera_fit_ground(scene, &draw, o->width, o->height, &view, centre, turns ? &axis : NULL);
+}
+
+// Keeps the lights as they are before those of the options come, where these come again: for each view's camera, and where a
+// camera is fitted to their shadows.
+static bool keep_lights(struct job *job, lam_error *error)
+{
+    if ((job->view_count <= 1 && !job->options->draw.ground) || !job->options->lights.count)
+        return true;
+    job->light_count = lam_scene_light_count(job->scene);
+    free(job->lights);
+    job->lights = calloc((size_t)job->light_count + 1, sizeof *job->lights);
+    for (int i = 0; job->lights && i < job->light_count; i++)
+        job->lights[i] = *lam_scene_light(job->scene, i);
+    return job->lights || complain(error, LAM_LIMIT, "out of memory");
+}
+
+// Lights the scene for another camera. The sphere is that of the model before it was turned.
+static bool light_again(struct job *job, lam_error *error)
+{
+    if (!job->lights)
+        return true;
+    lam_scene_clear_lights(job->scene);
+    for (int i = 0; i < job->light_count; i++)
+        if (lam_scene_add_light(job->scene, &job->lights[i], error) < 0)
+            return false;
+    return job_light(job, &job->sphere, error);
 }
 
 // Fits the camera before the model is turned: one fit serves every angle. A camera in words aims at the turned model.
@@ -293,8 +320,12 @@ static void fit_camera(struct job *job, const struct model_sphere *sphere, bool 
         return;
     if (scene_settings_has_camera(job) && !side_is_given)
         job->camera = job->settings.camera;
-    else if (!o->camera)
-        job->camera = job_fit_camera(job->scene, sphere->centre, o);
+    else if (!o->camera) {
+        job->camera = job_fit_camera(job->scene, sphere->centre, o, job->rig);
+        lam_error unused; // of a light's text, which job_light meets again
+        if (job->lights && o->draw.ground && light_again(job, &unused))
+            job->camera = job_fit_camera(job->scene, sphere->centre, o, job->rig);
+    }
 }
 
 static bool place_camera_and_turn(struct job *job, const struct model_sphere *sphere, lam_error *error)
@@ -321,30 +352,6 @@ static bool place_camera_and_turn(struct job *job, const struct model_sphere *sp
     for (int i = 0; o->camera && i < job->view_count; i++)
         job->views[i].camera = job->camera;
     return true;
-}
-
-// Keeps the lights as they are before those of the options come, where these come again for each view's camera.
-static bool keep_lights(struct job *job, lam_error *error)
-{
-    if (job->view_count <= 1 || !job->options->lights.count)
-        return true;
-    job->light_count = lam_scene_light_count(job->scene);
-    job->lights = calloc((size_t)job->light_count + 1, sizeof *job->lights);
-    for (int i = 0; job->lights && i < job->light_count; i++)
-        job->lights[i] = *lam_scene_light(job->scene, i);
-    return job->lights || complain(error, LAM_LIMIT, "out of memory");
-}
-
-// Lights the scene for another view. The sphere is that of the model before it was turned.
-static bool light_again(struct job *job, lam_error *error)
-{
-    if (!job->lights)
-        return true;
-    lam_scene_clear_lights(job->scene);
-    for (int i = 0; i < job->light_count; i++)
-        if (lam_scene_add_light(job->scene, &job->lights[i], error) < 0)
-            return false;
-    return job_light(job, &job->sphere, error);
 }
 
 // Finds the exposure where it is automatic. All lights count then: what a light changes depends on the exposure.
@@ -464,9 +471,9 @@ bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
     if (job->options->save_scene && job->options->files_inside && !scene_settings_are_beside(job))
         lam_scene_add_warning(job->scene, "the saved scene file names files outside of its folder");
     animation_sphere(job, &job->sphere);
-    return place_camera_and_turn(job, &job->sphere, error) && keep_lights(job, error) &&
-           job_light(job, &job->sphere, error) && animation_arrange(job, error) &&
-           (!job->options->show_lights || light_markers_add(job, error));
+    return keep_lights(job, error) && place_camera_and_turn(job, &job->sphere, error) &&
+           (job->lights ? light_again(job, error) : job_light(job, &job->sphere, error)) &&
+           animation_arrange(job, error) && (!job->options->show_lights || light_markers_add(job, error));
 }
 
 bool job_make_image(struct job *job, lam_pixel_format format, lam_error *error)

@@ -8,7 +8,7 @@
 bool job_control(const struct job *job, struct progress *progress, lam_control *control, lam_error *error);
 
 // The camera that fills the picture with the scene, for all of its turns about `centre`.
-lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct options *o);
+lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct options *o, lam_rig rig);
 
 // Makes job->image. LAM_LIMIT.
 bool job_make_image(struct job *job, lam_pixel_format format, lam_error *error);

@@ -58,13 +58,20 @@ bool call_error(struct call_control *call, lam_error *error)
     return fail(error, LAM_LIMIT, "the time limit of %g s is over", call->control.time_limit_s);
 }
 
-bool call_charge(struct call_control *call, size_t bytes)
+bool call_charge_spare(struct call_control *call, size_t bytes)
 {
     uint64_t limit = call->control.memory_limit_bytes;
     uint64_t used = __atomic_add_fetch(&call->memory_used, bytes, __ATOMIC_RELAXED);
     if (!limit || used <= limit)
         return true;
     __atomic_sub_fetch(&call->memory_used, bytes, __ATOMIC_RELAXED);
+    return false;
+}
+
+bool call_charge(struct call_control *call, size_t bytes)
+{
+    if (call_charge_spare(call, bytes))
+        return true;
     __atomic_store_n(&call->over_memory, 1, __ATOMIC_RELAXED);
     return false;
 }

@@ -25,6 +25,8 @@ bool call_error(struct call_control *call, lam_error *error);
 
 // Charge and refund memory; false: over the budget. Any thread.
 bool call_charge(struct call_control *call, size_t bytes);
+// The same for memory that the call can do without: a refusal does not end it.
+bool call_charge_spare(struct call_control *call, size_t bytes);
 void call_refund(struct call_control *call, size_t bytes);
 
 // Reports an allocation that failed: over the budget, or out of memory. Returns false.

@@ -3,6 +3,7 @@
 #include "fail.h"
 #include "file.h"
 #include "float_state.h"
+#include "pages.h"
 #include "pixels.h"
 #include "srgb.h"
 #include "texture_levels.h"
@@ -31,12 +32,12 @@ static struct lam_texture *allocate(const lam_image *image, const char *name, st
     size_t name_bytes = name ? strlen(name) + 1 : 0, table = 512 * sizeof(float), texels = 0;
     for (int level = floats ? 0 : 1; level < levels; level++)
         texels += (size_t)side_of(image->width, level) * (size_t)side_of(image->height, level);
-    size_t bytes = sizeof(struct lam_texture) + table + texels * 4 * sizeof(float) + name_bytes;
+    size_t bytes = sizeof(struct lam_texture) + table + texels * 4 * sizeof(float) + name_bytes, held;
     if (call && !call_charge(call, bytes)) {
         call_memory_error(call, bytes, error);
         return NULL;
     }
-    struct lam_texture *texture = calloc(1, bytes);
+    struct lam_texture *texture = pages_get(bytes, &held);
     if (!texture) {
         if (call)
             call_refund(call, bytes);
@@ -44,7 +45,7 @@ static struct lam_texture *allocate(const lam_image *image, const char *name, st
         return NULL;
     }
     float *decode = (float *)(texture + 1), *next = decode + 512;
-    *texture = (struct lam_texture){.references = 1, .level_count = levels, .decode = decode};
+    *texture = (struct lam_texture){.references = 1, .level_count = levels, .decode = decode, .held = held};
     for (int level = 0; level < levels; level++) {
         struct texture_level *l = &texture->levels[level];
         *l = (struct texture_level){side_of(image->width, level), side_of(image->height, level), NULL};
@@ -71,7 +72,7 @@ void lam_texture_free(lam_texture *texture)
     if (!texture || __atomic_sub_fetch(&texture->references, 1, __ATOMIC_ACQ_REL))
         return;
     free(texture->storage);
-    free(texture);
+    pages_free(texture, texture->held);
 }
 
 // --- level 0

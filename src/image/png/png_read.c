@@ -1,6 +1,7 @@
-// png_read.c: PNG's row in the table of formats; reading through libspng.
+// png_read.c: PNG's row in the table of formats; reading through libspng, the pixels of usual files by png_whole.c.
 #include "codec.h"
 #include "fail.h"
+#include "png_whole.h"
 
 #include <spng.h>
 #include <string.h>
@@ -12,18 +13,13 @@ static bool png_probe(const uint8_t *bytes, size_t size)
     return size >= sizeof signature && memcmp(bytes, signature, sizeof signature) == 0;
 }
 
-static uint32_t u32_at(const uint8_t *at)
-{
-    return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
-}
-
 // The text "Software: lambent" in one of the chunks in front of the pixels.
 static bool png_ours(const uint8_t *bytes, size_t size)
 {
     static const char wanted[] = "tEXtSoftware\0lambent";
     const uint32_t length = sizeof wanted - 1 - 4; // without the chunk's type
     for (size_t at = sizeof signature; size - at >= 8;) {
-        uint32_t chunk = u32_at(bytes + at);
+        uint32_t chunk = png_u32_at(bytes + at);
         const uint8_t *type = bytes + at + 4;
         if (memcmp(type, "IDAT", 4) == 0)
             return false;
@@ -60,12 +56,31 @@ static void widen(lam_image *image)
     }
 }
 
+// The channels of a picture that png_read_whole reads; 0: it does not.
+static int whole_channels(spng_ctx *spng, const struct spng_ihdr *header)
+{
+    static const int channels[7] = {
+        [SPNG_COLOR_TYPE_GRAYSCALE] = 1, [SPNG_COLOR_TYPE_TRUECOLOR] = 3, [SPNG_COLOR_TYPE_TRUECOLOR_ALPHA] = 4};
+    struct spng_trns transparent;
+    bool plain = header->bit_depth == 8 && header->interlace_method == SPNG_INTERLACE_NONE &&
+                 spng_get_trns(spng, &transparent) == SPNG_ECHUNKAVAIL;
+    return plain ? channels[header->color_type] : 0;
+}
+
 // Decodes row by row, in the order of the file: an interlaced one has seven passes over the picture.
-static bool decode_rows(spng_ctx *spng, const struct picture_file *file, char *pixels, size_t row_bytes,
-                        enum spng_format format, lam_error *error)
+static bool decode_rows(spng_ctx *spng, const struct picture_file *file, const struct spng_ihdr *header, bool keep,
+                        lam_image *image, lam_error *error)
 {
     struct spng_row_info row = {0};
-    int code = spng_decode_image(spng, NULL, 0, format, SPNG_DECODE_TRNS | SPNG_DECODE_PROGRESSIVE);
+    size_t row_bytes = (keep ? 8 : 4) * (size_t)header->width;
+    char *pixels = (char *)image->pixels + (keep ? row_bytes * header->height : 0);
+    int code = spng_decode_chunks(spng); // those before the pixels
+    int channels = code ? 0 : whole_channels(spng, header);
+    if (channels && png_read_whole(file, channels, image))
+        return true;
+    if (!code)
+        code = spng_decode_image(spng, NULL, 0, keep ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8,
+                                 SPNG_DECODE_TRNS | SPNG_DECODE_PROGRESSIVE);
     for (int64_t count = 0; !code; count++) {
         code = spng_get_row_info(spng, &row);
         if (!code && !picture_continues(file, count, error))
@@ -102,9 +117,7 @@ static bool decode(spng_ctx *spng, const struct picture_file *file, lam_image *i
     bool keep = wide && header.bit_depth == 16;
     if (!picture_make(file, header.width, header.height, keep ? LAM_RGBA32F : LAM_RGBA8, image, error))
         return false;
-    size_t row_bytes = (keep ? 8 : 4) * (size_t)header.width;
-    char *pixels = (char *)image->pixels + (keep ? row_bytes * header.height : 0);
-    if (!decode_rows(spng, file, pixels, row_bytes, keep ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8, error))
+    if (!decode_rows(spng, file, &header, keep, image, error))
         return false;
     if (keep)
         widen(image);

@@ -1,0 +1,190 @@
+// test_png_read.c: pictures read at once (png_whole.c) have libspng's pixels, and files that libspng refuses are refused.
+#include "dynamic_library.h"
+#include "png_whole.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <spng.h>
+#include <zlib.h>
+
+enum { WIDTH = 151, HEIGHT = 113, FILE_BYTES = 1 << 20 }; // more pixels than the smallest picture that is read at once
+
+static uint32_t random_bits(void)
+{
+    static uint32_t state = 1;
+    state = state * 1664525u + 1013904223u;
+    return state >> 8;
+}
+
+struct file {
+    uint8_t *bytes;
+    size_t size;
+};
+
+static void put_u32(struct file *file, uint32_t value)
+{
+    for (int shift = 24; shift >= 0; shift -= 8)
+        file->bytes[file->size++] = (uint8_t)(value >> shift);
+}
+
+static void put_chunk(struct file *file, const char *type, const void *data, size_t size)
+{
+    put_u32(file, (uint32_t)size);
+    memcpy(file->bytes + file->size, type, 4);
+    if (size)
+        memcpy(file->bytes + file->size + 4, data, size);
+    uint32_t crc = (uint32_t)crc32(0, file->bytes + file->size, (uInt)size + 4);
+    file->size += size + 4;
+    put_u32(file, crc);
+}
+
+// What is wrong with a file, or unusual.
+enum fault {
+    NOTHING,
+    EMPTY_CHUNKS,
+    TEXT_BEFORE,
+    TEXT_CRC, // libspng passes over it
+    TEXT_BEHIND,
+    JUNK_BEHIND_END,
+    LAST_SOUND = JUNK_BEHIND_END, // those before are read
+    PIXELS_CRC,
+    END_CRC,
+    NO_END,
+    CUT_PIXELS,
+    TOO_FEW_ROWS,
+    ADLER,
+    NO_FILTER,
+    SPLIT_PIXELS,
+    FAULTS
+};
+
+// A picture of random filters and random filtered bytes, in several chunks.
+static struct file make_file(int color_type, int channels, enum fault fault)
+{
+    struct file file = {malloc(FILE_BYTES), 0};
+    size_t row = 1 + (size_t)WIDTH * (size_t)channels, rows = HEIGHT - (fault == TOO_FEW_ROWS), bytes = rows * row;
+    uint8_t *filtered = malloc(bytes), *compressed = malloc(2 * bytes);
+    assert_true(file.bytes && filtered && compressed);
+    for (size_t i = 0; i < bytes; i++)
+        filtered[i] = (uint8_t)(random_bits() & random_bits());
+    for (size_t y = 0; y < rows; y++)
+        filtered[y * row] = (uint8_t)(y < 5 ? y : random_bits() % 5);
+    if (fault == NO_FILTER)
+        filtered[row * (rows - 1)] = 5;
+    uLongf size = 2 * bytes;
+    assert_int_equal(compress2(compressed, &size, filtered, bytes, 6), Z_OK);
+    if (fault == ADLER)
+        compressed[size - 1] ^= 1;
+    if (fault == CUT_PIXELS)
+        size -= 10;
+    memcpy(file.bytes, "\x89PNG\r\n\x1a\n", 8);
+    file.size = 8;
+    uint8_t header[13] = {0, 0, 0, WIDTH, 0, 0, 0, HEIGHT, 8, (uint8_t)color_type};
+    put_chunk(&file, "IHDR", header, sizeof header);
+    if (fault == TEXT_BEFORE || fault == TEXT_CRC)
+        put_chunk(&file, "tEXt", "Title\0a", 7);
+    if (fault == TEXT_CRC)
+        file.bytes[file.size - 1] ^= 1;
+    for (size_t at = 0, part; at < size; at += part) {
+        part = size - at < 8192 ? size - at : 8192;
+        put_chunk(&file, "IDAT", compressed + at, part);
+        if (fault == PIXELS_CRC && at > 0 && at < 16384)
+            file.bytes[file.size - 1] ^= 1;
+        if (fault == EMPTY_CHUNKS)
+            put_chunk(&file, "IDAT", NULL, 0);
+        if (fault == SPLIT_PIXELS && at == 0)
+            put_chunk(&file, "tEXt", "Title\0a", 7);
+    }
+    if (fault == TEXT_BEHIND)
+        put_chunk(&file, "tEXt", "Title\0a", 7);
+    if (fault != NO_END)
+        put_chunk(&file, "IEND", NULL, 0);
+    if (fault == END_CRC)
+        file.bytes[file.size - 1] ^= 1;
+    if (fault == JUNK_BEHIND_END)
+        memcpy(file.bytes + file.size, "junk", 4), file.size += 4;
+    free(filtered);
+    free(compressed);
+    // Of exactly the size: a sanitizer finds every read beyond it.
+    file.bytes = realloc(file.bytes, file.size);
+    assert_non_null(file.bytes);
+    return file;
+}
+
+// libspng's pixels; false: it refuses the file.
+static bool reference(const struct file *file, uint8_t *pixels)
+{
+    spng_ctx *spng = spng_ctx_new(0);
+    bool ok = spng && !spng_set_png_buffer(spng, file->bytes, file->size) &&
+              !spng_decode_image(spng, pixels, WIDTH * HEIGHT * 4, SPNG_FMT_RGBA8, SPNG_DECODE_TRNS) &&
+              !spng_decode_chunks(spng);
+    spng_ctx_free(spng);
+    return ok;
+}
+
+static const struct {
+    int color_type, channels;
+} kinds[] = {{0, 1}, {2, 3}, {6, 4}};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+static void test_files(void **state)
+{
+    (void)state;
+    static uint8_t expected[WIDTH * HEIGHT * 4];
+    for (int kind = 0; kind < KINDS; kind++)
+        for (enum fault fault = NOTHING; fault < FAULTS; fault++) {
+            struct file file = make_file(kinds[kind].color_type, kinds[kind].channels, fault);
+            lam_image image;
+            lam_error error = {0};
+            bool ok = picture_decode(&(struct picture_file){file.bytes, file.size, "a.png", NULL}, &image, &error);
+            if (reference(&file, expected) != (fault <= LAST_SOUND) || ok != (fault <= LAST_SOUND))
+                fail_msg("kind %d, fault %d: %s", kind, (int)fault, ok ? "read" : error.text);
+            if (ok)
+                assert_memory_equal(image.pixels, expected, sizeof expected);
+            else if (!strstr(error.text, "a.png: PNG pixels: "))
+                fail_msg("kind %d, fault %d: %s", kind, (int)fault, error.text);
+            lam_image_free(&image);
+            free(file.bytes);
+        }
+}
+
+// What is read at once: no file in which anything is wrong, and none behind whose pixels something comes.
+static void test_at_once(void **state)
+{
+    (void)state;
+    void *library = library_open("libdeflate.so.0", false, NULL);
+    if (!library) {
+        print_message("libdeflate is not installed\n");
+        skip();
+    }
+    library_close(library);
+    for (int kind = 0; kind < KINDS; kind++)
+        for (enum fault fault = NOTHING; fault < FAULTS; fault++) {
+            struct file file = make_file(kinds[kind].color_type, kinds[kind].channels, fault);
+            struct call_control call;
+            call_start(&call, &(lam_control){.memory_limit_bytes = FILE_BYTES});
+            struct picture_file picture = {file.bytes, file.size, "a.png", &call};
+            lam_image image;
+            assert_true(lam_image_make(&image, WIDTH, HEIGHT, LAM_RGBA8, NULL));
+            bool expected = fault <= TEXT_CRC || fault == JUNK_BEHIND_END;
+            if (png_read_whole(&picture, kinds[kind].channels, &image) != expected)
+                fail_msg("kind %d, fault %d: %s", kind, (int)fault, expected ? "not read" : "read");
+            // Without room for it, it is not read at once, and nobody hears of that.
+            call_start(&call, &(lam_control){.memory_limit_bytes = 1000});
+            assert_false(png_read_whole(&picture, kinds[kind].channels, &image));
+            assert_true(call_should_continue(&call) && !call.over_memory && call.memory_used == 0);
+            lam_image_free(&image);
+            free(file.bytes);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_files), cmocka_unit_test(test_at_once)};
+    return cmocka_run_group_tests_name("png-read", tests, NULL, NULL);
+}

@@ -194,12 +194,11 @@ const struct environment_light *environment_light_without_lamp(const struct lam_
         rest = calloc(1, sizeof *rest);
         float *memory = rest ? calloc(1, bytes) : NULL;
         if (memory) {
-            *rest = *whole;
-            rest->lamp = NULL;
-            rest->without_lamp = NULL;
+            // Not the whole struct: another thread may be adding levels to it, and to its `made`.
+            memcpy(rest->level, whole->level, sizeof rest->level);
             rest->texels = memory;
+            rest->irradiance = whole->irradiance;
             rest->irradiance.texels = memory + texels;
-            rest->made = 0;
             take_lamp(&rest->irradiance, &whole->irradiance, &lamp);
             kept->without_lamp = rest;
         } else {

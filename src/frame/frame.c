@@ -382,7 +382,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     lam_mat4 projection = frame->orthographic
                               ? mat4_orthographic(camera->ortho_half_height, aspect, near_plane, far_plane)
                               : mat4_perspective(camera->fovy_rad, aspect, near_plane, far_plane);
-    if (!build_environment(frame, scene, params->rig, params->shadows || params->ground, &view, error))
+    if (!build_environment(frame, scene, params->rig, wants_shadows(params), &view, error))
         return false;
     lam_mat4 pixel = to_pixels(&projection, width, height);
 
@@ -436,8 +436,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->lamp_apart = false;
     if (!frame_lights_add_lamp(frame, scene, params, &view, call, error))
         return false;
-    frame->shadows = (params->shadows || params->ground) &&
-                     (lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_CLIPPED);
+    frame->shadows =
+        wants_shadows(params) && (lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_CLIPPED);
     frame->flat_terminator = params->flat_terminator;
     frame->shadow_samples = params->shadow_samples ? params->shadow_samples : 16;
     frame->pixel_size =

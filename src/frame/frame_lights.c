@@ -160,7 +160,7 @@ bool frame_lights_build(struct frame *frame, const lam_scene *scene, lam_rig rig
 bool frame_lights_add_lamp(struct frame *frame, const lam_scene *scene, const lam_draw_params *params,
                            const lam_mat4 *view, struct call_control *call, lam_error *error)
 {
-    bool wanted = (params->shadows || params->ground) && frame->environment && !frame->reference;
+    bool wanted = wants_shadows(params) && frame->environment && !frame->reference;
     wanted &= lam_output_is_light(frame->output) && !output_is_one_light(frame->output);
     bool lit = false;
     for (int i = 0; i < frame->range_count && wanted; i++) {

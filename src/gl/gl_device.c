@@ -349,9 +349,8 @@ static uint64_t gl_memory(const struct lam_device *base)
     const struct gl_device *device = (const struct gl_device *)base;
     uint64_t bytes = device->scratch.capacity + device->runs.capacity + device->pixels.capacity +
                      device->draw_calls.capacity + device->environment_bytes + device->target_bytes +
-                     device->shadow_bytes + device->surfaces.capacity + device->next_surfaces.capacity +
-                     device->surface_records.capacity + device->occlusion.capacity + device->occlusion_rows.capacity +
-                     hierarchy_bytes(&device->hierarchy);
+                     device->shadow_bytes + surfaces_bytes(device) + device->occlusion.capacity +
+                     device->occlusion_rows.capacity + hierarchy_bytes(&device->hierarchy);
     const struct gl_light_buffer *lists[] = {&device->lights, &device->products};
     for (int i = 0; i < 2; i++)
         bytes += lists[i]->shadow.capacity + lists[i]->next.capacity + lists[i]->size;
@@ -385,9 +384,7 @@ static void gl_free(struct lam_device *base)
     }
     gl_context_free(&device->context);
     buffer_free(&device->scratch);
-    buffer_free(&device->surfaces);
-    buffer_free(&device->next_surfaces);
-    buffer_free(&device->surface_records);
+    surfaces_free(device);
     buffer_free(&device->occlusion);
     buffer_free(&device->occlusion_rows);
     buffer_free(&device->runs);

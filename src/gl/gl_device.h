@@ -200,6 +200,14 @@ struct gl_current_state {
     int width, height;         // viewport
 };
 
+// The surfaces that let light through, behind the hierarchy in its texture (gl_surfaces.c).
+struct gl_surfaces {
+    // All that the texels follow from, as bytes: of those in the texture, and of the current frame.
+    struct buffer key, next_key;
+    size_t key_size, next_key_size;
+    struct buffer records, pixels; // of the current frame: the first record of each range; the textures' places
+};
+
 struct gl_device {
     struct lam_device base;
     struct gl_context context;
@@ -239,9 +247,8 @@ struct gl_device {
     struct hierarchy_memory hierarchy;
     GLuint shadow_texture;  // the hierarchy
     float shadow_places[2]; // first texel of the triangles, and of their places
-    // What lets light through: the texels of the frame before and of this one, and the records of this one's ranges.
-    struct buffer surfaces, next_surfaces, surface_records;
-    size_t surface_texels;
+    bool shadows_sent;      // the texture has the hierarchy, and the surfaces of surfaces.key
+    struct gl_surfaces surfaces;
     uint64_t environment_bytes, target_bytes, shadow_bytes;
     struct gl_current_state current;
     struct buffer scratch;    // vertices before an upload
@@ -382,8 +389,13 @@ bool environment_light_send(struct gl_frame *f, lam_error *error);
 void light_buffers_free(struct gl_device *device);
 
 // --- gl_surfaces.c
-// Packs the surfaces that let light through, from the texel `first` of a texture that has `most`, into *count texels. LAM_LIMIT.
-bool surfaces_pack(struct gl_frame *f, size_t first, size_t most, struct buffer *out, size_t *count, lam_error *error);
+// Counts the texels of the surfaces that let light through, behind the texel `first` of a texture that has `most`. *same: the
+// texels are those of the surfaces that were packed last, with the same hierarchy. LAM_LIMIT.
+bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count, bool *same, lam_error *error);
+// Writes the texels that were counted, over zeros.
+void surfaces_pack(struct gl_frame *f, size_t first, float *out);
+uint64_t surfaces_bytes(const struct gl_device *device);
+void surfaces_free(struct gl_device *device);
 // The place of a triangle's record, by its number in the frame; 0: it lets no light through.
 size_t surfaces_record(const struct gl_frame *f, uint32_t number);
 

@@ -104,7 +104,7 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
     if (!h)
         return false;
     if (built)
-        device->surface_texels = SIZE_MAX; // the texture has another hierarchy, or none
+        device->shadows_sent = false; // the texture has another hierarchy, or none
     device->base.report.hierarchy_ms += built ? (double)(now_ns() - start) * 1e-6 : 0;
     if (f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->output)) // no shader walks it
         return true;
@@ -120,20 +120,15 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
                     h->triangle_count, surfaces, most);
     device->shadow_places[0] = (float)triangles;
     device->shadow_places[1] = (float)places;
-    if (frame->passes_rays && !surfaces_pack(f, surfaces, most, &device->next_surfaces, &surface_texels, error))
+    bool same;
+    if (!surfaces_count(f, surfaces, most, &surface_texels, &same, error))
         return false;
-    bool same =
-        surface_texels == device->surface_texels &&
-        (!surface_texels || memcmp(device->surfaces.data, device->next_surfaces.data, surface_texels * TEXEL) == 0);
-    if (same)
+    if (device->shadows_sent && same)
         return true;
-    device->surface_texels = SIZE_MAX;
+    device->shadows_sent = false;
     if (depth_of(h) > STACK)
         return fail(error, LAM_LIMIT, "OpenGL: the hierarchy is %d nodes deep, at most %d can be walked here",
                     depth_of(h), STACK);
-    struct buffer swapped = device->surfaces;
-    device->surfaces = device->next_surfaces;
-    device->next_surfaces = swapped;
     size_t rows = (surfaces + surface_texels + WIDTH - 1) / WIDTH, bytes = rows * WIDTH * TEXEL;
     if (!gl_charge(f, &device->shadow_bytes, bytes, error) || !buffer_reserve(&device->scratch, bytes, f->call, error))
         return false;
@@ -145,8 +140,7 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
         pack_triangle(out + 4 * (triangles + (size_t)TRIANGLE * i), f, &h->triangles[i]);
         out[4 * places + h->triangles[i].number] = (float)i;
     }
-    if (surface_texels)
-        memcpy(out + 4 * surfaces, device->surfaces.data, surface_texels * TEXEL);
+    surfaces_pack(f, surfaces, out + 4 * surfaces);
     if (!device->shadow_texture)
         gl->GenTextures(1, &device->shadow_texture);
     gl_use_texture(device, UNIT_SHADOW_TREE, GL_TEXTURE_2D, device->shadow_texture);
@@ -154,7 +148,7 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, WIDTH, (GLsizei)rows, 0, GL_RGBA, GL_FLOAT, out);
-    device->surface_texels = surface_texels;
+    device->shadows_sent = true;
     device->base.report.bytes_uploaded += bytes;
     return true;
 }

@@ -19,6 +19,16 @@ enum {
     WIDE = -1,   // as a channel: all four
 };
 
+// The bytes by which the surfaces of a range are noted, at most: its arrays and numbers, and of each side the side itself and
+// its maps with their textures.
+enum {
+    ARRAYS = 7,
+    NUMBERS = 4,
+    RANGE_KEY = ARRAYS * (int)sizeof(void *) + NUMBERS * (int)sizeof(uint32_t) +
+                2 * (4 * SIDE * (int)sizeof(float) +
+                     MAPS * (4 * MAP * (int)sizeof(float) + (int)sizeof(void *) + (int)sizeof(int))),
+};
+
 // The pixels of a texture, or a channel of them, and where they are.
 struct packed_pixels {
     const struct lam_texture *texture;
@@ -26,14 +36,23 @@ struct packed_pixels {
     size_t at;
 };
 
-// Everything is packed twice: first nowhere, to find out how long it is.
+// Everything is packed twice: first nowhere, to find out how long it is and to note what it follows from. Pictures and meshes are
+// noted by their addresses: a scene changes no array, and keeps all of them as long as it lives.
 struct packer {
-    float *out; // NULL: only counted
+    float *out; // NULL: only counted and noted
     size_t first, used;
+    uint8_t *key;
+    size_t key_size;
     struct packed_pixels *pixels;
     int pixel_count;
     size_t *records; // the first record of each range, or 0
 };
+
+static void note(struct packer *p, const void *data, size_t size)
+{
+    memcpy(p->key + p->key_size, data, size);
+    p->key_size += size;
+}
 
 // Returns the place of so many texels, counted from the first of the texture.
 static size_t add_texels(struct packer *p, size_t count)
@@ -45,6 +64,14 @@ static size_t add_texels(struct packer *p, size_t count)
 
 static float *texel_of(const struct packer *p, size_t at) { return p->out + 4 * (at - p->first); }
 
+static void put(struct packer *p, size_t at, const float *numbers, size_t size)
+{
+    if (p->out)
+        memcpy(texel_of(p, at), numbers, size);
+    else
+        note(p, numbers, size);
+}
+
 // The pixels at level 0: a texel for each, with all channels, or one channel, four pixels to a texel.
 static size_t add_pixels(struct packer *p, const struct lam_texture *texture, int channel)
 {
@@ -55,6 +82,10 @@ static size_t add_pixels(struct packer *p, const struct lam_texture *texture, in
     size_t count = (size_t)level->width * (size_t)level->height;
     size_t at = add_texels(p, channel == WIDE ? count : (count + 3) / 4);
     p->pixels[p->pixel_count++] = (struct packed_pixels){texture, channel, at};
+    if (!p->out) {
+        note(p, &texture, sizeof texture);
+        note(p, &channel, sizeof channel);
+    }
     float *out = p->out ? texel_of(p, at) : NULL;
     for (int y = 0; out && y < level->height; y++)
         for (int x = 0; x < level->width; x++) {
@@ -72,10 +103,8 @@ static size_t add_map(struct packer *p, const lam_mesh *mesh, const lam_texture_
     if (!map || !map->texture)
         return 0;
     size_t at = add_texels(p, MAP), pixels = add_pixels(p, map->texture, channel);
-    if (!p->out)
-        return at;
     const struct texture_level *level = &map->texture->levels[0];
-    float *out = texel_of(p, at), s[4], t[4];
+    float s[4], t[4];
     glsl_map_values(map, mesh, s, t);
     const float packed[4 * MAP] = {(float)pixels,
                                    (float)level->width,
@@ -92,7 +121,7 @@ static size_t add_map(struct packer *p, const lam_mesh *mesh, const lam_texture_
                                    s[3],
                                    t[3],
                                    map->magnify == LAM_FILTER_NEAREST};
-    memcpy(out, packed, sizeof packed);
+    put(p, at, packed, sizeof packed);
     return at;
 }
 
@@ -112,9 +141,6 @@ static size_t add_side(struct packer *p, const struct frame *frame, const struct
         of_maps[2] = add_map(p, draw->mesh, transmission, transmission ? transmission->channel : 0);
         of_maps[3] = add_map(p, draw->mesh, metallic, metallic ? metallic->channel : 0);
     }
-    if (!p->out)
-        return at;
-    float *out = texel_of(p, at);
     const float packed[4 * SIDE] = {
         m->diffuse.a,      m->alpha_mode == LAM_ALPHA_OPAQUE ? 0 : m->alpha_mode == LAM_ALPHA_MASK ? 1 : 2,
         m->alpha_cutoff,   !transmits ? 0 : back && m->thickness > 0 ? 2 : 1,
@@ -124,7 +150,7 @@ static size_t add_side(struct packer *p, const struct frame *frame, const struct
         (float)of_maps[2], (float)of_maps[3],
         m->metallic,       m->transmission,
     };
-    memcpy(out, packed, sizeof packed);
+    put(p, at, packed, sizeof packed);
     return at;
 }
 
@@ -133,15 +159,24 @@ static size_t record_size(const struct frame *frame, const struct frame_draw_ran
     return frame->draws[range->draw].mesh->colors ? COLORED : RECORD;
 }
 
-// Returns the place of the record of a range's first triangle. A texel that no shader reads says which triangles they are: the
-// same texels stand for the same frame.
+static void note_range(struct packer *p, const struct frame_draw *draw, const struct frame_draw_range *range)
+{
+    const lam_mesh *m = draw->mesh;
+    const void *const arrays[ARRAYS] = {
+        m->indices, m->texcoords,    m->texcoord_indices, m->second_texcoords, m->second_texcoord_indices,
+        m->colors,  m->color_indices};
+    const uint32_t numbers[NUMBERS] = {range->first_id, range->count, draw->first_id, draw->mirrored};
+    note(p, arrays, sizeof arrays);
+    note(p, numbers, sizeof numbers);
+}
+
+// Returns the place of the record of a range's first triangle.
 static size_t add_range(struct packer *p, const struct frame *frame, const struct frame_draw_range *range)
 {
     const struct frame_draw *draw = &frame->draws[range->draw];
     const lam_mesh *mesh = draw->mesh;
-    size_t head = add_texels(p, 1);
-    if (p->out)
-        memcpy(texel_of(p, head), (const uint32_t[]){range->first_id, range->count}, 2 * sizeof(uint32_t));
+    if (!p->out)
+        note_range(p, draw, range);
     size_t front = add_side(p, frame, range, false), back = add_side(p, frame, range, true);
     size_t each = record_size(frame, range), at = add_texels(p, each * range->count);
     for (uint32_t i = 0; p->out && i < range->count; i++) {
@@ -162,7 +197,7 @@ static size_t add_range(struct packer *p, const struct frame *frame, const struc
 
 static void add_ranges(struct packer *p, const struct frame *frame)
 {
-    p->used = 0;
+    p->used = p->key_size = 0;
     p->pixel_count = 0;
     for (int i = 0; i < frame->range_count; i++) {
         const struct frame_draw_range *range = &frame->ranges[i];
@@ -174,31 +209,61 @@ static void add_ranges(struct packer *p, const struct frame *frame)
 size_t surfaces_record(const struct gl_frame *f, uint32_t number)
 {
     int range = frame_range_of(f->frame, number);
-    size_t first = f->frame->passes_rays ? ((const size_t *)f->device->surface_records.data)[range] : 0;
+    size_t first = f->frame->passes_rays ? ((const size_t *)f->device->surfaces.records.data)[range] : 0;
     const struct frame_draw_range *r = &f->frame->ranges[range];
     return first ? first + record_size(f->frame, r) * (number - r->first_id) : 0;
 }
 
-bool surfaces_pack(struct gl_frame *f, size_t first, size_t most, struct buffer *out, size_t *count, lam_error *error)
+bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count, bool *same, lam_error *error)
 {
-    struct gl_device *device = f->device;
-    size_t ranges = (size_t)f->frame->range_count + 1;
-    if (!buffer_reserve(&device->scratch, ranges * 2 * MAPS * sizeof(struct packed_pixels), f->call, error) ||
-        !buffer_reserve(&device->surface_records, ranges * sizeof(size_t), f->call, error))
+    struct gl_surfaces *own = &f->device->surfaces;
+    size_t ranges = f->frame->passes_rays ? (size_t)f->frame->range_count : 0;
+    *count = own->next_key_size = 0;
+    *same = own->key_size == 0;
+    if (!ranges)
+        return true;
+    if (!buffer_reserve(&own->pixels, ranges * 2 * MAPS * sizeof(struct packed_pixels), f->call, error) ||
+        !buffer_reserve(&own->records, ranges * sizeof(size_t), f->call, error) ||
+        !buffer_reserve(&own->next_key, ranges * RANGE_KEY, f->call, error))
         return false;
-    struct packer p = {.first = first, .pixels = device->scratch.data, .records = device->surface_records.data};
+    struct packer p = {
+        .first = first, .key = own->next_key.data, .pixels = own->pixels.data, .records = own->records.data};
     add_ranges(&p, f->frame);
     if (first + p.used > most)
         return fail(error, LAM_LIMIT,
                     "OpenGL: for shadows the surfaces that let light through, with their textures, need %zu texels "
                     "beside the hierarchy's %zu, this device can have %zu; the CPU device has no such limit",
                     p.used, first, most);
-    size_t bytes = p.used * 4 * sizeof(float);
-    if (!buffer_reserve(out, bytes + 1, f->call, error))
-        return false;
-    memset(out->data, 0, bytes);
-    p.out = out->data;
-    add_ranges(&p, f->frame);
     *count = p.used;
+    own->next_key_size = p.key_size;
+    *same = p.key_size == own->key_size && (!p.key_size || memcmp(own->key.data, own->next_key.data, p.key_size) == 0);
     return true;
+}
+
+void surfaces_pack(struct gl_frame *f, size_t first, float *out)
+{
+    struct gl_surfaces *own = &f->device->surfaces;
+    struct buffer packed = own->next_key;
+    if (own->next_key_size) {
+        struct packer p = {.out = out, .first = first, .pixels = own->pixels.data, .records = own->records.data};
+        add_ranges(&p, f->frame);
+    }
+    own->next_key = own->key;
+    own->key = packed;
+    own->key_size = own->next_key_size;
+}
+
+uint64_t surfaces_bytes(const struct gl_device *device)
+{
+    const struct gl_surfaces *own = &device->surfaces;
+    return own->key.capacity + own->next_key.capacity + own->records.capacity + own->pixels.capacity;
+}
+
+void surfaces_free(struct gl_device *device)
+{
+    struct gl_surfaces *own = &device->surfaces;
+    buffer_free(&own->key);
+    buffer_free(&own->next_key);
+    buffer_free(&own->records);
+    buffer_free(&own->pixels);
 }

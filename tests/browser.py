@@ -2,7 +2,8 @@
 """browser.py PROGRAM [--long]: the page of `make web` in Debian's chromium, driven by playwright-core (web/browser.mjs): gestures and the command
 lines that they make, controls, links, drops, explanations, the page in one file, without its server, names and roles, texts. After random
 sequences of gestures, 3 or with --long 30, PROGRAM draws the copied command, and the canvas has the same pixels. Shaders are checked with the
-browser's WebGL 2 (web/shaders.mjs): correct ones pass, known mistakes have their names, with --long all.
+browser's WebGL 2 (web/shaders.mjs): correct ones pass, known mistakes have their names, with --long all. `lambent view` (web/view.mjs): a model is turned,
+its file changes; with --long a gallery, and a model that is too large for the page.
 
 Skipped where chromium, a package of the group `web`, or playwright-core is missing; npm installs that in build-web/npm, as web/package-lock.json
 has it."""
@@ -12,6 +13,7 @@ import os
 import re
 import shlex
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -88,6 +90,68 @@ def check_shaders(results, modules, chromium, folder, long):
     results.ok(done.returncode == 0 and len(done.stdout.splitlines()) > len(tasks), "all shaders were checked", done.stderr)
 
 
+def start_viewer(program, *words):
+    """A viewer with the page that was built, and its address; None: libmicrohttpd is missing."""
+    viewer = subprocess.Popen([program, "view", "--no-open", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                              env={**os.environ, "LAMBENT_PAGE": os.path.join(OUT, "lambent.html")})
+    address = viewer.stdout.readline().strip()
+    if address:
+        return viewer, address
+    error = viewer.communicate()[1]
+    if "libmicrohttpd" in error:
+        return None, None
+    raise RuntimeError("lambent view: " + error)
+
+
+def make_points(path):
+    """A model of more points than the page draws (tools/view): 100 layers of one square, all of which are seen."""
+    columns, layers = 145, 100
+    square = [(x / columns, y / columns) for x in range(columns) for y in range(columns)][:21000]
+    body = b"".join(struct.pack("<63000f", *(number for x, y in square for number in (x, y, z / layers))) for z in range(layers))
+    header = "ply\nformat binary_little_endian 1.0\nelement vertex %d\n" % (layers * len(square))
+    open(path, "wb").write((header + "property float x\nproperty float y\nproperty float z\nend_header\n").encode() + body)
+
+
+def check_view(results, program, modules, chromium, folder, long):
+    watched = os.path.join(folder, "watched")
+    os.makedirs(watched)
+    for name in ("part.obj", "cube.obj"):
+        shutil.copy(os.path.join(ROOT, "tests", "models", "cube.obj"), os.path.join(watched, name))
+    shutil.copy(os.path.join(ROOT, "tests", "models", "cube.mtl"), watched)
+    open(os.path.join(watched, "other.obj"), "w").write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
+    viewers = [start_viewer(program, os.path.join(watched, "part.obj"), "--size", "96x96", "--background", "white")]
+    if long:
+        make_points(os.path.join(folder, "points.ply"))
+        viewers.append(start_viewer(program, folder))
+    if not viewers[0][0]:
+        print("# no libmicrohttpd: lambent view is not tested")
+        return
+    try:
+        done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "view.mjs"), modules, chromium, viewers[0][1], watched, str(viewers[0][0].pid),
+                               viewers[1][1] if long else ""], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    finally:
+        for viewer, _ in viewers:
+            viewer.kill()
+            viewer.communicate()
+    drawn = report(results, program, done.stdout, lambda said: folder if "points.ply" in said["command"] or "after it" in said["label"] else watched)
+    results.ok(done.returncode == 0 and drawn == (6 if long else 3), "lambent view was tested", done.stderr)
+
+
+def report(results, program, lines, folder_of):
+    """Takes the lines of a script: results, and pictures that the program draws too. Returns the number of those that have a label."""
+    drawn = 0
+    for line in lines.splitlines():
+        kind, _, text = line.partition(" ")
+        if kind in ("pixels", "file"):
+            check_picture(results, program, folder_of(json.loads(text)), kind, json.loads(text))
+            drawn += "label" in json.loads(text)
+        elif kind == "#":
+            print(line)
+        else:
+            results.ok(kind == "ok", text if kind == "ok" else text.partition(" ")[2])
+    return drawn
+
+
 def skip(why):
     print("ok 1 - browser # SKIP %s\n1..1" % why)
     return 0
@@ -111,6 +175,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         check_shaders(results, modules, chromium, folder, long)
         make_models(folder)
+        check_view(results, program, modules, chromium, folder, long)
         with open(os.path.join(OUT, "included.html"), "w") as out:
             model = open(os.path.join(folder, "cube.ply"), "rb").read()
             out.write(build.with_files(open(os.path.join(OUT, "lambent.html")).read(), {"/cube.ply": model}))
@@ -119,16 +184,7 @@ def main():
         results.ok(filled.returncode == 0, "a page is written with a model in it", filled.stderr)
         done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "browser.mjs"), modules, chromium, OUT, folder, str(sequences)],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        drawn = 0
-        for line in done.stdout.splitlines():
-            kind, _, text = line.partition(" ")
-            if kind in ("pixels", "file"):
-                check_picture(results, program, folder, kind, json.loads(text))
-                drawn += "label" in json.loads(text)
-            elif kind == "#":
-                print(line)
-            else:
-                results.ok(kind == "ok", text if kind == "ok" else text.partition(" ")[2])
+        drawn = report(results, program, done.stdout, lambda said: folder)
         results.ok(done.returncode == 0 and drawn == sequences, "%d sequences of gestures were drawn" % sequences, done.stderr)
     print("1..%d" % results.count)
     return 1 if results.failed else 0

@@ -77,6 +77,8 @@ export class Lambent {
   /** The second part of a module in two parts. */
   complete(second: WebAssembly.Module): void;
   readonly files: Files;
+  /** What reading a model and drawing it may each use, in bytes, where the words have no --memory-limit; 0: as much as there is. */
+  limitMemory(bytes: number): void;
   /** The picture of a command line, MODEL [OPTION...]. Throws LambentError. */
   draw(words: string[]): Picture;
   /** The bytes of its file: png, jpg, ppm or pfm. */

@@ -38,6 +38,11 @@ export class Lambent {
     new WebAssembly.Instance(second, { primary: this.#instance.exports });
   }
 
+  // What reading a model and drawing it may each use, in bytes, where the words have no --memory-limit. 0: as much as there is.
+  limitMemory(bytes) {
+    this.#instance.exports.web_limit_memory(bytes);
+  }
+
   #words(words) {
     const bytes = new TextEncoder().encode(words.map((word) => word + '\0').join(''));
     const at = this.#instance.exports.web_words(bytes.length);

@@ -13,6 +13,7 @@ WebAssembly.Instance = function (...given) {
 };
 
 const lambent = new Lambent(new WebAssembly.Module(readFileSync(counting)));
+lambent.limitMemory(1e9);
 lambent.options();
 // The first picture, and a turn of it, with few and all samples.
 for (const size of ['320x344', '944x656', '472x328']) {

@@ -2,31 +2,24 @@
 // Test Anything Protocol without numbers, and for each random sequence of gestures "pixels {command, hash}": the command that the page copies,
 // and the SHA-256 of the canvas' colours; the caller (browser.py) draws that command with the program.
 import { createHash } from 'node:crypto';
-import { readFileSync } from 'node:fs';
+import { readFileSync, truncateSync, writeFileSync } from 'node:fs';
 import { extname, join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { commandOf, drawn, fragment, ok, pixels, same, settled, until, watchedPage } from './driver.mjs';
 import { openBrowser } from './serve.mjs';
 
 const [, , playwright, executablePath, built, models, sequences] = process.argv, all = Number(sequences) > 3; // all: of make test-long
-const ok = (good, label, why = '') => console.log(`${good ? 'ok' : 'not ok'} ${label}${good || why === '' ? '' : `\n# ${String(why).replaceAll('\n', '\n# ')}`}`);
-const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
-
-const { browser, server, origin } = await openBrowser(playwright, executablePath, built);
+const { browser, origin, close } = await openBrowser(playwright, executablePath, built);
 const context = await browser.newContext({ viewport: { width: 1100, height: 800 }, permissions: ['clipboard-read', 'clipboard-write'] });
 
 // What the browser reports about the page: errors, and all that its content-security policy has refused.
 const reports = [];
 async function openPage(address, where = context) {
-  const page = await where.newPage();
-  page.on('pageerror', (error) => reports.push(error.message));
-  page.on('console', (message) => message.type() === 'error' && reports.push(message.text()));
-  await page.addInitScript(() => addEventListener('securitypolicyviolation', (event) => console.error(`policy: ${event.violatedDirective} ${event.blockedURI}`)));
+  const page = await watchedPage(where, reports);
   await page.goto(address);
   return page;
 }
 
-const fragment = (words) => '#' + words.map(encodeURIComponent).join('&');
-const commandOf = (page) => page.locator('#command').textContent();
 const undoIn = (page) => page.locator('#undo').click();
 
 // The tab of all options, with those that a text finds.
@@ -35,33 +28,10 @@ async function find(page, words) {
   await page.locator('#search').fill(words);
 }
 
-// Waits until `f` is true in the page. (Playwright's own way evaluates a string there, which the policy refuses, as it should.)
-async function until(page, f, argument) {
-  for (const end = Date.now() + 60000; Date.now() < end; await new Promise((done) => setTimeout(done, 20))) if (await page.evaluate(f, argument)) return;
-  throw new Error(`nothing came of ${f}`);
-}
-
-// The picture of the command line is on the canvas, with all of its samples.
-async function drawn(page, change) {
-  await until(page, () => {
-    const shown = document.body.dataset.drawn;
-    const words = location.hash.slice(1).split('&').map(decodeURIComponent);
-    return shown && shown === JSON.stringify(words);
-  }).catch(async (error) => {
-    throw new Error(`${change}: no picture of ${await page.evaluate(() => `${location.hash}; drawn is ${document.body.dataset.drawn}; ${document.getElementById('message').textContent}`)}`, { cause: error });
-  });
-}
-
 async function start(words, where) {
   const page = await openPage(origin + fragment(words), where);
   await drawn(page, 'start');
   return page;
-}
-
-// Waits until a gesture has come to an end (its last step is a timer's) and its picture is there.
-async function settled(page, label) {
-  await page.waitForTimeout(180);
-  await drawn(page, label);
 }
 
 async function drag(page, from, by, { shift = false, button = 'left' } = {}) {
@@ -266,17 +236,6 @@ async function controls() {
   await page.close();
 }
 
-async function pixels(page, id = 'canvas') {
-  const colors = await page.evaluate((name) => {
-    const canvas = document.getElementById(name), { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-    const bytes = data.filter((_, i) => i % 4 !== 3);
-    let text = '';
-    for (let i = 0; i < bytes.length; i += 8192) text += String.fromCharCode(...bytes.subarray(i, i + 8192));
-    return btoa(text);
-  }, id);
-  return createHash('sha256').update(Buffer.from(colors, 'base64')).digest('hex');
-}
-
 // --- the explanation of a point has the bytes of its pixel
 
 async function explained() {
@@ -446,6 +405,22 @@ async function files() {
   await until(page, () => !document.getElementById('message').hidden);
   ok((await page.locator('#message').textContent()) === "broken.obj:2: a face names vertex '2', but the file has 1", "a refused file has the program's sentence", await page.locator('#message').textContent());
   await page.close();
+}
+
+// On a machine with little memory, as the browser says, files and pictures are refused with the numbers.
+async function memory() {
+  const small = await browser.newContext();
+  await small.addInitScript(() => Object.defineProperty(Navigator.prototype, 'deviceMemory', { get: () => 1 }));
+  const page = await start(['sphere', '--size=96x96'], small), sentence = () => page.locator('#message').textContent(), large = join(models, 'large.stl');
+  writeFileSync(large, '');
+  truncateSync(large, 200e6);
+  await drop(page, large);
+  await until(page, () => !document.getElementById('message').hidden);
+  ok((await sentence()) === 'large.stl: the files have 200 MB together, more than the 134 MB that this page takes on this machine; the program lambent draws them', 'memory: files', await sentence());
+  await page.evaluate((hash) => (location.hash = hash), fragment(['sphere', '--size=12000x12000']));
+  await until(page, () => document.getElementById('message').textContent.includes('memory limit'));
+  ok((await sentence()) === 'the picture of 12000x12000 pixels needs 576.0 MB, more than the memory limit of 268.4 MB (--memory-limit)', 'memory: a picture', await sentence());
+  await small.close();
 }
 
 // --- the page in one file, and the served one without its server
@@ -638,7 +613,7 @@ async function sequencesOf(count) {
   await page.close();
 }
 
-const parts = { gestures, words, touch, controls, explained, arrows, compared, lights, sizes, files, oneFile, offline, twoParts, accessible, pseudo, random: () => sequencesOf(Number(sequences)) };
+const parts = { gestures, words, touch, controls, explained, arrows, compared, lights, sizes, files, memory, oneFile, offline, twoParts, accessible, pseudo, random: () => sequencesOf(Number(sequences)) };
 
 const only = process.env.LAMBENT_BROWSER?.split(',');
 for (const [name, part] of Object.entries(parts)) {
@@ -648,5 +623,4 @@ for (const [name, part] of Object.entries(parts)) {
   if (process.env.LAMBENT_TIMES) console.log(`# ${name}: ${Date.now() - began} ms`);
 }
 ok(!reports.length, 'the browser reports no error, and the content-security policy refuses nothing', reports.join('\n'));
-await browser.close();
-server.close();
+await close();

@@ -101,6 +101,20 @@ for (const words of EQUATIONS) {
 }
 ok(checked > 50, `equations: ${checked} were computed`);
 
+// The limit of memory: the program's sentence has its numbers, and the command line's own limit comes first.
+const refusal = (words) => {
+  try {
+    return lambent.draw(words) && '';
+  } catch (error) {
+    return error.message;
+  }
+};
+lambent.limitMemory(1.5e6);
+ok(refusal(['sphere', '--size=1024']) === 'the picture of 1024x1024 pixels needs 4.2 MB, more than the memory limit of 1.5 MB (--memory-limit)', `memory: ${refusal(['sphere', '--size=1024'])}`);
+ok(refusal(['sphere', '--size=1024', '--memory-limit=none']) === '', 'memory: --memory-limit none');
+lambent.limitMemory(0);
+ok(refusal(['sphere', '--size=1024']) === '', 'memory: without a limit');
+
 // The lights of a picture as words draw the same picture.
 for (const words of [['teapot'], ['torus-knot', '--rig=three-point', '--shadows'], ['cube', '--rig=headlight']]) {
   const all = [...words, '--size=64'], { lights } = lambent.lights(all), own = [...all.filter((word) => !word.startsWith('--rig')), ...lights.map((light) => `--light=${lightWords(light)}`)];

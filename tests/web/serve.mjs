@@ -6,8 +6,13 @@ import { extname, join, resolve } from 'node:path';
 
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
 
-export async function openBrowser(playwright, executablePath, built) {
+export function launch(playwright, executablePath) {
   const { chromium } = createRequire(join(resolve(playwright), 'x'))('playwright-core');
+  return chromium.launch({ executablePath, headless: true, args: ['--no-sandbox', '--disable-gpu', '--no-first-run', '--disable-background-networking',
+    '--disable-component-update', '--disable-sync'] });
+}
+
+export async function openBrowser(playwright, executablePath, built) {
   const server = createServer((request, answer) => {
     const name = new URL(request.url, 'http://x').pathname.replace(/^\/$/, '/index.html');
     try {
@@ -18,12 +23,11 @@ export async function openBrowser(playwright, executablePath, built) {
     }
   });
   await new Promise((done) => server.listen(0, '127.0.0.1', done));
-  const browser = await chromium.launch({ executablePath, headless: true, args: ['--no-sandbox', '--disable-gpu', '--no-first-run', '--disable-background-networking',
-    '--disable-component-update', '--disable-sync'] });
+  const browser = await launch(playwright, executablePath);
   const close = async () => {
     await browser.close();
     server.closeAllConnections();
     await new Promise((done) => server.close(done));
   };
-  return { browser, server, origin: `http://127.0.0.1:${server.address().port}/`, close };
+  return { browser, origin: `http://127.0.0.1:${server.address().port}/`, close };
 }

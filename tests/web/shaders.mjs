@@ -3,15 +3,12 @@
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { ok, until, watchedPage } from './driver.mjs';
 import { openBrowser } from './serve.mjs';
 
 const [, , playwright, executablePath, built, tasks, exercises] = process.argv;
-const ok = (good, label, why = '') => console.log(`${good ? 'ok' : 'not ok'} ${label}${good || why === '' ? '' : `\n# ${String(why).replaceAll('\n', '\n# ')}`}`);
 const { browser, origin, close } = await openBrowser(playwright, executablePath, built);
-const page = await browser.newPage();
-const reports = [];
-page.on('pageerror', (error) => reports.push(error.message));
-page.on('console', (message) => message.type() === 'error' && reports.push(message.text()));
+const reports = [], page = await watchedPage(browser, reports);
 await page.goto(origin);
 
 // --- the worker
@@ -69,10 +66,6 @@ ok(lists.exercises.length > 40, `${lists.exercises.length} exercises`);
 
 // --- the tab
 
-const until = async (there, f, argument) => {
-  for (const end = Date.now() + 60000; Date.now() < end; await new Promise((done) => setTimeout(done, 20))) if (await there.evaluate(f, argument)) return true;
-  throw new Error(`nothing came of ${f}`);
-};
 // Waits for a whole report; `verdict`: of what must come.
 const judged = (there, verdict) =>
   until(there, (wanted) => {
@@ -83,11 +76,7 @@ const judged = (there, verdict) =>
   });
 
 async function newPage() {
-  const there = await (await browser.newContext({ viewport: { width: 1200, height: 900 }, serviceWorkers: 'block' })).newPage();
-  there.on('pageerror', (error) => reports.push(error.message));
-  there.on('console', (message) => message.type() === 'error' && reports.push(message.text()));
-  await there.addInitScript(() => addEventListener('securitypolicyviolation', (event) => console.error(`policy: ${event.violatedDirective} ${event.blockedURI}`)));
-  return there;
+  return watchedPage(await browser.newContext({ viewport: { width: 1200, height: 900 }, serviceWorkers: 'block' }), reports);
 }
 
 async function open(address, prepare = null) {

@@ -26,6 +26,7 @@ static struct {
     int isa;
     struct environment_cache *environments; // of the files as they are
     lam_image image;                        // of the last picture
+    uint64_t memory_limit_bytes;            // 0: none
 } session;
 
 char *web_words(uint32_t bytes)
@@ -35,6 +36,8 @@ char *web_words(uint32_t bytes)
     session.bytes = session.text ? bytes : 0;
     return session.text;
 }
+
+void web_limit_memory(double bytes) { session.memory_limit_bytes = bytes > 0 ? (uint64_t)bytes : 0; }
 
 void web_forget(void)
 {
@@ -65,6 +68,8 @@ static bool start(int count, struct options *options, struct job *job, lam_error
                  operands ? words[1] : "");
     const char *name = operands == 1 ? words[0] : NULL;
     free(words);
+    if (!options->memory_limit_bytes)
+        options->memory_limit_bytes = session.memory_limit_bytes;
     if (!name || !job_check_options(options, error))
         return false;
     if (options->turntable || options->sweeps.count)

@@ -10,6 +10,9 @@
 // Memory for the words of the next call. NULL: there is none.
 char *web_words(uint32_t bytes) WEB_EXPORT(web_words);
 
+// What reading a model and drawing it may each use, where the words have no --memory-limit. 0, as at the start: as much as there is.
+void web_limit_memory(double bytes) WEB_EXPORT(web_limit_memory);
+
 // Draws the picture of a command line, MODEL [OPTION...]. The model stays loaded until another one is named, or an option
 // changes how it is read. 0, or the program's exit code. web_pixels: RGBA, four bytes for each pixel, rows from the top,
 // valid until the next call.

@@ -48,10 +48,11 @@ export function emit(name) {
   for (const listener of listeners.get(name) ?? []) listener();
 }
 
-// A sentence of the program, or of the page, that stays until the next picture. The files of the page lie in the root of a tree; a person knows them
-// by names without it, as the command line below the picture has them.
+// A sentence of the program, or of the page, that stays until the next picture. The page's files lie in the root of a tree; a person knows them by
+// names without its '/', as the command line below the picture has them.
 export function refuse(sentence) {
-  $('message').textContent = sentence.replace(/(^|[\s'"(])\/(?=[^\s/])/g, '$1');
+  const own = [state.model, ...view.files.keys()].filter((path) => path.startsWith('/'));
+  $('message').textContent = sentence.replace(/(^|[\s'"(])\//g, (found, before, at) => (own.some((path) => sentence.startsWith(path, at + before.length)) ? before : found));
   $('message').hidden = false;
 }
 

@@ -2,6 +2,7 @@
 import { call, emit, on, refuse, state, view } from './app.js';
 import { $ } from './dom.js';
 import { droppedFiles } from './dropped.js';
+import { FILES_BYTES } from './memory.js';
 import { START } from './state.js';
 import { text } from './strings.js';
 
@@ -27,14 +28,11 @@ function takeModel(name) {
   state.set([name, ...state.words.slice(1).filter((word) => !word.startsWith('--camera') && !own.includes(word))]);
 }
 
-// What a tab can hold: the files are there three times while they are read, in an address space of 4 GB.
-const MOST = 1.2e9;
-
 async function takeFiles(list) {
   const taken = new Map();
   const size = list.reduce((sum, [, file]) => sum + file.size, 0), large = list.reduce((a, b) => (a && a[1].size >= b[1].size ? a : b), null);
   const megabytes = (bytes) => Math.round(bytes / 1e6).toLocaleString('en');
-  if (size > MOST) return refuse(text('tooLarge', { file: large[0], size: megabytes(size), most: megabytes(MOST) }));
+  if (size > FILES_BYTES) return refuse(text('tooLarge', { file: large[0], size: megabytes(size), most: megabytes(FILES_BYTES) }));
   let read = 0;
   for (const [path, file] of list) {
     $('status').textContent = text('loading', { name: path, amount: `${Math.round((100 * read) / (size || 1))} %` });

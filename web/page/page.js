@@ -3,6 +3,7 @@
 import { localize } from './strings.js';
 import { call, emit, refuse, view } from './app.js';
 import { takeInsideFiles } from './inside.js';
+import { MODULE_BYTES } from './memory.js';
 import './drawing.js';
 import './files.js';
 import './quick.js';
@@ -13,7 +14,7 @@ import './bar.js';
 async function start() {
   localize(document);
   try {
-    Object.assign(view, await call('start', {}));
+    Object.assign(view, await call('start', { memory: MODULE_BYTES }));
     view.files = await takeInsideFiles();
     if (view.files.size) await call('files', { files: [...view.files] });
     emit('ready');

@@ -54,7 +54,7 @@ const STRINGS = {
   loadingModel: 'Loading {name}…',
   notLoaded: '{name} could not be loaded: the server answers {code}',
   notReached: '{name} could not be loaded: the server cannot be reached',
-  tooLarge: '{file}: the files have {size} MB together, more than the {most} MB that a tab can hold; the program lambent draws them',
+  tooLarge: '{file}: the files have {size} MB together, more than the {most} MB that this page takes on this machine; the program lambent draws them',
   viewChanged: 'Seen from {around} degrees around and {above} degrees above, {far} radii away.',
   saveScene: 'Save scene file',
   savedScene: 'saved {file}; it names the files of the model, and does not contain them',

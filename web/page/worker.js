@@ -2,18 +2,24 @@
 // part of the module, which the page fetches, and then asks again. Of drawings that wait, the page sends the newest alone.
 import { Lambent, LambentError, PartMissing } from './lambent.js';
 
-let lambent = null, first = null, broken = false;
+let lambent = null, first = null, broken = false, memory = 0;
+
+function use(made) {
+  lambent = made;
+  lambent.limitMemory(memory);
+}
 
 const calls = {
-  async start({ wasm }) {
+  async start({ wasm, memory: bytes }) {
+    memory = bytes;
     first = await WebAssembly.compile(wasm);
-    lambent = new Lambent(first);
+    use(new Lambent(first));
     return lambent.options();
   },
   // A Lambent that has asked for the second part is replaced; one that has not yet only gets it.
   async complete({ wasm }) {
     const second = await WebAssembly.compile(wasm);
-    if (broken) lambent = new Lambent(first, lambent.files, second);
+    if (broken) use(new Lambent(first, lambent.files, second));
     else lambent.complete(second);
     broken = false;
     return null;

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""machines.py: the library compiles for another machine: 64-bit Arm with NEON kernels. (tests/web.py builds for WebAssembly.)
+"""machines.py [--long]: the library compiles for another machine: 64-bit Arm with NEON kernels. (tests/web.py builds for WebAssembly.)
 
 Clang's cross compiler with Debian's C library looks at every source file of the folders that a picture needs, without the
-importers and codecs that depend on a packaged library: their types, intrinsics and warnings. No code is generated, which takes minutes; tests/emulated.py
-builds for other processors and draws there, in `make test-long`."""
+importers and codecs that depend on a packaged library: their types, intrinsics and warnings. Without --long only those that name a processor or
+include what does. No code is generated, which takes minutes; tests/emulated.py builds for other processors and draws there, in `make test-long`."""
 import glob
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -23,10 +24,15 @@ MACHINES = {
 LEFT_OUT = ["png_read.c", "jpeg.c", "jpeg_write.c"]  # libspng's and libjpeg's own headers are the host's
 
 
-def sources(machine):
+# What differs between processors: intrinsics, and the headers that have them or choose among them.
+PROCESSOR = re.compile(r'__ARM|__aarch64__|__x86_64__|immintrin|#include "(lanes|double_lanes|eights|cpu_features|float_state|byte_masks|isa|kernels)[.]h"')
+
+
+def sources(machine, long):
     files = []
     for room in ROOMS:
         files += sorted(glob.glob(os.path.join(ROOT, "src", room, "**", "*.c"), recursive=True))
+    files = [path for path in files if long or PROCESSOR.search(open(path).read())]
     skipped = LEFT_OUT + machine["without"] + ["kernels.c", "environment_kernels.c", "corner_fan_simd.c", "position_simd.c", "edge_rays.c"]
     for_each = [("src/cpu/kernels.c", kernel) for kernel in machine["kernels"]]
     for_each += [("src/environment/environment_kernels.c", ("scalar", 4))]
@@ -46,7 +52,7 @@ def main():
                 count += 1
                 print("ok %d - %s # SKIP the package %s is not installed" % (count, name, machine["package"]))
                 continue
-            for path, more in sources(machine):
+            for path, more in sources(machine, "--long" in sys.argv):
                 count += 1
                 done = subprocess.run(["clang"] + machine["flags"] + FLAGS + more + ["-I" + os.path.join(ROOT, i) for i in INCLUDES] +
                                       ["-I" + folder, path],

@@ -3,14 +3,19 @@
 counts. `run.py gl` runs only what needs OpenGL, and names the drivers that it ran on; `run.py long` what takes too long for every day:
 Meson's suite "long".
 
-The last line is `N passed, N failed`, counted from the test programs' own output. Everything is built in
-build-test/; a variant's log is build-test/VARIANT/meson-logs/testlog.txt.
+Everything is built in build-test/. The tests of all variants share one pool of as many processes as there are processors; those that
+Meson knows as not parallel run alone, at the end. What a test printed is in build-test/VARIANT/tests/NAME.txt, and what each took in
+build-test/tests.json. The last line is `N passed, N failed`, counted from the test programs' own output; before it stands the processor
+time of all tests, which says more than the time by the clock where other programs run too (CONTRIBUTING.md has its bound).
 """
+import concurrent.futures
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
+import threading
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -28,11 +33,11 @@ VARIANTS = [
 ]
 
 # Not part of the whole suite: the same tests alone. Lines that match "tell" are printed.
-GL = {"name": "gcc-release", "cc": "gcc", "options": ["--buildtype=release"], "tell": r"^gl .*OpenGL.*|.*farthest off.*|^the mask: .*",
+GL = {**VARIANTS[0], "env": {"LAMBENT_LONG": "1"}, "tell": r"^gl .*OpenGL.*|.*farthest off.*|^the mask: .*",
       "only": ["gl-context", "gl-classic", "gl-device", "gl-caller", "gl-state", "gl-parity", "glsl"]}
 
-# Not part of it either: tests/meson.build marks its tests with suite: 'long'.
-LONG = {"name": "gcc-release", "cc": "gcc", "options": ["--buildtype=release"], "suite": ["--suite", "long"]}
+# Not part of it either: tests/meson.build marks these tests with suite: 'long'.
+LONG = [{**variant, "long": True} for variant in VARIANTS[:2]]
 
 ENVIRONMENT = {
     # A sanitizer's report fails its test. Following the storage that OpenGL's libraries have for each
@@ -43,7 +48,11 @@ ENVIRONMENT = {
     "UBSAN_OPTIONS": "halt_on_error=1:print_stacktrace=1",
     "TSAN_OPTIONS": "halt_on_error=1",
     "CMOCKA_MESSAGE_OUTPUT": "TAP",
+    # glibc fills memory with it: what reads memory that nobody wrote finds the same in each run.
+    "MALLOC_PERTURB_": "165",
 }
+RUNNING = set() # tests, each the leader of its group of processes
+SLOWER = 4 # Meson's limits are of a machine that does nothing else
 
 
 def run(command, **more):
@@ -65,59 +74,113 @@ def build(variant):
     return "\n".join(warnings) if warnings else None
 
 
-def count(entry):
-    """Passed, failed and skipped checks of one test program, and the lines about failures."""
-    output = entry.get("stdout", "") + entry.get("stderr", "")
+def count(output, end):
+    """Passed, failed and skipped checks of one test program, and the lines about failures. `end` says how it ended, or is empty."""
     passed = len(re.findall(r"^ok \d+(?!.*# SKIP)", output, re.M))
     skipped = len(re.findall(r"^(?:not )?ok \d+.*# SKIP", output, re.M))  # CMocka says "not ok" there
     failures = re.findall(r"^not ok (?!.*# SKIP).*", output, re.M)
-    if entry["result"] not in ("OK", "SKIP", "EXPECTEDFAIL") and not failures:
-        failures = ["%s: ended with %s (%s)" % (entry["name"], entry["result"], entry.get("returncode"))]
+    if not failures and (end or passed + skipped == 0):
+        failures = [end or "ran no check"]
     return passed, len(failures), skipped, failures
 
 
-def test(variant):
-    folder = os.path.join(OUT, variant["name"])
-    log = os.path.join(folder, "meson-logs", "testlog.json")
-    if os.path.exists(log):
-        os.remove(log)
-    run(["meson", "test", "-C", folder, "--no-rebuild", "--num-processes", str(max(2, len(os.sched_getaffinity(0)))), "--timeout-multiplier", "4",
-         *variant.get("suite", [])] + variant.get("only", []),
-        env={**os.environ, **ENVIRONMENT})
-    totals = [0, 0, 0]
-    told = set()
-    if not os.path.exists(log):
-        print("  no test of this variant ran")
-        return [0, 1, 0]
-    for line in open(log):
-        entry = json.loads(line)
-        passed, failed, skipped, failures = count(entry)
-        if passed + failed + skipped == 0:
-            failed, failures = 1, ["%s: ran no check" % entry["name"]]
-        for i, n in enumerate((passed, failed, skipped)):
-            totals[i] += n
-        print("  %-28s %4d passed%s%s  %5.1f s" % (entry["name"], passed, ", %d failed" % failed if failed else "",
-                                                  ", %d skipped" % skipped if skipped else "", entry.get("duration", 0)))
-        if failed:
-            print("    " + "\n    ".join(failures[:20]))
-            print("    " + "\n    ".join((entry.get("stdout", "") + entry.get("stderr", "")).splitlines()[-40:]))
-        for line in (entry.get("stdout", "") + entry.get("stderr", "")).splitlines():
-            if re.match(variant.get("tell", "$."), line) and line not in told:
-                told.add(line)
-                print("    " + line)
-        sys.stdout.flush()
-    if "tell" in variant and not told:
-        print("  OpenGL was not found: `lambent devices` says why")
-    return totals
+def tests_of(variant):
+    """What Meson knows of the variant's tests that are to run."""
+    done = subprocess.run(["meson", "introspect", "--tests", os.path.join(OUT, variant["name"])], stdout=subprocess.PIPE, text=True, check=True)
+    found = [test for test in json.loads(done.stdout) if any(suite.endswith(":long") for suite in test["suite"]) == variant.get("long", False)]
+    names = [test["name"] for test in found]
+    for name in variant.get("only", []):
+        assert name in names, "%s has no test '%s'" % (variant["name"], name)
+    return [dict(test, variant=variant) for test in found if test["name"] in variant.get("only", names)]
+
+
+def end_of(status, late):
+    """How a test ended, if not well."""
+    if late:
+        return "ended after its time of %d s" % late
+    if os.WIFSIGNALED(status):
+        return "ended by signal %d (%s)" % (os.WTERMSIG(status), signal.Signals(os.WTERMSIG(status)).name)
+    return "ended with exit code %d" % os.WEXITSTATUS(status) if os.WEXITSTATUS(status) not in (0, 77) else ""
+
+
+def run_test(test):
+    """Runs a test in a group of processes of its own, which ends when its time is over."""
+    folder = os.path.join(OUT, test["variant"]["name"])
+    path = os.path.join(folder, "tests", test["name"] + ".txt")
+    limit, late = test["timeout"] * SLOWER, []
+    start = time.time()
+    with open(path, "wb") as log:
+        process = subprocess.Popen(test["cmd"], cwd=test["workdir"] or folder, env={**os.environ, **ENVIRONMENT, **test["variant"].get("env", {}), **test["env"]}, stdin=subprocess.DEVNULL,
+                                   stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
+
+        def stop():
+            late.append(limit)
+            os.killpg(process.pid, signal.SIGKILL)
+
+        timer = threading.Timer(limit, stop)
+        timer.start()
+        RUNNING.add(process.pid)
+        _, status, used = os.wait4(process.pid, 0) # with the processes that it waited for
+        RUNNING.discard(process.pid)
+        timer.cancel()
+        process.returncode = status
+    with open(path, errors="replace") as log:
+        output = log.read()
+    counts = count(output, end_of(status, late and late[0]))
+    return test, output, counts, used.ru_utime + used.ru_stime, time.time() - start
+
+
+def tell(test, output, counts, processor, told):
+    """Prints a test's row, and what it says of failures."""
+    passed, failed, skipped, failures = counts
+    print("  %-15s %-24s %4d passed%s%s  %5.1f s" % (test["variant"]["name"], test["name"], passed, ", %d failed" % failed if failed else "",
+                                                    ", %d skipped" % skipped if skipped else "", processor))
+    if failed:
+        print("    " + "\n    ".join(failures[:20]))
+        print("    " + "\n    ".join(output.splitlines()[-40:]))
+    for line in output.splitlines():
+        if re.match(test["variant"].get("tell", "$."), line) and line not in told:
+            told.add(line)
+            print("    " + line)
+    sys.stdout.flush()
+
+
+def run_tests(tests):
+    """Runs tests, those first whose row in tests/meson.build says so; returns (test, counts, processor time, time) of each, and what was told."""
+    done, told = [], set()
+    for folder in {os.path.join(OUT, test["variant"]["name"], "tests") for test in tests}:
+        os.makedirs(folder, exist_ok=True)
+    for processes, chosen in ((max(2, len(os.sched_getaffinity(0))), [test for test in tests if test["is_parallel"]]),
+                              (1, [test for test in tests if not test["is_parallel"]])):
+        with concurrent.futures.ThreadPoolExecutor(processes) as pool:
+            jobs = [pool.submit(run_test, test) for test in sorted(chosen, key=lambda test: -test["priority"])]
+            try:
+                for job in concurrent.futures.as_completed(jobs):
+                    test, output, counts, processor, wall = job.result()
+                    tell(test, output, counts, processor, told)
+                    done.append((test, counts, processor, wall))
+            except KeyboardInterrupt:
+                pool.shutdown(wait=False, cancel_futures=True)
+                for group in list(RUNNING):
+                    os.killpg(group, signal.SIGTERM)
+                sys.exit("run.py: interrupted")
+    return done, told
+
+
+def minutes(seconds):
+    return "%d min %d s" % divmod(round(seconds), 60) if seconds >= 60 else "%d s" % round(seconds)
 
 
 def main():
+    signal.signal(signal.SIGINT, signal.default_int_handler) # background jobs of a shell ignore it, and so would the tests
     names = sys.argv[1:]
-    totals = [0, 0, 0]
-    alone = {"gl": [GL], "long": [LONG]}.get(names[0] if len(names) == 1 else None)
-    for variant in alone or VARIANTS:
-        if names and not alone and variant["name"] not in names:
-            continue
+    variants = {"gl": [GL], "long": LONG}.get(names[0] if len(names) == 1 else None)
+    variants = variants or [variant for variant in VARIANTS if not names or variant["name"] in names]
+    known = [variant["name"] for variant in VARIANTS]
+    if any(name not in known for name in names) and names not in (["gl"], ["long"]):
+        sys.exit("run.py: expected gl, long, or some of: " + " ".join(known))
+    tests, totals = [], [0, 0, 0]
+    for variant in variants:
         start = time.time()
         print("%s: building" % variant["name"], flush=True)
         problem = build(variant)
@@ -125,13 +188,24 @@ def main():
             print(problem[-6000:])
             print("%s: a build that fails or warns counts as 1 failed" % variant["name"])
             totals[1] += 1  # a broken build and a warning both fail
-        built = time.time()
-        print("%s: built in %.0f s, testing" % (variant["name"], built - start), flush=True)
-        result = test(variant)
-        totals = [a + b for a, b in zip(totals, result)]
-        print("%s: %d passed, %d failed, %d skipped in %.0f s" % (variant["name"], *result, time.time() - built), flush=True)
+        print("%s: built in %.0f s" % (variant["name"], time.time() - start), flush=True)
+        tests += tests_of(variant)
+    start = time.time()
+    done, told = run_tests(tests)
+    wall = time.time() - start
+    with open(os.path.join(OUT, "tests.json"), "w") as out:
+        json.dump([{"variant": test["variant"]["name"], "test": test["name"], "passed": counts[0], "failed": counts[1], "skipped": counts[2],
+                    "processor_s": round(processor, 2), "wall_s": round(wall, 2)} for test, counts, processor, wall in done], out, indent=0)
+    for variant in variants:
+        rows = [(counts, processor) for test, counts, processor, _ in done if test["variant"] is variant]
+        sums = [sum(counts[i] for counts, _ in rows) for i in range(3)]
+        totals = [a + b for a, b in zip(totals, sums)]
+        print("%s: %d passed, %d failed, %d skipped, %.0f s of processor time" % (variant["name"], *sums, sum(processor for _, processor in rows)))
+    if GL in variants and not told:
+        print("OpenGL was not found: `lambent devices` says why")
     if totals[2]:
-        print("%d skipped: they say why in build-test/VARIANT/meson-logs/testlog.txt" % totals[2])
+        print("%d skipped: they say why in build-test/VARIANT/tests/" % totals[2])
+    print("tests took %.0f s of processor time, %s" % (sum(processor for _, _, processor, _ in done), minutes(wall)))
     print("%d passed, %d failed" % (totals[0], totals[1]))
     return 1 if totals[1] or not totals[0] else 0
 

@@ -2,13 +2,19 @@
 """style.py: checks that every C file, header and .inc file has the layout of one version of the formatter.
 
 The version is fixed because clang-format's layout changes from release to release; Debian 12 and 13 both have this one.
-The formatter never changes the text of a comment (.clang-format: ReflowComments)."""
+The formatter never changes the text of a comment (.clang-format: ReflowComments).
+
+The files whose layout was right are remembered in build-test/style.json by a hash of the formatter's version, .clang-format and their text:
+only changed ones are formatted again, which takes a tenth of a second each."""
+import hashlib
+import json
 import os
 import subprocess
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FORMATTER = "clang-format-19"
+REMEMBERED = os.path.join(ROOT, "build-test", "style.json")
 FOLDERS = ("include", "src", "tools", "scenes", "examples", "bench", "docs", "tests", "web")
 
 
@@ -17,24 +23,53 @@ def sources(folder):
         yield from (os.path.join(path, name) for name in sorted(names) if name.endswith((".c", ".h", ".inc")))
 
 
+def right_before(version):
+    """The hashes of files that were right, and a function that gives a file's hash."""
+    rules = hashlib.sha256(version + open(os.path.join(ROOT, ".clang-format"), "rb").read())
+
+    def hash_of(path):
+        both = rules.copy()
+        both.update(os.path.basename(path).encode() + b"\0" + open(path, "rb").read())
+        return both.hexdigest()
+
+    try:
+        with open(REMEMBERED) as file:
+            return set(json.load(file)), hash_of
+    except (OSError, ValueError):
+        return set(), hash_of
+
+
+def remember(right):
+    os.makedirs(os.path.dirname(REMEMBERED), exist_ok=True)
+    with open(REMEMBERED + ".%d" % os.getpid(), "w") as file:
+        json.dump(sorted(right), file, indent=0)
+    os.replace(file.name, REMEMBERED)
+
+
 def main():
     failed = 0
+    try:
+        version = subprocess.run([FORMATTER, "--version"], stdout=subprocess.PIPE, check=True).stdout
+    except FileNotFoundError:
+        print("1..1\nnot ok 1 - %s is not installed (packages.txt)" % FORMATTER)
+        return 1
+    before, hash_of = right_before(version)
+    right = set()
     print("1..%d" % len(FOLDERS))
     for number, folder in enumerate(FOLDERS, 1):
         files = list(sources(folder))
-        try:
-            done = subprocess.run([FORMATTER, "--dry-run", "--Werror", *files], stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT, text=True, cwd=ROOT)
-        except FileNotFoundError:
-            print("not ok %d - %s: %s is not installed (packages.txt)" % (number, folder, FORMATTER))
-            failed += 1
-            continue
+        hashes = {path: hash_of(path) for path in files}
+        changed = [path for path in files if hashes[path] not in before]
+        done = subprocess.run([FORMATTER, "--dry-run", "--Werror", *changed], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, cwd=ROOT)
         ok = done.returncode == 0 and files
-        print("%s %d - %s: %d files" % ("ok" if ok else "not ok", number, folder, len(files)))
+        right.update(hashes[path] for path in files if ok or path not in changed)
+        print("%s %d - %s: %d files, %d formatted now" % ("ok" if ok else "not ok", number, folder, len(files), len(changed)))
         if not ok:
             failed += 1
             print("\n".join("# " + line for line in done.stdout.splitlines()[:40]))
             print("# mend it with: %s -i FILE" % FORMATTER)
+    remember(right)
     return 1 if failed else 0
 
 

@@ -1,4 +1,5 @@
 # harness.py: shared by the tests of the program: runs it, reads its pictures, checks its reports.
+import itertools
 import json
 import os
 import pathlib
@@ -14,6 +15,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 OWN_MODELS = ROOT / "tests" / "models"
 SHARED_MODELS = pathlib.Path(os.environ.get("LAMBENT_MODELS", ROOT.parent / "shared" / "models"))
 PROGRAM = os.environ.get("LAMBENT", str(ROOT / "build" / "lambent"))
+
+
+def long(test):
+    """Marks a test of `make test-long`: tests/cli/run.py leaves it out elsewhere."""
+    test.long = True
+    return test
 
 
 def wait_until_caught(process, number):
@@ -137,9 +144,10 @@ def decode_png(width, height, color, packed):
         row = bytearray(raw[start + 1:start + 1 + width * step])
         unfilter(raw[start], row, before, step)
         before = row
-        for x in range(0, width * step, step):
-            rows += row[x:x + 1] * 3 if step < 3 else row[x:x + 3]
-            rows += row[x + step - 1:x + step] if step % 2 == 0 else b"\xff"
+        pixels = bytearray(b"\xff") * (width * 4)
+        for channel in range(4 if step % 2 == 0 else 3):  # gray is three channels; the last is alpha
+            pixels[channel::4] = row[step - 1 if channel == 3 else min(channel, (step - 1) // 2 * 2)::step]
+        rows += pixels
     return bytes(rows)
 
 
@@ -153,19 +161,24 @@ def write_png(width, height, pixels):
 
 
 def unfilter(kind, row, before, step):
+    if kind == 0:
+        return
+    if kind == 1:
+        for channel in range(step):
+            row[channel::step] = bytes(sum & 255 for sum in itertools.accumulate(row[channel::step]))
+        return
+    if kind == 2:
+        row[:] = bytes((a + b) & 255 for a, b in zip(row, before))
+        return
     for i in range(len(row)):
         left, up = row[i - step] if i >= step else 0, before[i]
-        corner = before[i - step] if i >= step else 0
-        if kind == 1:
-            row[i] = (row[i] + left) & 255
-        elif kind == 2:
-            row[i] = (row[i] + up) & 255
-        elif kind == 3:
-            row[i] = (row[i] + (left + up) // 2) & 255
-        elif kind == 4:
-            guess = left + up - corner
-            near = min((abs(guess - left), 0, left), (abs(guess - up), 1, up), (abs(guess - corner), 2, corner))
-            row[i] = (row[i] + near[2]) & 255
+        if kind == 3:
+            guess = (left + up) // 2
+        else:
+            corner = before[i - step] if i >= step else 0
+            from_left, from_up, from_corner = abs(up - corner), abs(left - corner), abs(left + up - 2 * corner)
+            guess = left if from_left <= from_up and from_left <= from_corner else up if from_up <= from_corner else corner
+        row[i] = (row[i] + guess) & 255
 
 
 SCHEMA = json.loads((ROOT / "docs" / "report.schema.json").read_text())

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # run.py: runs tests of the program.  run.py PROGRAM [unittest's arguments; without them all but `check` and `known`]
 # run.py --modules prints the names of those test files: tests/meson.build makes a test of each, which run beside one another.
+# run.py --long prints those that have tests marked with harness.long. These run where LAMBENT_LONG is set: to "only" they alone,
+# to "all" with the others. A test that is named runs in any case.
 import os
 import pathlib
 import sys
@@ -11,10 +13,21 @@ suite = sorted(path.stem for path in pathlib.Path(__file__).parent.glob("test_*.
 if sys.argv[1:] == ["--modules"]:
     print("\n".join(suite))
     sys.exit()
+if sys.argv[1:] == ["--long"]:
+    print("\n".join(name for name in suite if "    @long\n" in (pathlib.Path(__file__).parent / f"{name}.py").read_text()))
+    sys.exit()
 if len(sys.argv) < 2:
     sys.exit("run.py: the program to test is missing: run.py build/lambent")
 os.environ["LAMBENT"] = str(pathlib.Path(sys.argv.pop(1)).resolve())
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+
+
+class Loader(unittest.TestLoader):
+    """Leaves out the tests of `make test-long`, or all others."""
+
+    def getTestCaseNames(self, case):
+        names, wanted = super().getTestCaseNames(case), os.environ.get("LAMBENT_LONG", "")
+        return [name for name in names if wanted == "all" or hasattr(getattr(case, name), "long") == (wanted == "only")]
 
 
 class TapResult(unittest.TextTestResult):
@@ -50,5 +63,5 @@ class TapResult(unittest.TextTestResult):
 
 runner = unittest.TextTestRunner(resultclass=TapResult, verbosity=0)
 if len(sys.argv) > 1:
-    unittest.main(module=None, testRunner=runner)
-unittest.main(module=None, argv=[sys.argv[0], *suite], testRunner=runner)
+    unittest.main(module=None, testRunner=runner, testLoader=Loader())
+unittest.main(module=None, argv=[sys.argv[0], *suite], testRunner=runner, testLoader=Loader())

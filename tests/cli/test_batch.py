@@ -14,7 +14,7 @@ import time
 import unittest
 import urllib.parse
 
-from harness import PROGRAM, Case, read_png, write_png, wait_until_caught
+from harness import PROGRAM, Case, long, read_png, write_png, wait_until_caught
 
 KILLS = int(os.environ.get("LAMBENT_KILLS", "5"))  # of test_kill; `make test-long` has 50
 
@@ -488,6 +488,7 @@ class Kills(Batch):
     def test_kill(self):
         self.kill_test()
 
+    @long
     def test_kill_isolated(self):
         self.kill_test("--isolate")
 

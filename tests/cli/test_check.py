@@ -13,7 +13,7 @@ import tempfile
 import time
 import unittest
 
-from harness import ROOT, Case, PROGRAM, check_value, read_png
+from harness import ROOT, Case, PROGRAM, check_value, long, read_png
 
 sys.path.insert(0, str(ROOT / "tests" / "check"))
 from correct import SHADERS as CORRECT  # noqa: E402
@@ -135,11 +135,12 @@ class Right(CheckTest):
         text = " ".join(self.good("shader", "--help").stdout.decode().split())
         models = re.search(r"The reflection model: ([a-z, -]*) or auto\.", text)[1].split(", ")
         self.assertGreaterEqual(len(models), 8)
+        every = EVERY == 1
         forms = ("--glsl 120", "--glsl 300es --tone none", "--stage vertex", "--shading flat --color-mode raw", "--single-scattering --tone agx",
                  "--viewer infinite --tone reinhard", "--gl1", "--gl1 --products", "--glsl 120 --products --tone aces", "--shading gouraud --one-sided")
         files, printed = [], {}
         for i, model in enumerate(models):
-            for words in ("", "--products", *(forms[(2 * i + k) % len(forms)] for k in range(2))):
+            for words in ("", "--products", *(forms[(2 * i + k) % len(forms)] for k in range(2))) if every else (forms[i % len(forms)],):
                 name = f"p{len(printed):03}"
                 self.good("shader", "--reflection", model, *words.split(), "-q", "-o", name)
                 printed[name + ".frag"] = f"{model} {words}"
@@ -153,6 +154,7 @@ class Right(CheckTest):
                 self.assertEqual((reports[file].get("verdict"), reports[file].get("contract"), reports[file].get("notes")), ("passes", "lambent", []), reports[file])
                 self.assertGreaterEqual(len(reports[file]["scenes"]), 2)
 
+    @long
     def test_printed_model_with_a_mistake(self):
         """In a model of which no mistakes are known, the verdict is right and says so; in GGX they are found."""
         for model, old, new, ids in (("oren-nayar", "b.diffuse * ", "0.5 * b.diffuse * ", None), ("ggx --single-scattering", "b.diffuse = b.diffuse * (1.0 - (", "b.diffuse = b.diffuse * (1.0 - 0.0 * (", ["diffuse-not-reduced"])):
@@ -285,9 +287,7 @@ class Mistakes(CheckTest):
         folder = pathlib.Path(tempfile.mkdtemp(prefix="lambent-cli-"))
         cls.addClassCleanup(shutil.rmtree, folder, True)
         files = ([], [])  # pictures are cached by contract, so a contract's shaders stay together
-        for number, (name, _, edits) in enumerate(MISTAKES):
-            if number % EVERY:
-                continue
+        for number, (name, _, edits) in list(enumerate(MISTAKES))[::EVERY]:
             for ending, text in edited(name, edits).items():
                 (folder / f"{number:03}.{ending}").write_text(text)
                 files[name != "pittsburgh"].append(f"{number:03}.{ending}")
@@ -302,8 +302,6 @@ class Mistakes(CheckTest):
         cls.reports = {r["fragment"]: r for d in done for r in map(json.loads, d.stdout.splitlines())}
 
     def tell(self, number, expected):
-        if number % EVERY:
-            self.skipTest(f"only every {EVERY}th of the mistakes; make test-long has all")
         report = self.reports.get(f"{number:03}.frag")
         self.assertTrue(report, self.said)
         check_value(self, report, SCHEMA, "check")
@@ -315,7 +313,7 @@ class Mistakes(CheckTest):
             self.assertNotIn("{", mistake["write"].replace("{ ", ""))
 
 
-for number, row in enumerate(MISTAKES):
+for number, row in list(enumerate(MISTAKES))[::EVERY]:
     def method(self, number=number, expected=row[1]):
         self.tell(number, expected)
     setattr(Mistakes, "test_%03d_%s_%s" % (number, row[0], row[1].replace(" ", "_and_")), method)
@@ -464,6 +462,7 @@ class Unruly(CheckTest):
                                 "--scenes", "highlight", code=6)
         self.assertIn("did you mean 'shininess'", " ".join(self.notes(report, "unknown")))
 
+    @long
     @searches
     def test_none_known(self):
         report = self.report_of(*self.shader("oregon", [("frag", "vec4(color, 1.0)", "vec4(color.bgr * gl_FragCoord.y / 60.0, 1.0)")]),
@@ -557,6 +556,7 @@ class Unruly(CheckTest):
         self.assertEqual(asker.wait(), -signal.SIGINT)
         self.assertEqual(self.processes(), [])
 
+    @long
     def test_endless_and_left(self):
         """Mesa 22 leaves such a loop by itself, and its processor time gives it away; Mesa 25 goes on, and the limit stops it."""
         report = self.report_of(*self.shader("pittsburgh", [("frag", "vec3 n = normalize(N);", self.LOOP)]), "--scenes", "all",
@@ -727,9 +727,9 @@ class Contracts(CheckTest):
         report = self.report_of(*self.shader("learnopengl", edits + [("frag", "diffuse > 0.0 ?", "true ?")]), code=6)
         self.assertEqual([m["id"] for m in report["mistakes"]], ["no-gate"])
         # Numbers that come nearer than those of the exercise explain nothing.
-        for old, new, expected in (("reflect(-l, n)", "reflect(l, n)", ["reflect-sign"]), ("max(dot(n, l), 0.0)", "dot(n, l) * 0.5 + 0.5", ["half-lambert", "no-gate"]),
+        for old, new, expected in [("reflect(-l, n)", "reflect(l, n)", ["reflect-sign"]), ("max(dot(n, l), 0.0)", "dot(n, l) * 0.5 + 0.5", ["half-lambert", "no-gate"]),
                                    ("vec3 v = normalize(viewPos - FragPos)", "vec3 v = viewPos - FragPos", ["half-of-raw-eye"]),
-                                   ("max(dot(n, l), 0.0)", "pow(max(dot(n, l), 0.0), 2.0)", ["n.l-squared"])):
+                                   ("max(dot(n, l), 0.0)", "pow(max(dot(n, l), 0.0), 2.0)", ["n.l-squared"])][::EVERY]:
             for names in (edits, [("frag", "    float ambientStrength = 0.1;\n    float specularStrength = 0.5;", "    float ambientStrength = 0.1, specularStrength = 0.5;")]):
                 report = self.report_of(*self.shader("learnopengl", [*names, ("frag", old, new)]), code=6)
                 found = [m["id"] for m in report["mistakes"]]

@@ -6,7 +6,7 @@ import re
 import shlex
 import xml.etree.ElementTree as xml
 
-from harness import ROOT, Case, read_png
+from harness import ROOT, Case, long, read_png
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -238,6 +238,7 @@ class Compare(Case):
         bright = {i // 96 for i in range(96 * 80) if pot[4 * i + 3] and 225 < pot[4 * i] < 255}
         self.assertGreater(len(bright), 25)
 
+    @long
     def test_pages_show_their_subject(self):
         """The sheets of the pages: every picture differs from the one before it, but those that are equal by nature."""
         equal = {"sphere.png": {0}, "frames.png": {2}, "normals.png": {6, 7}, "sides.png": {0}}

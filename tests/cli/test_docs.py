@@ -8,7 +8,7 @@ import subprocess
 import sys
 import unittest
 
-from harness import PROGRAM, ROOT, Case, pixel, read_png
+from harness import PROGRAM, ROOT, Case, long, pixel, read_png
 
 
 def options_of(text):
@@ -146,6 +146,7 @@ class Docs(Case):
         kept = (ROOT / "docs" / "command-line.md").read_text()
         self.assertEqual(kept, made, "refresh it: lambent generate markdown > docs/command-line.md")
 
+    @long
     def test_readme_commands(self):
         """Every command of the README's code blocks, in order, works as it stands in a tree that has been built."""
         (self.folder / "build").mkdir()
@@ -175,9 +176,9 @@ class Docs(Case):
         self.assertEqual(os.listdir(self.folder / "out" / "catalogue"), ["spot.png"])
 
     def test_commands_of_the_pages(self):
-        """Every command in a code block of docs/ is understood: options, values and commands. Most names of files are made up."""
+        """Every command in a code block of the README and of docs/ is understood: options, values and commands. Most names of files are made up."""
         tried = 0
-        for page in sorted((ROOT / "docs").rglob("*.md")):
+        for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
             for line in re.findall(r"(?m)^    (lambent .*)$", page.read_text()):
                 words = shlex.split(re.split(r" [<>|] |\s#\s", line)[0])[1:]
                 if "[OPTIONS]" in words or "COMMAND" in words:

@@ -13,7 +13,7 @@ import threading
 import time
 import unittest
 
-from harness import OWN_MODELS, PROGRAM, ROOT, Case, read_png, write_png, wait_until_caught
+from harness import OWN_MODELS, PROGRAM, ROOT, Case, long, read_png, write_png, wait_until_caught
 from test_batch import xxh64
 
 JOBS = int(os.environ.get("LAMBENT_JOBS", "300"))  # of Many; `make test-long` has 10,000
@@ -620,6 +620,7 @@ class Many(Jobs):
     def test_many(self):
         self.run_many()
 
+    @long
     def test_many_isolated(self):
         self.run_many("--isolate")
 

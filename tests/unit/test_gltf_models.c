@@ -1,6 +1,7 @@
 // test_gltf_models.c: every glTF file of the shared models loads, or is refused for the right reason; triangles and sizes
 // are those of the models' own tables.
 #include "loading.h"
+#include "share.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -33,6 +34,7 @@ struct row {
 };
 static struct row rows[400];
 static int row_count, checked_rows, files, refused;
+static size_t seen; // a third of them are read, but all by long-gltf-models
 static char root[1000];
 
 static void read_rows(void)
@@ -121,7 +123,7 @@ static void walk(const char *folder)
             continue;
         if (S_ISDIR(about.st_mode))
             walk(path);
-        else if (ends_with(path, ".gltf") || ends_with(path, ".glb"))
+        else if ((ends_with(path, ".gltf") || ends_with(path, ".glb")) && is_taken(seen++, 3))
             check_file(path);
     }
     if (count >= 0)
@@ -145,7 +147,7 @@ static void test_shared_models(void **state)
         walk(path);
     }
     print_message("%d files, %d of them refused; %d with a row in the README\n", files, refused, checked_rows);
-    assert_true(files >= 300 && checked_rows >= 100);
+    assert_true(seen >= 300 && checked_rows >= (is_long() ? 100 : 30));
 }
 
 int main(void)

@@ -20,6 +20,7 @@ import measure
 import paths
 import report
 import steps
+import three_rows
 import whole
 
 NO_TARGET = "none"
@@ -107,6 +108,8 @@ def row_list(isas, gl_device, display, full):
         result["reached"] = result["over_ms"]["median"] <= 2 and not result["opengl_or_gui_libraries"]
         return result
     yield "start", "≤ 2 ms over /bin/true, no OpenGL or GUI library", judge_start
+    for name, target, run in three_rows.rows(isas, gl_device):
+        yield ratio_row(name, target, run)
 
 
 def geometric_mean(rows, isas):
@@ -154,7 +157,7 @@ def into_newest(part):
     if result["version"] != part["version"] or result["machine"]["processor"] != part["machine"]["processor"]:
         sys.exit("run.py: %s is of another version or machine" % path)
     rows = {row["name"]: row for row in part["rows"]}
-    result["rows"] = [rows.get(row["name"], row) for row in result["rows"]]
+    result["rows"] = sorted({**{row["name"]: row for row in result["rows"]}, **rows}.values(), key=lambda row: row["number"])
     result["frames"] = geometric_mean(result["rows"], result["isas"])
     result.update({key: part[key] for key in ("limits", "distance", "growth") if part.get(key)})
     save(result, path)

@@ -93,18 +93,18 @@ def programs():
     return "export const PROGRAMS = %s;\n" % json.dumps(rows)
 
 
-def packages(folder):
-    """The folder of node's modules with what web/package-lock.json names, installed in FOLDER/npm where it is not yet; None: npm is missing or cannot get
-    it."""
+def packages(folder, source=HERE):
+    """The folder of node's modules with what SOURCE/package-lock.json names, installed in FOLDER/npm where it is not yet; None: npm is missing or cannot
+    get it."""
     place = os.path.join(folder, "npm")
-    lock = open(os.path.join(HERE, "package-lock.json")).read()
+    lock = open(os.path.join(source, "package-lock.json")).read()
     stamp = os.path.join(place, "installed")
     if not os.path.exists(stamp) or open(stamp).read() != lock:
         if not shutil.which("npm"):
             return None
         os.makedirs(place, exist_ok=True)
         for name in ("package.json", "package-lock.json"):
-            shutil.copy(os.path.join(HERE, name), place)
+            shutil.copy(os.path.join(source, name), place)
         done = subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--fetch-retries=1"], cwd=place, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT)
         if done.returncode:

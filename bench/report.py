@@ -92,6 +92,8 @@ def beside(row):
     if "peers_tried_ms" in row:
         extra.append("tried: " + ", ".join("%s %s" % (name, ms(t)) for name, t in row["peers_tried_ms"].items()))
     extra += ["failed: " + problem for problem in row.get("peers_failed", [])]
+    if "apart_load" in row:
+        extra.append("measured apart from the others, at a load of %.1f" % row["apart_load"])
     return "; ".join([text] + extra)
 
 

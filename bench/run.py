@@ -156,7 +156,7 @@ def into_newest(part):
         result = json.load(file)
     if result["version"] != part["version"] or result["machine"]["processor"] != part["machine"]["processor"]:
         sys.exit("run.py: %s is of another version or machine" % path)
-    rows = {row["name"]: row for row in part["rows"]}
+    rows = {row["name"]: {**row, "apart_load": round(part["machine"]["load_before"], 1)} for row in part["rows"]}
     result["rows"] = sorted({**{row["name"]: row for row in result["rows"]}, **rows}.values(), key=lambda row: row["number"])
     result["frames"] = geometric_mean(result["rows"], result["isas"])
     result.update({key: part[key] for key in ("limits", "distance", "growth") if part.get(key)})

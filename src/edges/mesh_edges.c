@@ -3,37 +3,9 @@
 #include "mesh_edges.h"
 
 #include "corner_weld.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "edge_keys.h"
 
 enum { CHECK_INTERVAL = 1 << 14 }; // ends between two checks of the call
-
-// An edge at the end at hand: the other end in the upper half; then the corner that it leads from, in whichever direction.
-static uint64_t edge_key(uint32_t other_end, uint32_t corner) { return (uint64_t)other_end << 32 | corner; }
-
-static int by_value(const void *a, const void *b)
-{
-    uint64_t x, y;
-    memcpy(&x, a, sizeof x);
-    memcpy(&y, b, sizeof y);
-    return (x > y) - (x < y);
-}
-
-static void sort_keys(uint64_t *keys, uint32_t count)
-{
-    if (count > 24) {
-        qsort(keys, count, sizeof *keys, by_value);
-        return;
-    }
-    for (uint32_t i = 1; i < count; i++) {
-        uint64_t key = keys[i];
-        uint32_t at = i;
-        for (; at > 0 && keys[at - 1] > key; at--)
-            keys[at] = keys[at - 1];
-        keys[at] = key;
-    }
-}
 
 static bool is_inner(const lam_mesh *mesh, uint32_t corner)
 {
@@ -98,7 +70,7 @@ static uint32_t list_edges(const lam_mesh *mesh, struct mesh_edge *edges, struct
             call_error(call, error);
             return 0;
         }
-        sort_keys(keys + from, to - from);
+        sort_edge_keys(keys + from, to - from);
         for (uint32_t next; from < to; from = next) {
             for (next = from + 1; next < to && keys[next] >> 32 == keys[from] >> 32; next++)
                 ;

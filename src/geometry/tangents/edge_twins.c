@@ -2,36 +2,11 @@
 // lead to higher ones, in both directions, sorted by the other end.
 #include "edge_twins.h"
 
-#include <stdlib.h>
+#include "edge_keys.h"
+
 #include <string.h>
 
 enum { CHECK_INTERVAL = 1 << 13 }; // welded numbers between two checks of the call
-
-// An edge of the number at hand: the other end in the upper half, the edge in the lower.
-static uint64_t edge_key(uint32_t other_end, uint32_t edge) { return (uint64_t)other_end << 32 | edge; }
-
-static int by_value(const void *a, const void *b)
-{
-    uint64_t x, y;
-    memcpy(&x, a, sizeof x);
-    memcpy(&y, b, sizeof y);
-    return (x > y) - (x < y);
-}
-
-static void sort_keys(uint64_t *keys, uint32_t count)
-{
-    if (count > 16) {
-        qsort(keys, count, sizeof *keys, by_value);
-        return;
-    }
-    for (uint32_t i = 1; i < count; i++) {
-        uint64_t key = keys[i];
-        uint32_t at = i;
-        for (; at > 0 && keys[at - 1] > key; at--)
-            keys[at] = keys[at - 1];
-        keys[at] = key;
-    }
-}
 
 // Joins the edges of both directions that have the same other end, in order.
 static void join(uint32_t *twin, const uint64_t *out, uint32_t out_count, const uint64_t *in, uint32_t in_count)
@@ -94,8 +69,8 @@ bool edge_twins(struct edge_twins *edges, const struct corner_weld *weld, uint32
             if (from > v)
                 in[in_count++] = edge_key(from, prev);
         }
-        sort_keys(out, out_count);
-        sort_keys(in, in_count);
+        sort_edge_keys(out, out_count);
+        sort_edge_keys(in, in_count);
         join(edges->twin, out, out_count, in, in_count);
     }
     return true;

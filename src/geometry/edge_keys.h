@@ -1,0 +1,36 @@
+// edge_keys.h: the edges that lead from one point to higher ones, as numbers whose order brings equal edges together.
+#ifndef EDGE_KEYS_H
+#define EDGE_KEYS_H
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+// The other end in the upper half; in the lower one a number of the caller's, such as the corner that the edge leads from.
+static inline uint64_t edge_key(uint32_t other_end, uint32_t number) { return (uint64_t)other_end << 32 | number; }
+
+static inline int compare_edge_keys(const void *a, const void *b)
+{
+    uint64_t x, y;
+    memcpy(&x, a, sizeof x);
+    memcpy(&y, b, sizeof y);
+    return (x > y) - (x < y);
+}
+
+// Most points have about six edges: those are inserted in order, which takes less than qsort.
+static inline void sort_edge_keys(uint64_t *keys, uint32_t count)
+{
+    if (count > 24) {
+        qsort(keys, count, sizeof *keys, compare_edge_keys);
+        return;
+    }
+    for (uint32_t i = 1; i < count; i++) {
+        uint64_t key = keys[i];
+        uint32_t at = i;
+        for (; at > 0 && keys[at - 1] > key; at--)
+            keys[at] = keys[at - 1];
+        keys[at] = key;
+    }
+}
+
+#endif

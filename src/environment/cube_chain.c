@@ -3,9 +3,8 @@
 
 #include "call_control.h"
 #include "fail.h"
+#include "pages.h"
 #include "pool.h"
-
-#include <stdlib.h>
 
 enum {
     SMALLEST = 4,        // texels on a side of the last copy
@@ -85,7 +84,7 @@ bool cube_chain_make(struct cube_chain *chain, const struct lam_environment *cub
         chain->cube[chain->count++].size = size;
         bytes += cube_bytes(size);
     }
-    chain->texels = malloc(bytes);
+    chain->texels = pages_get(bytes, &chain->held);
     if (!chain->texels)
         return fail_memory(error, bytes);
     float *at = chain->texels;
@@ -106,7 +105,7 @@ bool cube_chain_make(struct cube_chain *chain, const struct lam_environment *cub
 
 void cube_chain_free(struct cube_chain *chain)
 {
-    free(chain->texels);
+    pages_free(chain->texels, chain->held);
     chain->texels = NULL;
 }
 

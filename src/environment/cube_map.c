@@ -3,6 +3,7 @@
 #include "fail.h"
 #include "float_state.h"
 #include "linear.h"
+#include "pages.h"
 
 #define LANES 1
 #include "cube_lookup.h"
@@ -12,14 +13,14 @@
 struct lam_environment *cube_make(int size, lam_error *error)
 {
     struct lam_environment *cube = malloc(sizeof *cube);
-    size_t bytes = cube_bytes(size) + CUBE_TEXELS_AFTER;
-    float *texels = cube ? malloc(bytes) : NULL;
+    size_t bytes = cube_bytes(size) + CUBE_TEXELS_AFTER, held;
+    float *texels = cube ? pages_get(bytes, &held) : NULL;
     if (!texels) {
         free(cube);
         fail_memory(error, bytes);
         return NULL;
     }
-    *cube = (struct lam_environment){.references = 1, .size = size, .texels = texels};
+    *cube = (struct lam_environment){.references = 1, .size = size, .texels = texels, .held = held};
     return cube;
 }
 
@@ -36,7 +37,7 @@ void lam_environment_free(lam_environment *cube)
     if (!cube || __atomic_sub_fetch(&cube->references, 1, __ATOMIC_ACQ_REL) > 0)
         return;
     environment_light_free(cube->light);
-    free(cube->texels);
+    pages_free(cube->texels, cube->held);
     free(cube);
 }
 

@@ -15,6 +15,7 @@ struct lam_environment {
     int references;                  // accessed atomically
     int size;                        // texels on a face's side, border not counted
     float *texels;                   // 6 faces of (size + 2)² times r, g, b; row t = −1 first
+    size_t held;                     // of the pages of its own texels
     struct environment_light *light; // for physical materials, made when first asked for (environment_light.h)
 };
 

@@ -8,6 +8,7 @@
 #include "fail.h"
 #include "linear.h"
 #include "lock.h"
+#include "pages.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -192,10 +193,12 @@ const struct environment_light *environment_light_without_lamp(const struct lam_
                        (size_t)environment_light_rows() * ENVIRONMENT_LIGHT_WIDTH * 3 * sizeof(float) +
                        CUBE_TEXELS_AFTER;
         rest = calloc(1, sizeof *rest);
-        float *memory = rest ? calloc(1, bytes) : NULL;
+        size_t held;
+        float *memory = rest ? pages_get_sparse(bytes, &held) : NULL;
         if (memory) {
             // Not the whole struct: another thread may be adding levels to it, and to its `made`.
             memcpy(rest->level, whole->level, sizeof rest->level);
+            rest->held = held;
             rest->texels = memory;
             rest->irradiance = whole->irradiance;
             rest->irradiance.texels = memory + texels;

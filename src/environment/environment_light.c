@@ -12,6 +12,7 @@
 #include "float_state.h"
 #include "linear.h"
 #include "lock.h"
+#include "pages.h"
 #include "pool.h"
 
 #include <stdlib.h>
@@ -215,7 +216,7 @@ static bool fill(struct environment_light *light, unsigned parts, struct pool *p
 void environment_light_free(struct environment_light *light)
 {
     if (light) {
-        free(light->texels);
+        pages_free(light->texels, light->held);
         free(light->lamp);
         environment_light_free(light->without_lamp);
     }
@@ -241,7 +242,7 @@ static struct environment_light *start(const struct lam_environment *cube, lam_e
 {
     struct environment_light *light = calloc(1, sizeof *light);
     size_t bytes = (size_t)environment_light_rows() * ENVIRONMENT_LIGHT_WIDTH * 3 * sizeof(float) + CUBE_TEXELS_AFTER;
-    float *at = light ? calloc(1, bytes) : NULL;
+    float *at = light ? pages_get(bytes, &light->held) : NULL;
     if (!at) {
         free(light);
         fail_memory(error, bytes);

@@ -21,6 +21,7 @@ struct environment_light {
     struct lam_environment level[ENVIRONMENT_LEVELS]; // [0] shares the texels of the environment
     struct lam_environment irradiance;
     float *texels; // of all but level[0], in whole rows of ENVIRONMENT_LIGHT_WIDTH texels
+    size_t held;   // of their pages
     unsigned made; // bit i: level i; bit ENVIRONMENT_LEVELS: the irradiance. Accessed atomically
     // environment_lamp.h; NULL until they are asked for. The latter has the levels of this one.
     struct environment_lamp *lamp;
@@ -56,6 +57,7 @@ struct cube_chain {
     struct lam_environment cube[CUBE_CHAIN_MAX];
     int count;
     float *texels; // of all but cube[0]
+    size_t held;   // of their pages
 };
 bool cube_chain_make(struct cube_chain *chain, const struct lam_environment *cube, struct pool *pool,
                      struct call_control *call, lam_error *error);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""run.py: the whole bench: `make bench` (32 named rows, under ten minutes) or `BENCH=full make bench` (the whole product).
+"""run.py: the whole bench: `make bench` (the named rows, a quarter of an hour) or `BENCH=full make bench` (the whole product).
 
 Writes bench/results/DATE.json, the tables and plots of docs/speed.md (report.py), and pictures to build-bench/pictures; the whole
 product DATE-full.json, row after row, and no page. `run.py WORD…` measures only the rows whose names have one of the words

@@ -1,11 +1,12 @@
 // bar.js: undo and redo, the command line with its copies, saving, and the address.
 import { call, on, refuse, state, view } from './app.js';
-import { $ } from './dom.js';
-import { command, fromFragment, toFragment } from './state.js';
+import { $, ours } from './dom.js';
+import { command, commandWords, fromFragment, toFragment } from './state.js';
 import { text } from './strings.js';
 
 on('words', () => {
-  $('command').textContent = command(state.words);
+  // A line ends between words where it can: each is an element.
+  $('command').replaceChildren(...commandWords(state.words).flatMap((word) => [ours('span', word), ' ']).slice(0, -1));
   $('undo').disabled = !state.canUndo;
   $('redo').disabled = !state.canRedo;
   if (!view.moving) history.replaceState(null, '', toFragment(state.words));

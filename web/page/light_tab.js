@@ -90,7 +90,7 @@ highlight.append(exponent, plotted);
 function showHighlight() {
   const triangle = view.explained?.triangles[0], { lights } = triangle?.points[0] ?? { lights: [] };
   const light = lights.reduce((best, one) => (one.S > (best?.S ?? -1) ? one : best), null), [value] = state.values('shininess');
-  const alpha = Number(value ?? triangle?.material.shininess ?? 32);
+  const alpha = Number(value ?? triangle?.material.shininess ?? /shininess=([\d.]+)/.exec(state.values('material').at(-1))?.[1] ?? 32);
   if (!view.moving) exponent.querySelector('input').value = Math.log10(Math.max(1, alpha));
   exponent.querySelector('output').textContent = String(alpha);
   if (light) curvesOf({ words: state.words, light: lights.indexOf(light), explained: light, triangle, onlyHighlight: true }).then((made) => plotted.replaceChildren(made), () => {});

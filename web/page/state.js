@@ -83,13 +83,15 @@ export function quoted(word) {
   return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 }
 
-// The command that draws the same picture; files are named as they lie in the folder that was opened.
-export function command(words) {
+// The words of the command that draws the same picture, each as a shell reads it; files are named as they lie in the folder that was opened.
+export function commandWords(words) {
   const model = words[0].replace(/^\//, '');
   // A file that has the name of a shape or a command, or begins as an option does, is named by its folder.
   const named = model !== words[0] && (!/[./]/.test(model) || model.startsWith('-')) ? './' + model : model;
-  return ['lambent', named, ...words.slice(1)].map(quoted).join(' ');
+  return ['lambent', named, ...words.slice(1)].map(quoted);
 }
+
+export const command = (words) => commandWords(words).join(' ');
 
 // The state in the fragment of an address, and back. Null: there is none.
 export function toFragment(words) {

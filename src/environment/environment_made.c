@@ -64,8 +64,10 @@ static void sky_row(int face, int t, float *texels)
     }
 }
 
-// A dark room, a cube about the origin: a broad lamp at the ceiling, a tall strip at the left, a wide dim one at the
-// right, a small one behind, a floor that returns some of it. A face of the cube map is a wall of the room.
+// A dark room, a cube about the origin: a broad lamp at the ceiling, a tall strip at the left, wide dim ones at the right
+// and in front, a small one behind, a floor that returns some of it. A face of the cube map is a wall of the room. The
+// ceiling is as bright as lets a level white surface (irradiance / π of 0.85) come out darker than white paper, of
+// 230 in 255 after the tone curve. The lamp in front keeps metals that face the viewer from mirroring a dark wall alone.
 struct lamp {
     double intensity;
     struct rgb color;
@@ -74,9 +76,10 @@ struct lamp {
 };
 #define WHITE {{1.00, 0.97, 0.92}}
 #define COOL  {{0.82, 0.90, 1.00}}
-static const struct lamp lamps[LAM_FACE_COUNT] = {[LAM_FACE_PY] = {5.0, WHITE, 0, 0.15, 0.55, 0.4},
-                                                  [LAM_FACE_NX] = {3.5, WHITE, 0.25, 0.1, 0.2, 0.65},
+static const struct lamp lamps[LAM_FACE_COUNT] = {[LAM_FACE_PY] = {2.8, WHITE, 0, 0.15, 0.55, 0.4},
+                                                  [LAM_FACE_NX] = {3.6, WHITE, 0.25, 0.1, 0.2, 0.65},
                                                   [LAM_FACE_PX] = {1.2, COOL, 0.1, 0.15, 0.6, 0.45},
+                                                  [LAM_FACE_PZ] = {0.2, WHITE, 0, 0.05, 0.8, 0.7},
                                                   [LAM_FACE_NZ] = {2.0, COOL, 0.45, 0.35, 0.15, 0.3}};
 
 // 1 within half a width of 0, soft at its edges.

@@ -354,6 +354,17 @@ class Materials(Pictures):
         self.bad(1, "materials", "gold", says="unexpected argument", leaves={"sheet.png"})
 
 
+class PhysicalStudio(Case):
+    def test_white_on_white_paper(self):
+        """A white physical cube under the built-in studio: its level top is darker than white paper, and its three sides differ."""
+        self.given.add("white.png")
+        self.good("cube", "-s", "128", "--material", "#ffffff,metallic=0,roughness=0.9", "--environment", "studio", "-b", "white", "-q", "-o", "white.png")
+        picture = read_png((self.folder / "white.png").read_bytes())
+        top, front, right = (sum(pixel(picture, x, y)[:3]) / 3 for x, y in ((64, 18), (45, 75), (105, 65)))
+        self.assertTrue(215 <= top <= 235, top)
+        self.assertTrue(top - front >= 40 and abs(front - right) >= 6 and min(front, right) >= 110, (top, front, right))
+
+
 class Methods(Pictures):
     def test_flat_is_gouraud_with_facet_normals_only_under_directional_diffuse_light(self):
         coarse = (self.folder / "coarse.obj")

@@ -153,7 +153,7 @@ class Page(Case):
     def test_what_is_refused(self):
         nothing = {"LAMBENT_PAGE": ""}
         if not os.path.exists(ROOT / "build-web" / "lambent.html"):
-            self.bad(3, "cube.obj", "-o", "out.html", env=nothing, says=["no page for browsers", "make web"])
+            self.bad(3, "cube.obj", "-o", "out.html", env=nothing, says=["lambent.html is not installed; build it with `make web`"])
         self.bad(2, "cube.obj", "-o", "out.html", env={"LAMBENT_PAGE": "/nowhere/lambent.html"}, says="/nowhere/lambent.html: cannot read")
         self.bad(2, "missing.obj", "-o", "out.html", env=self.env, says="missing.obj")
         self.bad(1, "-", "-o", "out.html", env=self.env, says="needs a model with a name", stdin=b"solid\nendsolid\n")

@@ -36,8 +36,8 @@ class Shape(Case):
         self.bad(1, "shape", "torsu", says="torsu")
         self.bad(1, "shape", "torus", "--parametric", RIPPLE, says="one of them")
         self.bad(1, "shape", "torus", "--u", "0..1", says="belongs to --parametric")
-        self.bad(1, "shape", "--parametric", "x=cos(u;y=v;z=0", says="column 8: found ';'")
-        self.bad(1, "shape", "--parametric", RIPPLE, "--u", "0..w", says="range of u, column 4: found 'w'")
+        self.bad(1, "shape", "--parametric", "x=cos(u;y=v;z=0", says="lambent: option '--parametric': column 8: found ';'")
+        self.bad(1, "shape", "--parametric", RIPPLE, "--u", "0..w", says="lambent: option '--u': column 4: found 'w'")
         self.bad(1, "shape", "torus", "-o", "t.obj", "-s", "64", says="changes nothing in a model file")
         self.bad(5, "shape", "torus", "-o", "nowhere/t.obj", says="nowhere")
         for name in ("w.gltf", "w.pgn"):

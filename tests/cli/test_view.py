@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import select
+import shutil
 import signal
 import socket
 import subprocess
@@ -327,6 +328,41 @@ class View(Case):
         (place / "quad.mtl").unlink()
         events.until(b'data: "/quad.mtl"\n\n')
 
+    def test_folder_that_is_replaced(self):
+        """Files of a folder that another one replaces count as changed, and are watched from then on."""
+        place = self.textured()
+        server = self.serve("models/quad.obj")
+        self.assertEqual(server.task("model", "/quad.obj")[0], 200)
+        events = server.events()
+        (place / "pictures").rename(place / "old")
+        events.until(b'data: "/pictures/"\n\n')
+        (place / "old" / "a.png").write_bytes(b"no longer the model's")
+        (place / "pictures").mkdir()
+        (place / "pictures" / "a.png").write_bytes(write_png(1, 1, b"\x00\x40\x20\xff"))
+        events.until(b'data: "/pictures/"\n\n')  # it is there again
+        (place / "pictures" / "a.png").write_bytes(write_png(1, 1, b"\x00\x00\x20\xff"))
+        events.until(b'data: "/pictures/a.png"\n\n')
+        shutil.rmtree(place / "pictures")
+        events.until(b'data: "/pictures/"\n\n')
+
+    def test_more_changes_than_the_kernel_keeps(self):
+        limit = int(pathlib.Path("/proc/sys/fs/inotify/max_queued_events").read_text())
+        if limit > 100000:
+            self.skipTest(f"the kernel keeps {limit} changes")
+        place = self.textured()
+        server = self.serve("models/quad.obj")
+        self.assertEqual(server.task("model", "/quad.obj")[0], 200)
+        events = server.events()
+        server.process.send_signal(signal.SIGSTOP)
+        (place / "x").write_text("")
+        for i in range(limit // 4 + 100):
+            (place / "x").rename(place / "y")
+            (place / "y").rename(place / "x")
+        server.process.send_signal(signal.SIGCONT)
+        events.until(b'data: "/"\n\n')
+        (place / "quad.mtl").write_text("newmtl b\n")
+        events.until(b'data: "/quad.mtl"\n\n')
+
     def test_change_of_what_cannot_be_read(self):
         (self.folder / "cube.obj").write_text("v 1 1\n")
         server = self.serve("cube.obj")
@@ -414,6 +450,39 @@ class View(Case):
         children = subprocess.run(["pgrep", "-P", str(server.process.pid)], stdout=subprocess.PIPE).stdout
         self.assertEqual(children, b"")
 
+    def test_interrupt_with_many_requests(self):
+        """Requests that arrive while the server ends are answered or lost, and it ends as ever."""
+        server = self.serve("teapot")
+        query = urllib.parse.urlencode([("w", "teapot"), ("w", "--size=4000"), ("w", "--samples=16")])
+        connections = []
+        for i in range(120):
+            connection = socket.create_connection(("127.0.0.1", server.port), timeout=WAIT)
+            self.addCleanup(connection.close)
+            connections.append(connection)
+            connection.sendall(b"GET /%s/draw?%s&c=%d HTTP/1.1\r\nHost: 127.0.0.1:%d\r\n" % (server.token.encode(), query.encode(), i, server.port) +
+                               (b"\r\n" if i % 2 else b""))
+        server.process.send_signal(signal.SIGINT)
+        for connection in connections[::2]:  # their requests become whole now
+            try:
+                connection.sendall(b"\r\n")
+            except OSError:
+                pass  # it has ended
+        self.assertEqual(server.process.wait(timeout=WAIT), 0)
+
+    # --- other users
+
+    def test_other_users(self):
+        """A connection of another user is refused, though it has the token; root's is not, since relays are root's."""
+        other = self.plain_user()
+        if other is None:
+            self.skipTest("runs without the right to become another user")
+        server = self.serve("cube.obj")
+        ask = ("import http.client, sys\nc = http.client.HTTPConnection('127.0.0.1', %d, timeout=%d)\nc.request('GET', '/%s/files/cube.obj')\n"
+               "a = c.getresponse()\nprint(a.status, a.read(60).decode())" % (server.port, WAIT, server.token))
+        said = [subprocess.run(["python3", "-S", "-c", ask], user=user, stdout=subprocess.PIPE, check=True, cwd="/").stdout.decode() for user in (None, other)]
+        self.assertTrue(said[0].startswith("200 "), said)
+        self.assertEqual(said[1], "403 this viewer answers only the user who has started it\n")
+
     # --- hostile requests
 
     def test_hostile(self):
@@ -457,6 +526,10 @@ class View(Case):
         self.bad(1, "view", "cube.obj", "cube.ply", says="unexpected argument 'cube.ply'", env=env)
         self.bad(1, "view", "cube.obj", "--port", "99999", says="--port", env=env)
         self.bad(1, "view", "cube.obj", "--idle", "0", says="--idle", env=env)
+        for words in (["-o", "x.png"], ["--save-scene", "x.json"], ["--durable"], ["--term", "kitty"]):
+            self.bad(1, "view", "cube.obj", *words, says="does not apply to this command; it belongs to render", env=env)
+            self.assertNotIn(words[0].encode() + b" ", self.good("view", "--help").stdout)
+        self.bad(1, "view", "cube.obj", "--show", "all", says="option '--show all' writes the layers of an .exr file", env=env)
         self.bad(2, "view", "cube.obj", "--environment", "nothing.png", says="nothing.png", env=env)
         with socket.create_server(("127.0.0.1", 0)) as taken:
             port = taken.getsockname()[1]

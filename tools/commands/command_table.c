@@ -19,7 +19,6 @@ static const struct own_default check_defaults[] = {
     {"output", "no sheet"}, {"size", "128"}, {"tolerance", "2"}, {"memory-limit", "1Gi"}, {NULL, NULL}};
 static const struct own_default shader_defaults[] = {{"output", "standard output"}, {NULL, NULL}};
 static const struct own_default shape_defaults[] = {{"output", "NAME.png, or " FORMULA_MODEL ".png"}, {NULL, NULL}};
-static const struct own_default view_defaults[] = {{"output", NULL}, {NULL, NULL}};
 static const struct own_default diff_defaults[] = {{"output", "no picture"}, {NULL, NULL}};
 static const struct own_default plot_defaults[] = {{"output", "KIND.png"}, {"size", "1600x1000"}, {NULL, NULL}};
 static const struct own_default materials_defaults[] = {
@@ -86,8 +85,8 @@ const struct command command_table[] = {
                       "Show a model in the browser, and again whenever its file changes; or the gallery of a folder.",
                       ABOUT | 1u << GROUP_VIEWER | 1u << GROUP_PICTURE | 1u << GROUP_MODEL | 1u << GROUP_VIEW |
                           1u << GROUP_LIGHTS | 1u << GROUP_MATERIALS | 1u << GROUP_SHADING | 1u << GROUP_LIMITS |
-                          TAKES_THREADS | TAKES_QUIET,
-                      .min_operands = 1, .max_operands = 1, .defaults = view_defaults},
+                          TAKES_THREADS | TAKES_QUIET | WRITES_NO_FILE,
+                      .min_operands = 1, .max_operands = 1},
     [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, .min_operands = 0, .max_operands = 0},
     [COMMAND_formats] = {"formats", NULL, "List the formats of models and pictures.", ABOUT, .min_operands = 0,
                          .max_operands = 0},

@@ -168,6 +168,13 @@ static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, c
 
 // --- mistakes
 
+static bool check_caption_count(const struct options *o, const struct sheet *sheet, lam_error *error)
+{
+    return o->captions.count <= sheet->count ||
+           complain(error, LAM_BAD_ARGUMENT, "option '--caption': found %d, but the sheet has %d pictures",
+                    o->captions.count, sheet->count);
+}
+
 // Whether a mistake changes the shader of this scene. False: LAM_UNSUPPORTED, if it has nothing that the mistake spoils.
 static bool mistake_applies(struct compare *c, const struct cell *cell, lam_error *error)
 {
@@ -223,7 +230,7 @@ static bool choose_mistakes(struct compare *c, lam_error *error)
     sheet->columns = (kept + rows - 1) / rows;
     if (*left_out && !c->options->quiet)
         say_plain("left out, since the scene has nothing that they spoil: %s\n", left_out);
-    return true;
+    return check_caption_count(c->options, sheet, error);
 }
 
 // --- the enlarged highlight
@@ -513,9 +520,8 @@ static bool check(const struct options *o, const struct sheet *sheet, const char
                   lam_error *error)
 {
     lam_pixel_format format;
-    if (o->captions.count > sheet->count)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--caption': found %d, but the sheet has %d pictures",
-                        o->captions.count, sheet->count);
+    if (!check_caption_count(o, sheet, error))
+        return false;
     if (!drawing_is_svg(path) && !o->no_captions && !check_words(o, error))
         return false;
     if (strcmp(model, "-") == 0)

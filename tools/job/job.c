@@ -74,6 +74,23 @@ static double crease_of(const struct options *o)
     return o->crease_angle_deg < 0 ? 0 : o->crease_angle_deg > 0 ? radians(o->crease_angle_deg) : 1e-6;
 }
 
+// Names the option that an error about a formula or a range of it is about.
+static void name_formula_option(lam_error *error)
+{
+    static const struct {
+        const char *begin, *option;
+    } rows[] = {{"formula, ", "parametric"}, {"formula: ", "parametric"}, {"range of u, ", "u"},
+                {"range of v, ", "v"},       {"range of u: ", "u"},       {"range of v: ", "v"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        size_t length = strlen(rows[i].begin);
+        if (strncmp(error->text, rows[i].begin, length) != 0)
+            continue;
+        lam_error copy = *error;
+        complain(error, copy.code, "option '--%s': %s", rows[i].option, copy.text + length);
+        return;
+    }
+}
+
 static lam_scene *make_shape(const char *name, const struct options *o, const lam_control *control, lam_error *error)
 {
     lam_scene *scene = lam_scene_make(error);
@@ -98,6 +115,8 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
         lam_scene_set_up(scene, o->parametric && o->up == LAM_UP_AUTO ? LAM_UP_Z : (lam_up)o->up);
         return scene;
     }
+    if (o->parametric)
+        name_formula_option(error);
     lam_scene_free(scene);
     return NULL;
 }

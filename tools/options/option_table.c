@@ -298,8 +298,8 @@ const struct option option_table[] = {
      "and `}}` are braces.\n"
      "`.html` writes a page in one file that shows the picture, with the model in it: who opens it turns the model and "
      "changes every option of the picture, without a network (`docs/web.md`).",
-     .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .store = store_text, .alias = "out",
-     .others = "outfile file format export save write", FIELD(output), .single = TAKES_OUTPUT},
+     .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .of_file = true, .store = store_text,
+     .alias = "out", .others = "outfile file format export save write", FIELD(output), .single = TAKES_OUTPUT},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.", NULL,
      .brief = "pixels: 800, or 1920x1080", .store = store_size, .others = "resolution width height dimensions pixels",
      .max = 65535, .single = TAKES_SIZE},
@@ -359,12 +359,12 @@ const struct option option_table[] = {
      "other than `auto` the picture appears beside any `-o FILE` of 8 bits too. Nothing of this is sent where standard "
      "output is not a terminal, with `--json` or `--quiet`, or for several models. Sixels and blocks need libchafa "
      "(Debian's package `libchafa0`). `docs/terminal.md` says how a terminal is known.",
-     term_words_list, .store = store_word, .single = TAKES_TERM, .others = "terminal sixel kitty preview inline",
-     FIELD(term)},
+     term_words_list, .of_file = true, .store = store_word, .single = TAKES_TERM,
+     .others = "terminal sixel kitty preview inline", FIELD(term)},
     {"durable", 0, GROUP_PICTURE, NULL, NULL, "Go on only when a picture and its name are on the disk (fsync).",
      "After a loss of power the old picture is there or the new one, whole. Without the option the system writes them "
      "within seconds, and the same holds on most file systems.",
-     .store = store_switch, .others = "fsync sync", FIELD(durable)},
+     .of_file = true, .store = store_switch, .others = "fsync sync", FIELD(durable)},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0; auto for the lights of a glTF file",
      "Make the picture brighter or darker: 1 doubles its light, -1 halves it; or auto.",
      "The light of the model is multiplied by 2 to the power of STOPS before the tone curve and encoding, also with "
@@ -395,7 +395,7 @@ const struct option option_table[] = {
      "The file stores the result of the command line: the model's path relative to FILE, the camera, all lights "
      "(those of the rig written out), materials, transforms and the picture's options. `lambent FILE` then "
      "writes the same bytes. An existing FILE is replaced. `docs/scene-file.md` describes the format.",
-     .kind = VALUE_FILE, .store = store_text, .others = "export-scene write-scene", FIELD(save_scene)},
+     .kind = VALUE_FILE, .of_file = true, .store = store_text, .others = "export-scene write-scene", FIELD(save_scene)},
 
     {"scene", 0, GROUP_MODEL, "NAME|N", "the file's default",
      "The scene of a glTF file that has several: its name, or its number from 0.", NULL, .store = store_text,

@@ -67,7 +67,7 @@ bool options_copy(struct options *to, const struct options *from)
 
 bool option_is_taken(const struct option *option, unsigned groups)
 {
-    return groups & (1u << option->group | option->single);
+    return groups & (1u << option->group | option->single) && !(option->of_file && groups & WRITES_NO_FILE);
 }
 
 static bool is_name(const char *word, const char *name, size_t length)

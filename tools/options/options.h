@@ -194,6 +194,8 @@ enum {
     TAKES_TERM = 1u << 21,
     TAKES_TITLE = 1u << 20,
 };
+// A command that writes no file of its own: of its groups it accepts all but the options that say where and how one is written.
+#define WRITES_NO_FILE (1u << 31)
 
 // The name of a model that is made from formulas.
 #define FORMULA_MODEL "parametric"
@@ -289,6 +291,7 @@ struct option {
     const char *alias;       // another long name that is the same; NULL: none
     const char *others;      // other names that people try, separated by spaces, for suggestions; NULL: none
     const char *alone;       // its value where the word after it is none of its own; NULL: it needs one
+    bool of_file;            // says where and how a file is written: see WRITES_NO_FILE
     bool loads;              // the model is read anew where it changes
     const char *former; // the option that had this name before: a value that is one of its words means it; NULL: none
 };

@@ -49,7 +49,7 @@ char *page_file_find(lam_error *error)
         return found;
     }
     complain(error, LAM_UNSUPPORTED,
-             "this build has no page for browsers: `make web` makes it, lambent.html, and LAMBENT_PAGE may name it");
+             "lambent.html is not installed; build it with `make web`, or set LAMBENT_PAGE to its path");
     return NULL;
 }
 

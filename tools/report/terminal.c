@@ -30,9 +30,10 @@ static bool show(const lam_bytes *png, const lam_image *image, lam_error *error)
 // The name of a --term word.
 static const char *word_of(enum term_kind kind)
 {
-    static const char *const words[] = {[TERM_AUTO] = "auto",   [TERM_KITTY] = "kitty",   [TERM_ITERM2] = "iterm2",
-                                        [TERM_SIXEL] = "sixel", [TERM_BLOCKS] = "blocks", [TERM_OFF] = "off"};
-    return words[kind];
+    const struct word *word = option_find("term")->words;
+    while (word->value != (int)kind)
+        word++;
+    return word->name;
 }
 
 // What --term KIND needs of the command line and of the terminal.
@@ -101,14 +102,23 @@ bool terminal_refuse(const char *command, lam_error *error)
                     command);
 }
 
+// The factor by which the picture would fill the terminal, below 1 if it is too large; and whether its height is what limits it.
+static double scale_of(const lam_image *image, bool *tall)
+{
+    const struct terminal *t = &terminal;
+    int rows = t->rows > 2 ? t->rows - 2 : 1;
+    double across = t->columns * (double)t->cell_width / image->width;
+    double down = rows * (double)t->cell_height / image->height;
+    *tall = down < across;
+    return *tall ? down : across;
+}
+
 // The picture's size in the terminal: its own where it fits, and a line is left for the prompt.
 static struct chafa_size fit(const lam_image *image)
 {
     const struct terminal *t = &terminal;
-    int rows = t->rows > 2 ? t->rows - 2 : 1;
-    double width = image->width, height = image->height;
-    double across = t->columns * (double)t->cell_width / width, down = rows * (double)t->cell_height / height;
-    double scale = across < down ? across : down;
+    bool tall;
+    double width = image->width, height = image->height, scale = scale_of(image, &tall);
     scale = scale > 1 && t->kind != TERM_BLOCKS ? 1 : scale;
     double cells[2] = {width * scale / t->cell_width, height * scale / t->cell_height};
     struct chafa_size size = {.columns = (int)(cells[0] + 0.5),
@@ -122,16 +132,6 @@ static struct chafa_size fit(const lam_image *image)
     return size;
 }
 
-// Whether the picture has to become smaller, and if so, whether its height is what is too much.
-static bool is_too_large(const lam_image *image, bool *tall)
-{
-    int rows = terminal.rows > 2 ? terminal.rows - 2 : 1;
-    double across = image->width / (terminal.columns * (double)terminal.cell_width);
-    double down = image->height / (rows * (double)terminal.cell_height);
-    *tall = down > across;
-    return across > 1 || down > 1;
-}
-
 static bool show_png(const lam_bytes *png, const lam_image *image, lam_error *error)
 {
     size_t length;
@@ -141,7 +141,7 @@ static bool show_png(const lam_bytes *png, const lam_image *image, lam_error *er
     // The terminal scales it, and finds the other side from the picture's.
     bool tall, kitty = terminal.kind == TERM_KITTY;
     struct chafa_size size = fit(image);
-    if (is_too_large(image, &tall))
+    if (scale_of(image, &tall) < 1)
         snprintf(place, sizeof place, "%s=%d", kitty ? (tall ? ",r" : ",c") : (tall ? ";height" : ";width"),
                  tall ? size.rows : size.columns);
     if (!kitty)

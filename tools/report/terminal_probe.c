@@ -5,6 +5,8 @@
 // Attributes, 4 for sixel graphics, and the size of a cell (16 t): https://invisible-island.net/xterm/ctlseqs/ctlseqs.html
 #include "terminal.h"
 
+#include "progress.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -13,7 +15,6 @@
 #include <string.h>
 #include <sys/ioctl.h>
 #include <termios.h>
-#include <time.h>
 #include <unistd.h>
 
 enum { WAIT_MS = 500, WAIT_MAX_MS = 60000 };
@@ -53,13 +54,6 @@ static enum term_kind kind_by_name(void)
     return TERM_AUTO;
 }
 
-static int64_t now_ms(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
-}
-
 static bool write_all(int file, const char *text, size_t size)
 {
     while (size) {
@@ -95,11 +89,11 @@ static int wait_ms(void)
 // Reads until the last answer is there, or time is over.
 static void read_answers(int file, char *text, size_t size)
 {
-    int64_t end = now_ms() + wait_ms();
+    double end = clock_ms() + wait_ms();
     size_t length = 0;
     text[0] = 0;
     while (length + 1 < size && !find_attributes(text)) {
-        int64_t left = end - now_ms();
+        double left = end - clock_ms();
         struct pollfd wait = {.fd = file, .events = POLLIN};
         if (left <= 0 || (poll(&wait, 1, (int)left) < 0 && errno != EINTR))
             return;

@@ -4,10 +4,14 @@
 
 #include "http.h"
 #include "view_page.h"
+#include "view_peer.h"
 #include "view_tasks.h"
 #include "view_watch.h"
 
-enum { VIEW_TOKEN_SIZE = 33 }; // 128 bits in hexadecimal digits, and the closing zero
+enum {
+    VIEW_TOKEN_SIZE = 33, // 128 bits in hexadecimal digits, and the closing zero
+    VIEW_ADDRESS_SIZE = 80,
+};
 
 // A page that waits for changes of files (server-sent events).
 struct view_listener {
@@ -39,6 +43,7 @@ struct view {
     struct MHD_Daemon *daemon;
     int port;
     char token[VIEW_TOKEN_SIZE];
+    struct view_peers peers;
     const char *folder; // NULL: one model is shown
     struct view_files files;
     struct view_page page;

@@ -45,8 +45,8 @@ enum MHD_Result view_answer(const struct view *view, struct MHD_Connection *conn
 {
     // The library's parameter is not const, but it writes nothing there.
     struct MHD_Response *response = view->http.MHD_create_response_from_buffer(
-        size, (void *)(uintptr_t)bytes, whose == VIEW_TAKES ? MHD_RESPMEM_MUST_FREE : MHD_RESPMEM_PERSISTENT);
-    if (!response && whose == VIEW_TAKES)
+        size, (void *)(uintptr_t)bytes, whose == VIEW_OWNED ? MHD_RESPMEM_MUST_FREE : MHD_RESPMEM_PERSISTENT);
+    if (!response && whose == VIEW_OWNED)
         free((void *)(uintptr_t)bytes);
     return queue(view, connection, status, type ? type : "text/plain; charset=utf-8", response);
 }
@@ -55,7 +55,7 @@ enum MHD_Result view_answer_text(const struct view *view, struct MHD_Connection 
                                  const char *sentence)
 {
     char *copy = strdup(sentence);
-    return copy ? view_answer(view, connection, status, NULL, copy, strlen(copy), VIEW_TAKES) : MHD_NO;
+    return copy ? view_answer(view, connection, status, NULL, copy, strlen(copy), VIEW_OWNED) : MHD_NO;
 }
 
 enum MHD_Result view_answer_file(const struct view *view, struct MHD_Connection *connection, int file)
@@ -85,8 +85,8 @@ enum MHD_Result view_answer_result(struct view_connection *c)
         result.bytes[size] = 0;                 // the process has left room for it
         char *picture = view_gallery_failed(result.bytes, &size);
         free(result.bytes);
-        return picture ? view_answer(c->view, c->connection, 422, "image/svg+xml", picture, size, VIEW_TAKES) : MHD_NO;
+        return picture ? view_answer(c->view, c->connection, 422, "image/svg+xml", picture, size, VIEW_OWNED) : MHD_NO;
     }
     return view_answer(c->view, c->connection, result.status, result.status == 200 ? types[c->kind] : NULL,
-                       result.bytes, size, VIEW_TAKES);
+                       result.bytes, size, VIEW_OWNED);
 }

@@ -4,7 +4,10 @@
 
 #include "view.h"
 
-enum view_bytes { VIEW_STAYS, VIEW_TAKES }; // who has the bytes: they stay as they are; they are from malloc, and freed
+enum view_bytes {
+    VIEW_BORROWED, // the bytes are the caller's, and stay until the server ends
+    VIEW_OWNED,    // they are from malloc, and the answer frees them
+};
 
 // Queues an answer of bytes. NULL for `type`: text.
 enum MHD_Result view_answer(const struct view *view, struct MHD_Connection *connection, int status, const char *type,

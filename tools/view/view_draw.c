@@ -232,7 +232,6 @@ static void tell_pixels(struct drawer *d, struct job *job)
     free(text);
 }
 
-// explain_json prints on standard output, which here is nobody's.
 static bool tell_explanation(struct drawer *d, struct job *job, const struct view_request *request, lam_error *error)
 {
     const struct options *o = job->options;
@@ -241,14 +240,12 @@ static bool tell_explanation(struct drawer *d, struct job *job, const struct vie
     lam_explanation *explanation = job_explain(job, request->x, request->y, NULL, error);
     char *text = NULL;
     size_t size = 0;
-    FILE *standard = stdout, *out = explanation ? open_memstream(&text, &size) : NULL;
+    FILE *out = explanation ? open_memstream(&text, &size) : NULL;
     if (!explanation)
         return false;
     if (!out)
         _exit(1);
-    stdout = out;
-    explain_json(explanation, job->model);
-    stdout = standard;
+    explain_json(out, explanation, job->model);
     if (fclose(out) != 0)
         _exit(1);
     lam_explanation_free(explanation);

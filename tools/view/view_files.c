@@ -95,7 +95,8 @@ static int open_below(const struct view_files *files, const char *path, int flag
     if (file >= 0 || errno != ENOSYS)
         return file;
 #endif
-    // Before Linux 5.6: a link that comes in between helps, as long as the sandbox does not hold.
+    // Before Linux 5.6: between the check and open() the file may be replaced by a link that leads out; only the sandbox, where it
+    // holds, refuses that one.
     char *whole = view_files_path(files, path);
     int found = whole && is_below(files, whole) ? open(whole, flags) : -1;
     free(whole);

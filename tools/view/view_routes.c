@@ -2,11 +2,13 @@
 // machine: it does not know the token, its Host and Origin are not ours, and it may read no answer (view_answer.c).
 #include "view_routes.h"
 
+#include <arpa/inet.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/socket.h>
 
 #include "view_answer.h"
 #include "view_events.h"
@@ -173,14 +175,14 @@ static enum MHD_Result answer_gallery(struct view_connection *c)
     size_t size = 0;
     lam_error error = {0};
     return view_gallery_make(c->view, &text, &size, &error)
-               ? view_answer(c->view, c->connection, 200, "text/html; charset=utf-8", text, size, VIEW_TAKES)
+               ? view_answer(c->view, c->connection, 200, "text/html; charset=utf-8", text, size, VIEW_OWNED)
                : view_answer_text(c->view, c->connection, 500, error.text);
 }
 
 static enum MHD_Result answer_page(struct view_connection *c)
 {
     const struct view_page *page = &c->view->page;
-    return view_answer(c->view, c->connection, 200, "text/html; charset=utf-8", page->text, page->size, VIEW_STAYS);
+    return view_answer(c->view, c->connection, 200, "text/html; charset=utf-8", page->text, page->size, VIEW_BORROWED);
 }
 
 // A path of the page: what follows a word of the address.
@@ -204,7 +206,7 @@ static enum MHD_Result answer_address(struct view_connection *c, const char *add
         return answer_page(c);
     if (strcmp(address, "gallery.css") == 0)
         return view_answer(view, c->connection, 200, "text/css", view_gallery_style, strlen(view_gallery_style),
-                           VIEW_STAYS);
+                           VIEW_BORROWED);
     if (strcmp(address, "events") == 0)
         return view_events_answer(c);
     if ((path = path_after(address, "files"))) {
@@ -220,11 +222,24 @@ static enum MHD_Result answer_address(struct view_connection *c, const char *add
     return view_answer_text(view, c->connection, 404, "no such page");
 }
 
+// Another user can read the token in /proc, where xdg-open's arguments are.
+static bool is_own_user(const struct view_connection *c)
+{
+    struct sockaddr_in other = {0};
+    const union MHD_ConnectionInfo *info =
+        c->view->http.MHD_get_connection_info(c->connection, MHD_CONNECTION_INFO_CLIENT_ADDRESS);
+    if (info && info->client_addr && info->client_addr->sa_family == AF_INET)
+        memcpy(&other, info->client_addr, sizeof other);
+    return other.sin_family != AF_INET || view_peers_are_own(&c->view->peers, ntohs(other.sin_port), c->view->port);
+}
+
 static enum MHD_Result answer_request(struct view_connection *c, const char *url, const char *method)
 {
     const struct view *view = c->view;
     if (strcmp(method, "GET") != 0 && strcmp(method, "HEAD") != 0)
         return view_answer_text(view, c->connection, MHD_HTTP_METHOD_NOT_ALLOWED, "only GET and HEAD are answered");
+    if (!is_own_user(c))
+        return view_answer_text(view, c->connection, 403, "this viewer answers only the user who has started it");
     if (!is_own_host(view, header(c, "Host")) || !is_own_page(c))
         return view_answer_text(view, c->connection, 403, "not from here");
     if (strlen(url) < VIEW_TOKEN_SIZE + 1 || url[VIEW_TOKEN_SIZE] != '/' || !same_token(url + 1, view->token))

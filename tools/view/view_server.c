@@ -20,6 +20,7 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "sandbox_start.h"
+#include "show_all.h"
 #include "view_events.h"
 #include "view_routes.h"
 
@@ -106,7 +107,6 @@ static bool enter_sandbox(const struct view *view, lam_error *error)
 {
     struct sandbox_paths paths = {.serves = true};
     struct options options = *view->options;
-    options.save_scene = NULL;
     if (view->files.folder >= 0)
         sandbox_add(&paths, *view->files.prefix ? view->files.prefix : "/", SANDBOX_READ);
     if (view->files.model_path)
@@ -116,11 +116,11 @@ static bool enter_sandbox(const struct view *view, lam_error *error)
 
 // --- what is said
 
-static void say_address(const struct view *view, bool opened)
+static void say_address(const struct view *view, const char *address, bool opened)
 {
     const char *connection = getenv("SSH_CONNECTION"), *user = getenv("USER");
     char host[256] = "HOST";
-    printf("http://127.0.0.1:%d/%s/\n", view->port, view->token);
+    printf("%s\n", address);
     fflush(stdout);
     if (view->options->quiet)
         return;
@@ -207,14 +207,22 @@ static void finish(struct view *view)
         view->http.MHD_stop_daemon(view->daemon);
     }
     view_watch_end(&view->watch);
+    view_peers_close(&view->peers);
     view_page_free(&view->page);
     view_files_free(&view->files);
 }
 
+static bool check(const struct options *o, lam_error *error)
+{
+    return !show_is_all(o) || complain(error, LAM_BAD_ARGUMENT,
+                                       "option '--show all' writes the layers of an .exr file, which the viewer does "
+                                       "not show; expected one of its terms, such as '--show diffuse'");
+}
+
 bool view_run(const char *operand, const struct options *options, lam_error *error)
 {
-    struct view view = {.options = options, .watch.file = -1};
-    bool ok = http_open(&view.http, error) && find_operand(&view, operand, error) &&
+    struct view view = {.options = options, .watch.file = -1, .peers.tables = {-1, -1}};
+    bool ok = check(options, error) && http_open(&view.http, error) && find_operand(&view, operand, error) &&
               view_page_make(&view.page, options,
                              view.folder        ? NULL
                              : view.files.model ? view.files.model
@@ -224,18 +232,19 @@ bool view_run(const char *operand, const struct options *options, lam_error *err
     if (ok) {
         view_tasks_start(&view.tasks, &view.files, options, view_routes_done);
         view_watch_start(&view.watch);
+        view_peers_open(&view.peers);
         setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0}); // drawing processes leave no files
         interrupt_start();
         signal(SIGPIPE, SIG_IGN); // of closed connections and of drawing processes that have ended
         ok = start_daemon(&view, error);
     }
     if (ok) {
-        char address[80];
+        char address[VIEW_ADDRESS_SIZE];
         snprintf(address, sizeof address, "http://127.0.0.1:%d/%s/", view.port, view.token);
         bool opened = !options->no_open && browser_open(address);
         ok = enter_sandbox(&view, error);
         if (ok) {
-            say_address(&view, opened);
+            say_address(&view, address, opened);
             loop(&view);
         }
     }

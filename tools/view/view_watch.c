@@ -12,7 +12,8 @@
 enum { WATCHED_MAX = 1000 };
 
 // A file that is written is a whole one once it is closed; a link to an unnamed file, as lambent writes, only appears.
-static const uint32_t events = IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_CREATE;
+static const uint32_t events =
+    IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_CREATE | IN_DELETE_SELF | IN_MOVE_SELF;
 
 void view_watch_start(struct view_watch *watch)
 {
@@ -22,6 +23,7 @@ void view_watch_start(struct view_watch *watch)
 void view_watch_end(struct view_watch *watch)
 {
     for (int i = 0; i < watch->count; i++) {
+        free(watch->items[i].place);
         free(watch->items[i].folder);
         free(watch->items[i].only);
     }
@@ -35,20 +37,24 @@ void view_watch_end(struct view_watch *watch)
 static void add(struct view_watch *watch, const char *place, char *folder, char *only)
 {
     struct view_watched *grown = NULL;
-    int number = folder && watch->count < WATCHED_MAX ? inotify_add_watch(watch->file, place, events) : -1;
+    char *own_place = strdup(place);
+    int number = own_place && folder && watch->count < WATCHED_MAX ? inotify_add_watch(watch->file, place, events) : -1;
     for (int i = 0; i < watch->count && number >= 0; i++) {
-        const struct view_watched *w = &watch->items[i];
-        bool same = w->number == number && (only ? w->only && strcmp(w->only, only) == 0 : !w->only);
-        if (same && strcmp(w->folder, folder) == 0)
+        struct view_watched *w = &watch->items[i];
+        bool same = strcmp(w->folder, folder) == 0 && (only ? w->only && strcmp(w->only, only) == 0 : !w->only);
+        if (same && strcmp(w->place, place) == 0) {
+            w->number = number; // another folder may have its name by now
             number = -1;
+        }
     }
     if (number >= 0)
         grown = realloc(watch->items, (size_t)(watch->count + 1) * sizeof *grown);
     if (grown) {
         watch->items = grown;
-        grown[watch->count++] = (struct view_watched){number, folder, only};
+        grown[watch->count++] = (struct view_watched){number, own_place, folder, only};
         return;
     }
+    free(own_place);
     free(folder);
     free(only);
 }
@@ -71,6 +77,14 @@ static void add_target(struct view_watch *watch, const struct view_files *files)
     free(real);
 }
 
+static bool is_there(const struct view_files *files, const char *folder)
+{
+    int file = view_files_open_folder(files, *folder ? folder : "/");
+    if (file >= 0)
+        close(file);
+    return file >= 0;
+}
+
 void view_watch_add(struct view_watch *watch, const struct view_files *files, const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -78,10 +92,7 @@ void view_watch_add(struct view_watch *watch, const struct view_files *files, co
         return;
     char *folder = strndup(path, (size_t)(slash - path)),
          *place = folder ? view_files_path(files, *folder ? folder : "/") : NULL;
-    int exists = folder ? view_files_open_folder(files, *folder ? folder : "/") : -1;
-    if (exists >= 0)
-        close(exists);
-    if (exists >= 0 && place)
+    if (place && is_there(files, folder))
         add(watch, place, folder, NULL);
     else
         free(folder);
@@ -90,19 +101,50 @@ void view_watch_add(struct view_watch *watch, const struct view_files *files, co
         add_target(watch, files);
 }
 
-static void report(const struct view_watch *watch, const struct view_files *files, const struct inotify_event *event,
-                   void (*changed)(void *user, const char *path), void *user)
+struct listener {
+    void (*changed)(void *user, const char *path);
+    void *user;
+};
+
+// `name`: of a file in the folder; "": any of them may have changed.
+static void report(const struct view_files *files, const struct view_watched *w, const char *name,
+                   const struct listener *listener)
+{
+    char path[PATH_MAX + NAME_MAX + 2];
+    if (*name && w->only && strcmp(w->only, name) != 0)
+        return;
+    if (w->only)
+        snprintf(path, sizeof path, "%s", files->model);
+    else
+        snprintf(path, sizeof path, "%s/%s", w->folder, name);
+    listener->changed(listener->user, path);
+}
+
+static void read_event(struct view_watch *watch, const struct view_files *files, const struct inotify_event *event,
+                       const struct listener *listener)
+{
+    bool overflow = event->mask & IN_Q_OVERFLOW, gone = event->mask & (IN_IGNORED | IN_DELETE_SELF | IN_MOVE_SELF);
+    for (int i = 0; i < watch->count; i++) {
+        struct view_watched *w = &watch->items[i];
+        if (!overflow && w->number != event->wd)
+            continue;
+        if (overflow || gone)
+            w->number = -1;
+        if (gone || (!overflow && event->len))
+            report(files, w, gone ? "" : event->name, listener);
+    }
+}
+
+// Watches again what has gone, where it has come back.
+static void find_again(struct view_watch *watch, const struct view_files *files, const struct listener *listener)
 {
     for (int i = 0; i < watch->count; i++) {
-        const struct view_watched *w = &watch->items[i];
-        char path[PATH_MAX + NAME_MAX + 2];
-        if (w->number != event->wd || !event->len || (w->only && strcmp(w->only, event->name) != 0))
+        struct view_watched *w = &watch->items[i];
+        if (w->number >= 0 || (!w->only && !is_there(files, w->folder)))
             continue;
-        if (w->only)
-            snprintf(path, sizeof path, "%s", files->model);
-        else
-            snprintf(path, sizeof path, "%s/%s", w->folder, event->name);
-        changed(user, path);
+        w->number = inotify_add_watch(watch->file, w->place, events);
+        if (w->number >= 0)
+            report(files, w, "", listener);
     }
 }
 
@@ -110,10 +152,12 @@ void view_watch_read(struct view_watch *watch, const struct view_files *files,
                      void (*changed)(void *user, const char *path), void *user)
 {
     _Alignas(struct inotify_event) char buffer[16 << 10];
+    const struct listener listener = {changed, user};
     for (ssize_t got; watch->file >= 0 && (got = read(watch->file, buffer, sizeof buffer)) > 0;)
         for (char *at = buffer; at < buffer + got;) {
             const struct inotify_event *event = (const struct inotify_event *)(const void *)at;
-            report(watch, files, event, changed, user);
+            read_event(watch, files, event, &listener);
             at += sizeof *event + event->len;
         }
+    find_again(watch, files, &listener);
 }

@@ -5,7 +5,8 @@
 #include "view_files.h"
 
 struct view_watched {
-    int number;   // the kernel's
+    int number;   // the kernel's; −1: the folder has gone, and may come back
+    char *place;  // on this machine
     char *folder; // a path of the page: "", "/textures"
     char *only;   // the one name that counts there, which means the model; NULL: all do
 };
@@ -19,10 +20,12 @@ struct view_watch {
 void view_watch_start(struct view_watch *watch);
 void view_watch_end(struct view_watch *watch);
 
-// Watches the folder of a file, by its path in the page. What cannot be watched is left out.
+// Watches the folder of a file, by its path in the page. What cannot be watched is left out. A folder that is removed or replaced
+// is watched again once one of its name is there.
 void view_watch_add(struct view_watch *watch, const struct view_files *files, const char *path);
 
-// Calls `changed` for each file that was written, replaced or removed since the last call, by its path in the page.
+// Calls `changed` for each file that was written, replaced or removed since the last call, by its path in the page; for the folder,
+// with "/" at its end, where any file in it may have changed: it was replaced, or there were more changes than the kernel keeps.
 void view_watch_read(struct view_watch *watch, const struct view_files *files,
                      void (*changed)(void *user, const char *path), void *user);
 

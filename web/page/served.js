@@ -105,7 +105,10 @@ export function watchServed(changed, lost) {
       changed();
     }, 100); // several files are often written together
   };
-  events.onmessage = ({ data }) => known?.paths.has(JSON.parse(data)) && later();
+  events.onmessage = ({ data }) => {
+    const path = JSON.parse(data); // of a file, or with "/" at its end of a folder in which any file may have changed
+    if (known?.paths.has(path) || (path.endsWith('/') && [...(known?.paths ?? [])].some((one) => one.startsWith(path)))) later();
+  };
   events.onerror = () => lost((isLost = true));
   events.onopen = () => {
     if (!isLost) return;

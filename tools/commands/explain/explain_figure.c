@@ -454,7 +454,7 @@ static bool describe(const struct explain_figure *f, const struct subject *s, co
 static bool draw_ring(struct drawing *d, struct point middle, double unit, lam_error *error)
 {
     struct point round[33];
-    for (int i = 0; i <= 32; i++) { // an octagon's points, cut to a circle
+    for (int i = 0; i <= 32; i++) { // a circle of 32 sides
         static const double quarter[9] = {0, 0.1951, 0.3827, 0.5556, 0.7071, 0.8315, 0.9239, 0.9808, 1};
         int part = i % 32, side = part / 8, step = part % 8;
         double a = quarter[8 - step], b = quarter[step];

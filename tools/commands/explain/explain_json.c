@@ -341,9 +341,9 @@ static void write_fragment(struct json *json, const lam_explained_fragment *f)
     json_close(json, '}');
 }
 
-void explain_json(const lam_explanation *e, const char *model)
+void explain_json(FILE *file, const lam_explanation *e, const char *model)
 {
-    struct json json = {.file = stdout};
+    struct json json = {.file = file};
     json_open(&json, NULL, '{');
     json_text(&json, "lambent", lam_version());
     json_text(&json, "model", model);
@@ -376,5 +376,5 @@ void explain_json(const lam_explanation *e, const char *model)
         json_count(&json, NULL, e->bytes[i]);
     json_close(&json, ']');
     json_close(&json, '}');
-    putc('\n', stdout);
+    putc('\n', file);
 }

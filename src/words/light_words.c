@@ -11,6 +11,7 @@
 
 // Keys: the fields by their index in the table of lam_light_field (the first row of a key), then these.
 enum { TARGET = LAM_FIELDS_MAX, COLOR, INTENSITY, FRAME, NAME, KEYS };
+_Static_assert((int)KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 
 #define BIT(key) (1ull << (key))
 
@@ -80,18 +81,7 @@ const char *lam_light_key(lam_light_type type, int index)
 static int find_key(const char *name, lam_error *error)
 {
     int field = field_index(name);
-    if (field >= 0)
-        return field;
-    const char *names[KEYS + 1]; // all keys, for the error
-    int keys[KEYS], count = 0;
-    for (int key = 0; key < KEYS; key++)
-        if (key_name(key)) {
-            names[count] = key_name(key);
-            keys[count++] = key;
-        }
-    names[count] = NULL;
-    int found = word_key(name, names, error);
-    return found < 0 ? -1 : keys[found];
+    return field >= 0 ? field : word_key_of(name, KEYS, key_name, error);
 }
 
 static bool key_seen(const struct reading *reading, int key) { return reading->seen >> key & 1; }

@@ -11,6 +11,7 @@
 // Keys: the fields by their index in the table of lam_material_field, then a factor for each (of colours, named by their
 // symbols: ka, kd, ks, kr), then shorthands.
 enum { MATERIAL_COLOR = 2 * LAM_FIELDS_MAX, MATERIAL_SPECULAR_COLOR, MATERIAL_KEYS };
+_Static_assert((int)MATERIAL_KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 
 struct reading {
     lam_material_id id; // a named material; LAM_MATERIAL_COUNT: none
@@ -46,20 +47,6 @@ const char *lam_material_key(int index)
     return NULL;
 }
 
-static int find_key(const char *name, lam_error *error)
-{
-    const char *names[MATERIAL_KEYS + 1];
-    int keys[MATERIAL_KEYS], count = 0;
-    for (int key = 0; key < MATERIAL_KEYS; key++)
-        if (key_name(key)) {
-            names[count] = key_name(key);
-            keys[count++] = key;
-        }
-    names[count] = NULL;
-    int found = word_key(name, names, error);
-    return found < 0 ? -1 : keys[found];
-}
-
 // A flag may go without its value.
 static bool is_flag(const char *name, size_t length)
 {
@@ -78,7 +65,7 @@ static bool read_pair(char *pair, lam_color_mode mode, struct reading *reading, 
         return fail(error, LAM_BAD_ARGUMENT, "found '%.60s', expected key=value, such as shininess=50", pair);
     if (value)
         *value++ = 0;
-    int key = find_key(pair, error);
+    int key = word_key_of(pair, MATERIAL_KEYS, key_name, error);
     if (key < 0)
         return false;
     if (given(reading, key))

@@ -31,6 +31,20 @@ int word_key(const char *name, const char *const *names, lam_error *error)
     return -1;
 }
 
+int word_key_of(const char *name, int count, const char *(*name_of)(int key), lam_error *error)
+{
+    const char *names[WORD_KEYS_MAX + 1];
+    int keys[WORD_KEYS_MAX], named = 0;
+    for (int key = 0; key < count; key++)
+        if (name_of(key)) {
+            names[named] = name_of(key);
+            keys[named++] = key;
+        }
+    names[named] = NULL;
+    int found = word_key(name, names, error);
+    return found < 0 ? -1 : keys[found];
+}
+
 bool word_copy(const char *text, char copy[WORDS_MAX], lam_error *error)
 {
     if (strlen(text) >= WORDS_MAX)

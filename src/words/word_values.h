@@ -14,6 +14,10 @@ bool word_copy(const char *text, char copy[WORDS_MAX], lam_error *error);
 // The index of `name` in a list that ends with NULL; −1 with the nearest one, or all of them, in the error.
 int word_key(const char *name, const char *const *names, lam_error *error);
 
+// The same of the keys from 0 to `count` − 1, at most WORD_KEYS_MAX, without those whose name is NULL.
+enum { WORD_KEYS_MAX = 256 };
+int word_key_of(const char *name, int count, const char *(*name_of)(int key), lam_error *error);
+
 // A finite decimal number, not "inf" or "nan". Returns the position after it; NULL: there is no number.
 const char *word_number(const char *text, double *number);
 

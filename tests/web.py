@@ -22,6 +22,8 @@ import build  # noqa: E402
 import sizes  # noqa: E402
 
 PARTS = 2 # node's, at once
+# The folders of modules, and the threads of each part of the image table; 0: a module without.
+TABLE = {"wasm": ["0", "0"], "threads": ["2", "4"]}
 
 # What a page loads first, in bytes after gzip -9 (docs/web.md has the table).
 FIRST_LOAD_MAX = 450_000
@@ -82,19 +84,32 @@ def node(*words):
 
 def check_hashes(results):
     expected = {line.split()[0]: line.split()[1:] for line in open(os.path.join(ROOT, "tests/images/expected/hashes.txt"))}
-    module = os.path.join(OUT, "wasm", "web", "image-hashes.wasm")
-    with concurrent.futures.ThreadPoolExecutor(PARTS) as pool:
-        runs = list(pool.map(lambda part: node("run.mjs", module, str(part), str(PARTS)), range(PARTS)))
-    drawn = {}
-    for done in runs:
-        results.ok(done.returncode == 0, "a part of the image table is drawn", done.stderr)
+    for kind, threads in TABLE.items():
+        module = os.path.join(OUT, kind, "web", "image-hashes.wasm")
+        with concurrent.futures.ThreadPoolExecutor(PARTS) as pool:
+            runs = list(pool.map(lambda part: node("run.mjs", threads[part], module, str(part), str(PARTS), threads[part] or "1"), range(PARTS)))
+        drawn = {}
+        for done in runs:
+            results.ok(done.returncode == 0, "%s: a part of the image table is drawn" % kind, done.stderr)
+            for line in done.stdout.splitlines():
+                isa, name, *hashes = line.split()
+                drawn[isa, name] = hashes
+        for isa in ("scalar", "wasm"):
+            for name, hashes in expected.items():
+                results.ok(drawn.get((isa, name)) == hashes, "%s, %s: %s" % (kind, isa, name),
+                           "drew %s, recorded is %s" % (drawn.get((isa, name)), hashes))
+
+
+def check_threads(results):
+    with tempfile.TemporaryDirectory() as folder:
+        make_models(folder)
+        done = node("threads.mjs", *[os.path.join(OUT, kind, "web", "lambent.wasm") for kind in TABLE], folder)
         for line in done.stdout.splitlines():
-            isa, name, *hashes = line.split()
-            drawn[isa, name] = hashes
-    for isa in ("scalar", "wasm"):
-        for name, hashes in expected.items():
-            results.ok(drawn.get((isa, name)) == hashes, "%s: %s" % (isa, name),
-                       "drew %s, recorded is %s" % (drawn.get((isa, name)), hashes))
+            if line.startswith("#"):
+                print(line)
+            else:
+                results.ok(line.startswith("ok "), line.split("ok ", 1)[1])
+        results.ok(done.returncode == 0 and done.stdout.count("ok threads:") == 15, "threads: all of the checks ran", done.stderr)
 
 
 def make_models(folder):
@@ -217,6 +232,7 @@ def main():
     results.ok(done.returncode == 0, "build-web is built", done.stdout)
     if done.returncode == 0:
         check_hashes(results)
+        check_threads(results)
         check_module(results, program)
         check_checks(results, os.path.abspath(sys.argv[2]))
         check_sizes(results)

@@ -37,6 +37,7 @@ def call(*command):
 # (later_modules_of).
 PAGE = "page.js"
 WORKER = "worker.js"
+THREAD = "thread.js" # of the module with threads
 
 CHECK_WORKER = "check_worker.js"
 CODEMIRROR = "codemirror.js" # made from npm's
@@ -50,7 +51,9 @@ const insideScript = (text) => URL.createObjectURL(new Blob([text], { type: 'tex
 INSIDE = {
     "fetchModule": "",
     "openWorker": """function openWorker() {
-  return caller(new Worker(insideScript(insideText('worker'))), insideStream('wasm').arrayBuffer());
+  const served = document.getElementById('served'), threads = served && JSON.parse(served.textContent).threads; // by lambent view
+  return caller(new Worker(insideScript(insideText('worker'))), insideStream('wasm').arrayBuffer(),
+    threads ? withThreads(async () => (await fetch('threads.wasm')).arrayBuffer(), insideScript(insideText('thread'))) : []);
 }
 """,
     "openCheck": """function openCheck() {
@@ -221,9 +224,13 @@ def make_offline(served):
     """The service worker of the served page; its list is of all files that the page loads."""
     write(os.path.join(served, "offline.js"), page_file("offline.js"))
     files = sorted(name for name in os.listdir(served) if name.endswith((".js", ".css", ".html", ".wasm")) and name != "offline_worker.js")
+    threads = [name for name in files if name == "lambent-threads.wasm"]
     contents = hashlib.sha256(b"".join(name.encode() + open(os.path.join(served, name), "rb").read() for name in files)).hexdigest()
     worker = page_file("offline_worker.js").replace("lambent-HASH", "lambent-" + contents[:16])
-    write(os.path.join(served, "offline_worker.js"), worker.replace("const FILES = [];", "const FILES = %s;" % json.dumps(["./"] + files)))
+    lists = "const FILES = %s, THREADS = %s;" % (json.dumps(["./"] + [name for name in files if name not in threads]), json.dumps(threads))
+    if "const FILES = [], THREADS = [];" not in worker:
+        sys.exit("web: offline_worker.js has no lists of files")
+    write(os.path.join(served, "offline_worker.js"), worker.replace("const FILES = [], THREADS = [];", lists))
 
 
 # What the module uses of WebAssembly, for wasm-split.
@@ -244,17 +251,19 @@ def split(wasm, served):
         call("wasm-split", *FEATURES, wasm, "--profile=" + profile, "-o1", parts[0], "-o2", parts[1])
 
 
-def make_page(folder, modules):
-    """The page as files that a server serves, and as one file that works by itself. `modules`: the folder of lambent.wasm and check.wasm."""
+def make_page(folder):
+    """The page as files that a server serves, and as one file that works by itself, of the modules that make_modules has made."""
+    modules, with_threads = (os.path.join(folder, name, "web") for name in MODULES)
     served = os.path.join(folder, "page")
     os.makedirs(served, exist_ok=True)
-    names = modules_of(PAGE) + later_modules_of(PAGE) + modules_of(WORKER) + modules_of(CHECK_WORKER) + ["index.html", "page.css", "lambent.d.ts"]
+    names = modules_of(PAGE) + later_modules_of(PAGE) + modules_of(WORKER) + later_modules_of(WORKER) + modules_of(THREAD) + modules_of(CHECK_WORKER) + ["index.html", "page.css", "lambent.d.ts", "threads.d.ts"]
     for name in names:
         write(os.path.join(served, name), served_file(name))
     for name in set(os.listdir(served)) - set(names): # of modules that are no more
         if name.endswith(".js") and not name.startswith("offline") and name != CODEMIRROR:
             os.remove(os.path.join(served, name))
     write(os.path.join(served, "check.wasm"), open(os.path.join(modules, "check.wasm"), "rb").read())
+    write(os.path.join(served, "lambent-threads.wasm"), open(os.path.join(with_threads, "lambent.wasm"), "rb").read())
     split(os.path.join(modules, "lambent.wasm"), served)
     editor = codemirror(folder)
     if editor:
@@ -271,7 +280,7 @@ def make_page(folder, modules):
     page = re.sub(r'(Content-Security-Policy" content=")[^"]*', lambda m: m[1] + policy, page)
     page = page.replace('<link rel="stylesheet" href="page.css">', "<style>%s</style>" % style)
     page = page.replace('<script type="module" src="page.js"></script>', "")
-    texts = {"worker": plain_script(WORKER), "check-worker": plain_script(CHECK_WORKER)}
+    texts = {"worker": plain_script(WORKER), "thread": plain_script(THREAD), "check-worker": plain_script(CHECK_WORKER)}
     for name, file in (("wasm", "lambent.wasm"), ("check-wasm", "check.wasm")):
         texts[name] = packed_text(open(os.path.join(modules, file), "rb").read())
     if editor:
@@ -279,6 +288,26 @@ def make_page(folder, modules):
     inside = "".join('<script type="text/plain" id="%s">%s</script>\n' % row for row in texts.items())
     page = page.replace("</body>", '%s<script type="module">%s</script>\n</body>' % (inside, script))
     write(os.path.join(folder, "lambent.html"), page)
+    write(os.path.join(folder, "lambent-threads.wasm"), open(os.path.join(with_threads, "lambent.wasm"), "rb").read()) # for lambent view
+
+
+# The folders of modules, and what they are compiled with: for one thread, and for several with a memory that they share (web/libc/threads.c).
+MODULES = {"wasm": [], "threads": ["-matomics"]}
+
+
+def make_modules(folder, name, args):
+    """The modules of one row, by Meson."""
+    place = os.path.join(folder, name)
+    if not os.path.exists(os.path.join(place, "build.ninja")):
+        places = os.path.join(folder, name + ".ini")
+        with open(places, "w") as out:
+            out.write("[constants]\nweb_folder = '%s'\nweb_root = '%s'\nthread_args = %s\nweb_threads = %s\n"
+                      % (HERE, os.path.join(folder, "root"), args, str(bool(args)).lower()))
+        call("meson", "setup", place, ROOT, "--cross-file", places, "--cross-file", os.path.join(HERE, "wasm32.ini"),
+             "--buildtype=release", "-Dtests=false")
+    output = call("ninja", "-C", place)
+    if "warning:" in output:
+        sys.exit("web: the compiler warns:\n" + output[-4000:])
 
 
 def main():
@@ -291,17 +320,9 @@ def main():
     libraries = subprocess.run([sys.executable, os.path.join(HERE, "libraries.py"), folder])
     if libraries.returncode:
         sys.exit(1)
-    wasm = os.path.join(folder, "wasm")
-    if not os.path.exists(os.path.join(wasm, "build.ninja")):
-        places = os.path.join(folder, "places.ini")
-        with open(places, "w") as out:
-            out.write("[constants]\nweb_folder = '%s'\nweb_root = '%s'\n" % (HERE, os.path.join(folder, "root")))
-        call("meson", "setup", wasm, ROOT, "--cross-file", places, "--cross-file", os.path.join(HERE, "wasm32.ini"),
-             "--buildtype=release", "-Dtests=false")
-    output = call("ninja", "-C", wasm)
-    if "warning:" in output:
-        sys.exit("web: the compiler warns:\n" + output[-4000:])
-    make_page(folder, os.path.join(wasm, "web"))
+    for name, args in MODULES.items():
+        make_modules(folder, name, args)
+    make_page(folder)
 
 
 if __name__ == "__main__":

@@ -73,7 +73,8 @@ export interface Options {
 export class PartMissing extends Error {}
 
 export class Lambent {
-  constructor(module: WebAssembly.Module, files?: Files, second?: WebAssembly.Module | null);
+  /** `second`: of a module in two parts; `memory`: of a module with threads (threads.js). */
+  constructor(module: WebAssembly.Module, files?: Files, parts?: { second?: WebAssembly.Module | null; memory?: WebAssembly.Memory | null });
   /** The second part of a module in two parts. */
   complete(second: WebAssembly.Module): void;
   readonly files: Files;

@@ -1,5 +1,6 @@
 // lambent.js: Lambent as a module: pictures of models by the words of a command line, from files in memory. No file of the
-// machine is read, nothing is sent anywhere. For node and for browsers; one thread, so that a page calls it in a worker.
+// machine is read, nothing is sent anywhere. For node and for browsers. It draws while it is called, so a page calls it in a worker; with several
+// threads by threads.js.
 //
 //   const lambent = await open(bytesOfLambentWasm);
 //   lambent.files.set('/bunny.obj', bytes);
@@ -21,39 +22,40 @@ const placeholder = new Proxy({}, {
 });
 
 export class Lambent {
-  #instance;
+  instance; // the module's
   #printed = '';
 
-  // `second`: of a module that is in two parts; without it, until complete() has it, calls that need it throw PartMissing.
-  constructor(module, files = new Files(), second = null) {
+  // `second`: of a module that is in two parts; without it, until complete() has it, calls that need it throw PartMissing. `memory`: of a module
+  // with threads (threads.js).
+  constructor(module, files = new Files(), { second = null, memory = null } = {}) {
     this.files = files;
     const host = system(files, [], (stream, text) => (this.#printed += text));
-    this.#instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, placeholder });
-    host.attach(this.#instance);
+    this.instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, placeholder, env: { memory } });
+    host.attach(this.instance);
     if (second) this.complete(second);
-    this.#instance.exports._initialize();
+    this.instance.exports._initialize();
   }
 
   complete(second) {
-    new WebAssembly.Instance(second, { primary: this.#instance.exports });
+    new WebAssembly.Instance(second, { primary: this.instance.exports });
   }
 
   // What reading a model and drawing it may each use, in bytes, where the words have no --memory-limit. 0: as much as there is.
   limitMemory(bytes) {
-    this.#instance.exports.web_limit_memory(bytes);
+    this.instance.exports.web_limit_memory(bytes);
   }
 
   #words(words) {
     const bytes = new TextEncoder().encode(words.map((word) => word + '\0').join(''));
-    const at = this.#instance.exports.web_words(bytes.length);
+    const at = this.instance.exports.web_words(bytes.length);
     if (!at) throw new LambentError('out of memory');
-    new Uint8Array(this.#instance.exports.memory.buffer, at, bytes.length).set(bytes);
+    new Uint8Array(this.instance.exports.memory.buffer, at, bytes.length).set(bytes);
     return words.length;
   }
 
   #call(name, ...numbers) {
     this.#printed = '';
-    this.#instance.exports[name](...numbers);
+    this.instance.exports[name](...numbers);
     const answer = JSON.parse(this.#printed);
     if (answer.ok === false) throw new LambentError(answer.error);
     return answer;
@@ -62,7 +64,7 @@ export class Lambent {
   // The picture: width, height, `pixels` (RGBA), the camera in use, times, warnings.
   draw(words) {
     const picture = this.#call('web_draw', this.#words(words));
-    const { memory, web_pixels } = this.#instance.exports;
+    const { memory, web_pixels } = this.instance.exports;
     picture.pixels = new Uint8ClampedArray(memory.buffer, web_pixels(), picture.width * picture.height * 4).slice();
     return picture;
   }
@@ -108,7 +110,7 @@ export class Lambent {
 
   // The files have changed: the model is read anew.
   forget() {
-    this.#instance.exports.web_forget();
+    this.instance.exports.web_forget();
   }
 }
 

@@ -52,8 +52,9 @@ def table(folder):
     rows = [(title, size, None) for title, size in parts_of(os.path.join(folder, "wasm", "web", "lambent.map")).items()]
     rows.append(("the module", os.path.getsize(module), packed(module)))
     page = os.path.join(folder, "page")
-    later = build.later_modules_of(build.PAGE) + [build.CODEMIRROR]
     first = build.modules_of(build.PAGE) + build.modules_of(build.WORKER)
+    later = [name for name in build.later_modules_of(build.PAGE) + build.later_modules_of(build.WORKER) + build.modules_of(build.THREAD) if name not in first]
+    later.append(build.CODEMIRROR)
     shaders = [name for name in build.modules_of(build.CHECK_WORKER) if name not in first + later]
     files = [name for name in os.listdir(page) if name.endswith((".js", ".html", ".css"))]
 
@@ -65,6 +66,7 @@ def table(folder):
     rows.append(of("scripts, page and style", [name for name in files if name not in later + shaders]))
     rows.append((FIRST, rows[-2][1] + rows[-1][1], rows[-2][2] + rows[-1][2]))
     rows.append(of("the other part of the module, fetched after the first picture", ["lambent-rest.wasm"]))
+    rows.append(of("the module with threads, fetched in its place where the page is cross-origin isolated", ["lambent-threads.wasm"]))
     rows.append(of("scripts that are fetched when they are used", [name for name in files if name in later]))
     rows.append(of("checks of shaders, fetched when one is checked", [*shaders, "check.wasm"]))
     return rows

@@ -151,7 +151,7 @@ export function system(files, words, print) {
       return OK;
     },
     clock_time_get(clock, precision, at) {
-      const ms = clock === 0 ? Date.now() : performance.now();
+      const ms = clock === 0 ? Date.now() : performance.timeOrigin + performance.now(); // the same in all threads
       view().setBigUint64(at, BigInt(Math.round(ms * 1e6)), true);
       return OK;
     },

@@ -3,40 +3,10 @@
 
 #include "float_state.h"
 
-#include <stdlib.h>
-
-#if defined(__wasm__)
-
-// WebAssembly: one thread.
-struct pool {
-    int threads;
-};
-
-struct pool *pool_make(int threads)
-{
-    (void)threads;
-    struct pool *pool = calloc(1, sizeof *pool);
-    if (pool)
-        pool->threads = 1;
-    return pool;
-}
-
-void pool_free(struct pool *pool) { free(pool); }
-int pool_threads(const struct pool *pool) { return pool ? pool->threads : 1; }
-int processor_count(void) { return 1; }
-
-void pool_run(struct pool *pool, size_t count, pool_task *task, void *user)
-{
-    (void)pool;
-    for (size_t i = 0; i < count; i++)
-        task(user, i, 0);
-}
-
-#else
-
 #include <pthread.h>
 #include <sched.h>
 #include <signal.h>
+#include <stdlib.h>
 
 enum { THREADS_MAX = 1024 };
 
@@ -177,5 +147,3 @@ void pool_run(struct pool *pool, size_t count, pool_task *task, void *user)
         pthread_cond_wait(&pool->done, &pool->lock);
     pthread_mutex_unlock(&pool->lock);
 }
-
-#endif

@@ -1,7 +1,7 @@
 // image_hashes.c: prints the hashes of the image table as this build draws it, for machines that the tests' own framework is not
 // built for (tests/web.py compares them with tests/images/expected/hashes.txt):
 //
-//   image-hashes [NUMBER OF]    lines "ISA NAME PIXELS FILE"; with two numbers, scenes NUMBER, NUMBER + OF, ...
+//   image-hashes [NUMBER OF [THREADS]]    lines "ISA NAME PIXELS FILE"; with two numbers, scenes NUMBER, NUMBER + OF, ...; one thread
 //
 // Ends with 1 and a sentence where something cannot be drawn.
 #include "picture_hash.h"
@@ -11,7 +11,8 @@
 
 int main(int argc, char **argv)
 {
-    int first = argc == 3 ? atoi(argv[1]) : 0, step = argc == 3 ? atoi(argv[2]) : 1;
+    int first = argc >= 3 ? atoi(argv[1]) : 0, step = argc >= 3 ? atoi(argv[2]) : 1,
+        threads = argc == 4 ? atoi(argv[3]) : 1;
     for (int i = first; step > 0 && i < demo_count; i += step) {
         struct demo demo;
         lam_error error = {0};
@@ -24,7 +25,8 @@ int main(int argc, char **argv)
             struct hashes hashes;
             if (!lam_isa_usable((lam_isa)isa))
                 continue;
-            if (!picture_draw(&demo, (lam_isa)isa, 1, &image, &error) || !picture_hash(&image, 1, &hashes, &error)) {
+            if (!picture_draw(&demo, (lam_isa)isa, threads, &image, &error) ||
+                !picture_hash(&image, 1, &hashes, &error)) {
                 fprintf(stderr, "%s, %s: %s\n", demos[i].name, lam_isa_name((lam_isa)isa), error.text);
                 return 1;
             }

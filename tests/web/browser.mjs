@@ -507,6 +507,34 @@ async function twoParts() {
   await alone.close();
 }
 
+// --- several threads where the page is cross-origin isolated, after the first picture: the same pixels
+
+async function isolated() {
+  const words = [...START, '--shadows'], page = await openPage(`${origin}isolated/${fragment(words)}`), cores = await page.evaluate(() => navigator.hardwareConcurrency);
+  ok(await page.evaluate(() => crossOriginIsolated), 'isolated: the page is');
+  await until(page, () => document.body.dataset.threads);
+  const threads = Number(await page.evaluate(() => document.body.dataset.threads));
+  ok(threads === Math.min(cores, 16), `isolated: ${threads} threads draw, of ${cores} processors`);
+  const plain = await start(words);
+  for (const one of [page, plain]) {
+    await drawn(one, 'isolated');
+    await one.locator('#canvas').press('ArrowRight');
+    await settled(one, 'isolated, turned');
+  }
+  ok((await pixels(page)) === (await pixels(plain)), 'isolated: the same pixels as with one thread');
+  ok(same(await plain.evaluate(() => [crossOriginIsolated, document.body.dataset.threads ?? '1']), [false, '1']), 'isolated: one thread elsewhere');
+  await page.locator('#canvas').press('Enter');
+  await until(page, () => document.getElementById('explain').textContent.length > 100);
+  ok(true, 'isolated: explains');
+  for (const one of [page, plain]) await one.close();
+  const alone = await browser.newContext({ serviceWorkers: 'block' }), refused = await alone.newPage();
+  await refused.route('**/lambent-threads.wasm', (route) => route.abort());
+  await refused.goto(`${origin}isolated/${fragment(words)}`);
+  await until(refused, () => document.body.dataset.threads);
+  ok((await refused.evaluate(() => document.body.dataset.threads)) === '1', 'isolated: one thread where the module with threads cannot be had');
+  await alone.close();
+}
+
 // --- roles, names and the order of the focus; texts; narrow pages
 
 async function accessible() {
@@ -613,7 +641,7 @@ async function sequencesOf(count) {
   await page.close();
 }
 
-const parts = { gestures, words, touch, controls, explained, arrows, compared, lights, sizes, files, memory, oneFile, offline, twoParts, accessible, pseudo, random: () => sequencesOf(Number(sequences)) };
+const parts = { gestures, words, touch, controls, explained, arrows, compared, lights, sizes, files, memory, oneFile, offline, twoParts, isolated, accessible, pseudo, random: () => sequencesOf(Number(sequences)) };
 
 const only = process.env.LAMBENT_BROWSER?.split(',');
 for (const [name, part] of Object.entries(parts)) {

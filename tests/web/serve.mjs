@@ -1,4 +1,4 @@
-// serve.mjs: the page of build-web/page on 127.0.0.1, and a browser for it.
+// serve.mjs: the page of build-web/page on 127.0.0.1, and a browser for it. Below /isolated/ it is cross-origin isolated.
 import { readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
@@ -14,10 +14,12 @@ export function launch(playwright, executablePath) {
 
 export async function openBrowser(playwright, executablePath, built) {
   const server = createServer((request, answer) => {
-    const name = new URL(request.url, 'http://x').pathname.replace(/^\/$/, '/index.html');
+    const path = new URL(request.url, 'http://x').pathname, isolated = path.startsWith('/isolated/');
+    const name = path.replace(/^\/isolated/, '').replace(/^\/$/, '/index.html');
+    const headers = isolated ? { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' } : {};
     try {
       const bytes = readFileSync(join(built, 'page', name));
-      answer.writeHead(200, { 'content-type': TYPES[extname(name)] ?? 'application/octet-stream' }).end(bytes);
+      answer.writeHead(200, { ...headers, 'content-type': TYPES[extname(name)] ?? 'application/octet-stream' }).end(bytes);
     } catch {
       answer.writeHead(404).end();
     }

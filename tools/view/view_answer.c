@@ -16,6 +16,7 @@ void view_answer_headers(const struct view *view, struct MHD_Response *response,
         {"Referrer-Policy", "no-referrer"}, // the address holds the token
         {"Cross-Origin-Resource-Policy", "same-origin"},
         {"Cross-Origin-Opener-Policy", "same-origin"},
+        {"Cross-Origin-Embedder-Policy", "require-corp"}, // with the opener's, several threads may draw in the page
         {"X-Frame-Options", "DENY"},
     };
     for (size_t i = 0; i < sizeof headers / sizeof *headers; i++)

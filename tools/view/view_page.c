@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "console.h"
 #include "html.h"
@@ -106,8 +107,11 @@ static bool put_data(FILE *out, const struct view_page *page, const char *model,
     bool ok = fclose(list) == 0 || complain(error, LAM_LIMIT, "out of memory");
     if (ok && model)
         put_json(out, "inside-words", text);
+    char served[64];
+    snprintf(served, sizeof served, "{\"gallery\":%s,\"threads\":%s}", model ? "false" : "true",
+             page->module ? "true" : "false");
     if (ok)
-        put_json(out, "served", model ? "{\"gallery\":false}" : "{\"gallery\":true}");
+        put_json(out, "served", served);
     free(text);
     return ok;
 }
@@ -137,13 +141,27 @@ static bool fill(struct view_page *page, const char *text, const char *model, la
     return ok;
 }
 
+// The module with threads lies beside the page, where `make web` has made both.
+static bool take_module(struct view_page *page, const char *path, lam_error *error)
+{
+    const char *slash = strrchr(path, '/');
+    char *beside = NULL;
+    if (asprintf(&beside, "%.*slambent-threads.wasm", slash ? (int)(slash + 1 - path) : 0, path) < 0)
+        return complain(error, LAM_LIMIT, "out of memory");
+    bool exists = access(beside, R_OK) == 0;
+    page->module = exists ? page_file_read(beside, PAGE_MAX, &page->module_size, error) : NULL;
+    free(beside);
+    return page->module || !exists;
+}
+
 bool view_page_make(struct view_page *page, const struct options *options, const char *model, struct view_files *files,
                     lam_error *error)
 {
     size_t size = 0;
     *page = (struct view_page){0};
     char *path = page_file_find(error), *text = path ? page_file_read(path, PAGE_MAX, &size, error) : NULL;
-    bool ok = text && take_options(page, options, files, error) && fill(page, text, model, error);
+    bool ok = text && take_module(page, path, error) && take_options(page, options, files, error) &&
+              fill(page, text, model, error);
     free(path);
     free(text);
     return ok;
@@ -154,5 +172,6 @@ void view_page_free(struct view_page *page)
     free(page->text);
     free(page->words);
     free(page->fragment);
+    free(page->module);
     *page = (struct view_page){0};
 }

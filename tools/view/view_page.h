@@ -10,6 +10,8 @@ struct view_page {
     size_t size;
     char *words; // the options of the command line as words of the page, each with a 0 at its end
     size_t words_size;
+    char *module; // the page's with threads, which it fetches; from malloc; NULL: there is none
+    size_t module_size;
     char *fragment; // they as the end of an address, "&--background%3Dwhite"; "": there are none
 };
 

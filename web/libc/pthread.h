@@ -1,10 +1,13 @@
-// pthread.h: the names that one thread needs, which waits for nobody: wasi-libc has none.
+// pthread.h: what wasi-libc lacks. In a module with shared memory (-matomics, threads.c) locks and conditions wait, and threads are those that
+// JavaScript has started for it (web/threads.js); in any other module there is one thread, which waits for nobody.
 #ifndef WEB_PTHREAD_H
 #define WEB_PTHREAD_H
 
 #include <stddef.h>
 
 typedef int pthread_mutex_t, pthread_cond_t;
+typedef struct thread *pthread_t;
+#define PTHREAD_MUTEX_INITIALIZER 0
 
 static inline int pthread_mutex_init(pthread_mutex_t *mutex, const void *attributes)
 {
@@ -17,14 +20,36 @@ static inline int pthread_cond_init(pthread_cond_t *changed, const void *attribu
     return *changed = 0;
 }
 static inline int pthread_mutex_destroy(pthread_mutex_t *mutex) { return (void)mutex, 0; }
+static inline int pthread_cond_destroy(pthread_cond_t *changed) { return (void)changed, 0; }
+
+#if defined(__wasm_atomics__)
+
+int pthread_mutex_lock(pthread_mutex_t *mutex);
+int pthread_mutex_unlock(pthread_mutex_t *mutex);
+int pthread_cond_wait(pthread_cond_t *changed, pthread_mutex_t *mutex);
+int pthread_cond_signal(pthread_cond_t *changed);
+int pthread_cond_broadcast(pthread_cond_t *changed);
+// EAGAIN where no thread is free. No attributes.
+int pthread_create(pthread_t *thread, const void *attributes, void *task(void *), void *argument);
+int pthread_join(pthread_t thread, void **result); // the result is always NULL
+
+#else
+
 static inline int pthread_mutex_lock(pthread_mutex_t *mutex) { return (void)mutex, 0; }
 static inline int pthread_mutex_unlock(pthread_mutex_t *mutex) { return (void)mutex, 0; }
-static inline int pthread_cond_destroy(pthread_cond_t *changed) { return (void)changed, 0; }
-static inline int pthread_cond_broadcast(pthread_cond_t *changed) { return (void)changed, 0; }
 // What one thread waits for is there already: nobody else could bring it.
 static inline int pthread_cond_wait(pthread_cond_t *changed, pthread_mutex_t *mutex)
 {
     return (void)changed, (void)mutex, 0;
 }
+static inline int pthread_cond_signal(pthread_cond_t *changed) { return (void)changed, 0; }
+static inline int pthread_cond_broadcast(pthread_cond_t *changed) { return (void)changed, 0; }
+static inline int pthread_create(pthread_t *thread, const void *attributes, void *task(void *), void *argument)
+{
+    return (void)thread, (void)attributes, (void)task, (void)argument, 6; // EAGAIN
+}
+static inline int pthread_join(pthread_t thread, void **result) { return (void)thread, (void)result, 0; }
+
+#endif
 
 #endif

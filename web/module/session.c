@@ -23,7 +23,7 @@ static struct {
     char *text;
     uint32_t bytes;
     lam_device *device;
-    int isa;
+    int isa, threads;                       // of the device
     struct environment_cache *environments; // of the files as they are
     lam_image image;                        // of the last picture
     uint64_t memory_limit_bytes;            // 0: none
@@ -75,13 +75,15 @@ static bool start(int count, struct options *options, struct job *job, lam_error
     if (options->turntable || options->sweeps.count)
         return complain(error, LAM_BAD_ARGUMENT,
                         "options '--turntable' and '--sweep' make files, expected one picture");
-    if (session.device && session.isa != options->isa) {
+    if (session.device && (session.isa != options->isa || session.threads != options->threads)) {
         lam_device_free(session.device);
         session.device = NULL;
     }
     if (!session.device)
         session.device = device_option_make(options, error);
     session.isa = options->isa;
+    session.threads = options->threads;
+    options->threads = 1; // the device has the others; files are read here, since no other thread has them
     if (!session.environments)
         session.environments = environment_cache_make();
     *job = (struct job){.options = options,

@@ -25,11 +25,22 @@ export function openWorker() {
     const amount = whole ? `${Math.min(100, Math.round((100 * size) / whole))} %` : `${Math.round(size / 1000)} kB`;
     document.getElementById('status').textContent = text('loading', { name, amount });
   });
-  return caller(worker, wasm, () => fetchModule('lambent-rest.wasm'));
+  const rest = async () => ({ wasm: await fetchModule('lambent-rest.wasm') });
+  return caller(worker, wasm, [...withThreads(() => fetchModule('lambent-threads.wasm'), new URL('thread.js', import.meta.url)), rest]);
 }
 
-// `rest`: fetches the second part of a module that is in two (web/build.py); null: it is whole.
-export function caller(worker, wasm, rest = null) {
+const THREADS_MAX = 16;
+
+// Where the page may share memory with its workers, a way to the module with threads (web/threads.js), which takes the place of the one that has drawn
+// the first picture.
+export function withThreads(load, script) {
+  const count = Math.min(navigator.hardwareConcurrency, THREADS_MAX);
+  return crossOriginIsolated && count > 1 ? [async () => ({ wasm: await load(), threads: { count, script: String(script) } })] : [];
+}
+
+// `rest`: ways to what the module lacks, of which the first that succeeds is taken: the second part of one that is in two (web/build.py), or one with
+// threads. None: it is whole.
+export function caller(worker, wasm, rest = []) {
   const waiting = new Map();
   let next = 0, complete = null;
   const send = (message) =>
@@ -40,7 +51,9 @@ export function caller(worker, wasm, rest = null) {
     });
   // Once; and again after an attempt that has failed.
   const fetchRest = () =>
-    (complete ??= rest().then((bytes) => send({ call: 'complete', wasm: bytes })).catch((error) => {
+    (complete ??= rest.reduce((before, way) => before.catch(async () => send({ call: 'complete', ...(await way()) })), Promise.reject()).then(({ threads }) => {
+      document.body.dataset.threads = threads;
+    }, (error) => {
       complete = null;
       throw error;
     }));
@@ -62,6 +75,6 @@ export function caller(worker, wasm, rest = null) {
       return send(whole);
     },
     // What the first pictures do not need, before it is needed.
-    fetchRest: () => (rest ? fetchRest() : Promise.resolve()),
+    fetchRest: () => (rest.length ? fetchRest() : Promise.resolve()),
   };
 }

@@ -16,13 +16,19 @@ const calls = {
     use(new Lambent(first));
     return lambent.options();
   },
-  // A Lambent that has asked for the second part is replaced; one that has not yet only gets it.
-  async complete({ wasm }) {
+  // A Lambent that has asked for the second part is replaced, or gives way to one with threads; one that has not yet only gets it.
+  async complete({ wasm, threads }) {
+    if (threads) {
+      const { openThreads } = await import('./threads.js');
+      use(await openThreads(wasm, threads.count, () => new Worker(threads.script, { type: 'module' }), lambent.files));
+      broken = false;
+      return { threads: lambent.threads };
+    }
     const second = await WebAssembly.compile(wasm);
-    if (broken) use(new Lambent(first, lambent.files, second));
+    if (broken) use(new Lambent(first, lambent.files, { second }));
     else lambent.complete(second);
     broken = false;
-    return null;
+    return { threads: 1 };
   },
   files({ files }) {
     for (const path of lambent.files.list()) lambent.files.delete(path);

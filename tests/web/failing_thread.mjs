@@ -1,0 +1,10 @@
+// failing_thread.mjs: a thread in place of web/thread.js that fails as soon as it is there.
+import { parentPort } from 'node:worker_threads';
+import { Files, system } from '../../web/wasi.js';
+
+parentPort.once('message', ({ module, memory }) => {
+  const host = system(new Files(), [], () => {});
+  const instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, env: { memory } });
+  parentPort.postMessage('ready');
+  instance.exports.web_thread_failed();
+});

@@ -1,0 +1,20 @@
+// thread.js: a thread of a module (threads.js): a worker with an instance of its own in the memory of all. It has no files.
+import { Files, system } from './wasi.js';
+
+function start(port, { module, memory, thread }) {
+  const host = system(new Files(), [], (stream, text) => console.error(text));
+  const instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, env: { memory } });
+  host.attach(instance);
+  const { __stack_pointer, web_thread_run, web_thread_failed } = instance.exports;
+  __stack_pointer.value = thread; // its stack ends there, and grows downwards
+  port.postMessage('ready');
+  try {
+    web_thread_run(thread); // does not return
+  } catch (error) {
+    web_thread_failed();
+    throw error;
+  }
+}
+
+if (typeof self === 'object') self.onmessage = ({ data }) => start(self, data);
+else import('node:worker_threads').then(({ parentPort }) => parentPort.once('message', (data) => start(parentPort, data)));

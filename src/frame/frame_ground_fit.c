@@ -211,7 +211,8 @@ lam_camera lam_camera_fit_ground(const lam_scene *scene, const lam_draw_params *
                                  const lam_view *view, lam_vec3 centre, const lam_vec3 *axis)
 {
     lam_camera camera = camera_fit(scene, width, height, view, centre, axis, &(struct camera_points){.count = 0});
-    if (!scene || !params || !params->ground)
+    bool lines_alone = params && params->no_surfaces && params->output == LAM_OUTPUT_PICTURE; // they have no ground
+    if (!scene || !params || !params->ground || lines_alone)
         return camera;
     uint64_t state = float_state_enter();
     struct frame frame = {.width = 0};

@@ -53,7 +53,7 @@ INSIDE = {
     "openWorker": """function openWorker() {
   const served = document.getElementById('served'), threads = served && JSON.parse(served.textContent).threads; // by lambent view
   return caller(new Worker(insideScript(insideText('worker'))), insideStream('wasm').arrayBuffer(),
-    threads ? withThreads(async () => (await fetch('threads.wasm')).arrayBuffer(), insideScript(insideText('thread'))) : []);
+    threads ? withThreads(async () => (await import('./served.js')).fetchThreads(), insideScript(insideText('thread'))) : []);
 }
 """,
     "openCheck": """function openCheck() {

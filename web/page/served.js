@@ -6,6 +6,9 @@ import { text } from './strings.js';
 export const served = JSON.parse(document.getElementById('served').textContent);
 
 const client = crypto.randomUUID(); // a newer picture of this page ends the older one
+// The module with threads (start.js), which lies beside the page that the viewer serves.
+export const fetchThreads = async () => bytesOf(await ask('threads.wasm', []));
+
 let known = null; // the model as it was last asked for: its files in the module, or why the program draws it
 let drawing = null; // stops the request of a picture
 

@@ -72,10 +72,13 @@ bool layers_gouraud(struct demo *d, lam_error *error)
 
 bool layers_environment(struct demo *d, lam_error *error)
 {
-    lam_environment *environment = lam_environment_built_in("studio", error);
-    bool ok = environment && layers_uniform(d, error) && lam_scene_set_environment(d->scene, environment, 0, error);
-    lam_environment_free(environment);
-    return ok;
+    return layers_uniform(d, error) && textured_surround(d, "studio", 0, error);
+}
+
+bool layers_mapped_environment(struct demo *d, lam_error *error)
+{
+    d->params.shading = LAM_SHADING_GOURAUD;
+    return textured_layers(d, error) && textured_surround(d, "studio", 0, error);
 }
 
 // Coloured glass in front of a white box and of one another, over a background; the last ball is tinted by its volume.

@@ -466,10 +466,7 @@ static int mirror(struct demo *d, lam_rgb reflectivity, lam_error *error)
 static bool surround(struct demo *d, const char *name, double rotation_rad, lam_error *error)
 {
     d->params.rig = LAM_RIG_NONE;
-    lam_environment *environment = lam_environment_built_in(name, error);
-    bool ok = environment && lam_scene_set_environment(d->scene, environment, rotation_rad, error);
-    lam_environment_free(environment);
-    return ok;
+    return textured_surround(d, name, rotation_rad, error);
 }
 
 static bool mirror_sky(struct demo *d, lam_error *error)
@@ -684,6 +681,7 @@ const struct demo_row demos[] = {
     {"textured-classic", "the same maps on a classic material", textured_classic},
     {"textured-as-phong", "metallic-roughness maps under Phong's model", textured_converted},
     {"textured-gouraud", "lit at the vertices: the diffuse map stays sharp", textured_gouraud},
+    {"textured-environment", "metallic-roughness maps in a studio, lit at the vertices", textured_environment},
     {"masked", "leaves: left out below half opacity to the left, blended to the right", textured_masked},
     {"shadows", "a ball, a box and a knot: hard shadows of a directional, a point and a spot light", shadows_hard},
     {"shadows-soft", "the same lights with a size", shadows_soft},
@@ -698,6 +696,8 @@ const struct demo_row demos[] = {
     {"layers-gouraud", "the same lit at the vertices", layers_gouraud},
     {"layers-transmission", "coloured glass over a box, a background and other glass; a volume that tints",
      layers_transmission},
+    {"textured-layers-environment", "every map of the layers in a studio, lit at the vertices",
+     layers_mapped_environment},
     {"textured-layers", "a coat of bricks over a smooth ball, a brushed ring under a film: every map of the layers",
      textured_layers},
     {"samples-1", "no antialiasing", samples_1},

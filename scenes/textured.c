@@ -140,6 +140,26 @@ bool textured_gouraud(struct demo *d, lam_error *error)
     return bricks(d, false, error);
 }
 
+bool textured_surround(struct demo *d, const char *name, double rotation_rad, lam_error *error)
+{
+    lam_environment *environment = lam_environment_built_in(name, error);
+    bool ok = environment && lam_scene_set_environment(d->scene, environment, rotation_rad, error);
+    lam_environment_free(environment);
+    return ok;
+}
+
+bool textured_environment(struct demo *d, lam_error *error)
+{
+    d->params.shading = LAM_SHADING_GOURAUD;
+    bool ok = bricks(d, true, error);
+    for (int i = 0; ok && i < lam_scene_material_count(d->scene); i++) {
+        lam_material m = *lam_scene_material(d->scene, i);
+        m.metallic = 0.2f; // of all of it: the map is left out
+        ok = lam_scene_set_material(d->scene, i, &m, error);
+    }
+    return ok && textured_surround(d, "studio", 0, error);
+}
+
 bool textured_converted(struct demo *d, lam_error *error)
 {
     d->params.reflection = LAM_REFLECTION_PHONG;

@@ -127,7 +127,7 @@ LANE_FN void pass_light(const struct side *side, const struct frame_light *l, co
 
 // The rest of evaluate_terms for a material with layers, as src/cpu/shade/layered.inc. `sign`: of the bitangent.
 LANE_FN terms layered_terms(const struct side *side, const struct vertex_rays *rays, surface s, vec3 color, num sign,
-                            terms sum)
+                            terms sum, vec3 *around)
 {
     const struct frame *frame = side->frame;
     const lam_material *m = side->material;
@@ -160,12 +160,17 @@ LANE_FN terms layered_terms(const struct side *side, const struct vertex_rays *r
         if (set & LAYER_CLEARCOAT)
             top = surroundings_at(frame, side->environment_light, coat_surface(s, y), y.coat_roughness);
         vec3 light = layered_surroundings(s, y, kd, e, top, set);
-        sum.reflection = pick3(both(present(s.n), present(s.v)), add3(sum.reflection, light), sum.reflection);
+        mask lit = both(present(s.n), present(s.v));
+        if (side->apart)
+            *around = pick3(lit, sub3(light, layered_surroundings(s, y, black3(), e, top, set)), black3());
+        sum.reflection = pick3(lit, add3(sum.reflection, light), sum.reflection);
     }
     return tint_terms(sum, color);
 }
 
-LANE_FN terms evaluate_terms(const struct side *side, const struct vertex_rays *rays, surface s, vec3 color, num sign)
+// `around`: zero; becomes the part of the reflection that a diffuse map multiplies.
+LANE_FN terms evaluate_terms(const struct side *side, const struct vertex_rays *rays, surface s, vec3 color, num sign,
+                             vec3 *around)
 {
     const struct frame *frame = side->frame;
     const lam_material *m = side->material;
@@ -179,7 +184,7 @@ LANE_FN terms evaluate_terms(const struct side *side, const struct vertex_rays *
             sum, s, (hemisphere){of3(h->up), product3(&m->ambient.r, h->sky), product3(&m->ambient.r, h->ground)});
     }
     if (model == LAM_REFLECTION_GGX && frame_layers(frame, m))
-        return layered_terms(side, rays, s, color, sign, sum);
+        return layered_terms(side, rays, s, color, sign, sum, around);
     num gain = frame->single_scattering || !(lobe_properties(model) & LOBE_MICROFACET)
                    ? num_of(0.0f)
                    : scattering_gain(s, num_of(m->roughness));
@@ -198,9 +203,12 @@ LANE_FN terms evaluate_terms(const struct side *side, const struct vertex_rays *
     }
     if (side->environment_light && (lobe_properties(model) & LOBE_MICROFACET)) {
         vec3 kd = scale3(mul3(of3(&m->diffuse.r), color), num_of(1.0f - m->metallic));
-        vec3 light =
-            surroundings_light(mirror, kd, surroundings_at(frame, side->environment_light, s, num_of(m->roughness)));
-        sum.reflection = pick3(both(present(s.n), present(s.v)), add3(sum.reflection, light), sum.reflection);
+        surroundings e = surroundings_at(frame, side->environment_light, s, num_of(m->roughness));
+        vec3 light = surroundings_light(mirror, kd, e);
+        mask lit = both(present(s.n), present(s.v));
+        if (side->apart)
+            *around = pick3(lit, sub3(light, surroundings_light(mirror, black3(), e)), black3());
+        sum.reflection = pick3(lit, add3(sum.reflection, light), sum.reflection);
     }
     if (frame->environment && !m->physical &&
         (m->reflectivity.r != 0 || m->reflectivity.g != 0 || m->reflectivity.b != 0))
@@ -278,16 +286,18 @@ LANE_FN num sign_of(const struct side *side, const struct mesh_vertex *from)
     return num_load(sign);
 }
 
-// The part of the terms that a diffuse map multiplies (`mapped`), or the rest, as far as it is shown.
-LANE_FN vec3 part_terms(const struct side *side, terms t, bool mapped)
+// The part of the terms that a diffuse map multiplies (`mapped`), or the rest, as far as it is shown. `around`: the matte part
+// of the reflection.
+LANE_FN vec3 part_terms(const struct side *side, terms t, vec3 around, bool mapped)
 {
     terms part = {black3(), black3(), black3(), black3(), black3()};
     if (mapped) {
         part.ambient = t.ambient;
         part.diffuse = t.diffuse;
+        part.reflection = around;
     } else {
         part.specular = t.specular;
-        part.reflection = t.reflection;
+        part.reflection = sub3(t.reflection, around);
         part.emission = side->glows ? black3() : t.emission;
     }
     return output_terms(side, part);
@@ -325,10 +335,12 @@ static void light_side(const struct side *side, const struct mesh_vertex *from, 
         if (output_is_vector(frame->output)) {
             color = output_vector(side, s);
         } else {
-            terms t = evaluate_terms(side, &rays, s, side->mesh->colors ? load3(from, 6) : white, sign_of(side, from));
-            color = side->apart ? part_terms(side, t, true) : output_terms(side, t);
+            vec3 around = black3();
+            terms t = evaluate_terms(side, &rays, s, side->mesh->colors ? load3(from, 6) : white, sign_of(side, from),
+                                     &around);
+            color = side->apart ? part_terms(side, t, around, true) : output_terms(side, t);
             if (side->apart)
-                store_vertices(rest, clamped3(part_terms(side, t, false), clamped));
+                store_vertices(rest, clamped3(part_terms(side, t, around, false), clamped));
         }
         rest += LANES;
         store_vertices(out, clamped3(color, clamped));

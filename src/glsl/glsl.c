@@ -125,20 +125,27 @@ static void add_output_material(struct text *text, const struct glsl_facts *f)
     }
 }
 
+// The environment's light on physical materials has a part of its own that the diffuse map multiplies.
+static bool maps_reflection(const struct glsl_facts *f) { return f->apart && f->environment_light; }
+
 // The parts of that term that the diffuse map multiplies, and does not. An emission map multiplies the emission apart from both.
-static const char *mapped_term(const struct glsl_choices *c)
+static const char *mapped_term(const struct glsl_facts *f)
 {
+    const struct glsl_choices *c = f->choices;
+    bool matte = maps_reflection(f);
     switch (c->output) {
     case LAM_OUTPUT_AMBIENT:
     case LAM_OUTPUT_DIFFUSE:
         return output_term(c);
     case LAM_OUTPUT_SPECULAR:
     case LAM_OUTPUT_EMISSION:
-    case LAM_OUTPUT_REFLECTION:
         return "black3()";
+    case LAM_OUTPUT_REFLECTION:
+        return matte ? "matte" : "black3()";
+    case LAM_OUTPUT_LIGHT:
+        return c->reflection == LAM_REFLECTION_NONE ? "black3()" : "add3(sum.ambient, sum.diffuse)";
     default:
-        return c->output == LAM_OUTPUT_LIGHT && c->reflection == LAM_REFLECTION_NONE ? "black3()"
-                                                                                     : "add3(sum.ambient, sum.diffuse)";
+        return matte ? "add3(add3(sum.ambient, sum.diffuse), matte)" : "add3(sum.ambient, sum.diffuse)";
     }
 }
 
@@ -148,8 +155,9 @@ static const char *rest_term(const struct glsl_facts *f)
     bool glows = f->maps[0][LAM_MAP_EMISSION] || f->maps[1][LAM_MAP_EMISSION];
     switch (c->output) {
     case LAM_OUTPUT_SPECULAR:
-    case LAM_OUTPUT_REFLECTION:
         return output_term(c);
+    case LAM_OUTPUT_REFLECTION:
+        return maps_reflection(f) ? "sub3(sum.reflection, matte)" : output_term(c);
     case LAM_OUTPUT_EMISSION:
         return glows ? "black3()" : "sum.emission";
     case LAM_OUTPUT_AMBIENT:
@@ -158,6 +166,9 @@ static const char *rest_term(const struct glsl_facts *f)
     case LAM_OUTPUT_LIGHT:
         return c->reflection == LAM_REFLECTION_NONE ? "black3()" : "sum.specular";
     default:
+        if (maps_reflection(f))
+            return glows ? "add3(sum.specular, sub3(sum.reflection, matte))"
+                         : "add3(add3(sum.emission, sum.specular), sub3(sum.reflection, matte))";
         return glows ? "add3(sum.specular, sum.reflection)" : "add3(add3(sum.emission, sum.specular), sum.reflection)";
     }
 }
@@ -292,6 +303,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"alpha_ruled", alpha.bytes != NULL},
         {"mapped", f->mapped},
         {"apart", f->apart},
+        {"mapped_reflection", maps_reflection(f)},
         {"value_masks", fragment && f->value_masks},
         {"passes_tint", f->per_fragment ? passes_tint : f->value_masks && c->colors},
         {"late_color", f->apart && glsl_maps_have(f, "color")},
@@ -440,7 +452,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f, bool fragme
         {"roughness", roughness.bytes ? roughness.bytes : ""},
         {"output_term", output_term(c)},
         {"output_material", of_material.bytes ? of_material.bytes : ""},
-        {"output_mapped", mapped_term(c)},
+        {"output_mapped", mapped_term(f)},
         {"output_rest", rest_term(f)},
         {"value_mask", value_mask.bytes ? value_mask.bytes : ""},
         {"glow", f->back_material ? "(gl_FrontFacing ? glow : back_glow)" : "glow"},

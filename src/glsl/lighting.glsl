@@ -397,6 +397,9 @@ vec4 light_point(@lit_parameters@)
 //@end
 //@end
 //@if has_environment
+//@if mapped_reflection
+    vec3 matte = black3(); // the matte part of the reflection
+//@end
     if (present(s.n) && present(s.v)) {
 //@if environment_light
         vec3 matt = scale3(base, 1.0 - @metallic@);
@@ -413,8 +416,15 @@ vec4 light_point(@lit_parameters@)
         surroundings top = around;
 //@end
         vec3 arriving = layered_surroundings(s, layering, matt, around, top, 0);
+//@if mapped_reflection
+        matte = sub3(arriving, layered_surroundings(s, layering, black3(), around, top, 0));
+//@end
 //@else
-        vec3 arriving = surroundings_light(mirror, matt, surroundings_of(s, @roughness@));
+        surroundings around = surroundings_of(s, @roughness@);
+        vec3 arriving = surroundings_light(mirror, matt, around);
+//@if mapped_reflection
+        matte = sub3(arriving, surroundings_light(mirror, black3(), around));
+//@end
 //@end
 //@if map_occlusion
         arriving = scale3(arriving, maps.occlusion);

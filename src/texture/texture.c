@@ -23,6 +23,9 @@ static int levels_of(int width, int height)
 
 static int side_of(int side, int level) { return side >> level ? side >> level : 1; }
 
+// Levels of as many bytes lie in pages of their own: huge ones, which are touched faster.
+#define PAGES_FROM ((size_t)2 << 20)
+
 // Allocates a texture of this size, with its levels except for level 0 of bytes. NULL: LAM_LIMIT.
 static struct lam_texture *allocate(const lam_image *image, const char *name, struct call_control *call,
                                     lam_error *error)
@@ -32,20 +35,25 @@ static struct lam_texture *allocate(const lam_image *image, const char *name, st
     size_t name_bytes = name ? strlen(name) + 1 : 0, table = 512 * sizeof(float), texels = 0;
     for (int level = floats ? 0 : 1; level < levels; level++)
         texels += (size_t)side_of(image->width, level) * (size_t)side_of(image->height, level);
-    size_t bytes = sizeof(struct lam_texture) + table + texels * 4 * sizeof(float) + name_bytes, held;
-    if (call && !call_charge(call, bytes)) {
-        call_memory_error(call, bytes, error);
+    size_t floats_bytes = texels * 4 * sizeof(float), own = sizeof(struct lam_texture) + table + name_bytes;
+    bool large = floats_bytes >= PAGES_FROM;
+    if (call && !call_charge(call, own + floats_bytes)) {
+        call_memory_error(call, own + floats_bytes, error);
         return NULL;
     }
-    struct lam_texture *texture = pages_get(bytes, &held);
-    if (!texture) {
+    struct lam_texture *texture = calloc(1, large ? own : own + floats_bytes);
+    size_t held = 0;
+    float *pages = texture && large ? pages_get(floats_bytes, &held) : NULL;
+    if (!texture || (large && !pages)) {
         if (call)
-            call_refund(call, bytes);
-        fail_memory(error, bytes);
+            call_refund(call, own + floats_bytes);
+        free(texture);
+        fail_memory(error, own + floats_bytes);
         return NULL;
     }
-    float *decode = (float *)(texture + 1), *next = decode + 512;
-    *texture = (struct lam_texture){.references = 1, .level_count = levels, .decode = decode, .held = held};
+    float *decode = (float *)(texture + 1), *next = large ? pages : decode + 512;
+    *texture =
+        (struct lam_texture){.references = 1, .level_count = levels, .decode = decode, .pages = pages, .held = held};
     for (int level = 0; level < levels; level++) {
         struct texture_level *l = &texture->levels[level];
         *l = (struct texture_level){side_of(image->width, level), side_of(image->height, level), NULL};
@@ -55,7 +63,7 @@ static struct lam_texture *allocate(const lam_image *image, const char *name, st
         next += (size_t)l->width * (size_t)l->height * 4;
     }
     if (name)
-        texture->name = memcpy(next, name, name_bytes);
+        texture->name = memcpy(large ? decode + 512 : next, name, name_bytes);
     return texture;
 }
 
@@ -72,7 +80,8 @@ void lam_texture_free(lam_texture *texture)
     if (!texture || __atomic_sub_fetch(&texture->references, 1, __ATOMIC_ACQ_REL))
         return;
     free(texture->storage);
-    pages_free(texture, texture->held);
+    pages_free(texture->pages, texture->held);
+    free(texture);
 }
 
 // --- level 0

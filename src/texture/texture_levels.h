@@ -32,7 +32,8 @@ struct lam_texture {
     const float *decode; // 256 values of a byte of red, green and blue; alpha is byte ÷ 255
     struct texture_level levels[TEXTURE_LEVELS_MAX];
     void *storage;
-    size_t held; // of this structure's own pages, which hold the levels too
+    float *pages; // of large levels; NULL: they lie behind this structure
+    size_t held;  // of those pages
 };
 
 // A texel; x and y are inside.

@@ -35,9 +35,10 @@ export async function drawn(page, change) {
   });
 }
 
-// Waits until a gesture has come to an end (its last step is a timer's) and its picture is there.
+// Waits until a gesture has come to an end (its last step is a timer's, and the page says that it goes on) and its picture is there.
 export async function settled(page, label) {
-  await page.waitForTimeout(180);
+  await page.evaluate(() => new Promise((done) => setTimeout(done)));
+  await until(page, () => document.body.dataset.gesture === undefined);
   await drawn(page, label);
 }
 

@@ -69,6 +69,7 @@ export const gestureKey = () => `gesture ${gesture}`;
 
 export function beginGesture() {
   view.moving = true;
+  document.body.dataset.gesture = '';
   clearTimeout(still);
 }
 
@@ -76,6 +77,7 @@ export function endGesture() {
   clearTimeout(still);
   still = setTimeout(() => {
     view.moving = false;
+    delete document.body.dataset.gesture;
     gesture++;
     state.endGesture();
     emit('words');

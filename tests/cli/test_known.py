@@ -8,7 +8,7 @@ import unittest
 from harness import Case
 from reference import Reference, add, dot, scale, unit
 
-SIZE = (28, 21)
+SIZE = (20, 15)
 BRASS = {"ambient": [0.33, 0.22, 0.03], "diffuse": [0.78, 0.57, 0.11], "specular": [0.99, 0.91, 0.81], "emission": [0.02, 0, 0.01], "shininess": 27.8}
 POINT = {"type": "point", "position": [2, 3, 4], "ambient": [0.1, 0.05, 0.1], "diffuse": [1, 0.8, 0.9], "specular": [0.7, 1, 1],
          "attenuation": [0.5, 0.02, 0.03]}
@@ -61,7 +61,7 @@ class Known(Case):
         lines += ["3 %d %d %d" % face for face in mesh["faces"]]
         (self.folder / name).write_text("\n".join(lines) + "\n")
 
-    def agree(self, scene, meshes, faces=None, most=2e-4, mean=2e-6, least=45):
+    def agree(self, scene, meshes, faces=None, most=2e-4, mean=2e-6, least=SIZE[0] * SIZE[1] // 13):
         scene = copy.deepcopy(scene)
         scene = {"lambent": 1, "image": {}, "camera": {"eye": [0.4, 1.1, 4.2], "target": [0.1, 0, 0], "up": [0, 1, 0], "fovy": 38, "near": 0.5, "far": 50},
                  "reflection": "blinn-phong", "ambient": [0.1, 0.2, 0.15], **scene}

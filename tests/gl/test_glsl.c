@@ -195,7 +195,7 @@ static void write_file(const char *folder, int number, const char *ending, const
 // every n-th, a prime, which covers every loop of glsl_combinations; of these, one in PAIR_SHARE as a pair. The texts do not depend on
 // the compiler of this program: one build has a smaller step.
 #ifdef EVERY_TEXT
-enum { STEP = 7 };
+enum { STEP = 31 };
 #else
 enum { STEP = 61 };
 #endif

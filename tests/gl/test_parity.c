@@ -29,7 +29,7 @@
 
 // Larger pictures, so that edges are a smaller fraction of their pixels; less so where a software driver takes seconds for each.
 enum { SCALE = 4, SLOW_SCALE = 2 };
-static const char *const slow[] = {"shadows-soft", "ground-shadow"};
+static const char *const slow[] = {"shadows-soft", "ground-shadow", "shadows-leaves"};
 
 static int scale_of(const char *name)
 {

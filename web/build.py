@@ -298,11 +298,13 @@ MODULES = {"wasm": [], "threads": ["-matomics"]}
 def make_modules(folder, name, args):
     """The modules of one row, by Meson."""
     place = os.path.join(folder, name)
-    if not os.path.exists(os.path.join(place, "build.ninja")):
-        places = os.path.join(folder, name + ".ini")
-        with open(places, "w") as out:
-            out.write("[constants]\nweb_folder = '%s'\nweb_root = '%s'\nthread_args = %s\nweb_threads = %s\n"
-                      % (HERE, os.path.join(folder, "root"), args, str(bool(args)).lower()))
+    places = os.path.join(folder, name + ".ini")
+    text = ("[constants]\nweb_folder = '%s'\nweb_root = '%s'\nthread_args = %s\nweb_threads = %s\n"
+            % (HERE, os.path.join(folder, "root"), args, str(bool(args)).lower()))
+    write(places, text)
+    known = os.path.join(place, "meson-private", "cmd_line.txt") # of an older folder, with other files
+    if not os.path.exists(known) or places not in open(known).read():
+        shutil.rmtree(place, ignore_errors=True)
         call("meson", "setup", place, ROOT, "--cross-file", places, "--cross-file", os.path.join(HERE, "wasm32.ini"),
              "--buildtype=release", "-Dtests=false")
     output = call("ninja", "-C", place)

@@ -42,7 +42,7 @@ static size_t running_size;
 static void leave_input(void)
 {
     int file = open("fuzz-failure", O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    if (file < 0 || write(file, running, running_size) < 0)
+    if (file < 0 || (running && write(file, running, running_size) < 0))
         return;
     close(file);
 }
@@ -64,6 +64,8 @@ static void run(const uint8_t *bytes, size_t size)
     running = copy;
     running_size = size;
     LLVMFuzzerTestOneInput(copy, size);
+    running = NULL; // a leak is found at the end, when no input runs
+    running_size = 0;
     free(copy);
 }
 

@@ -156,7 +156,7 @@ static bool parse(char *const *words, int count, struct options *options, lam_er
         return complain(error, LAM_LIMIT, "out of memory");
     for (int i = 0; i < count; i++)
         list[i] = words[i];
-    int operands = options_parse(count, list, ~0u, options, error);
+    int operands = options_parse(count, list, ~WRITES_NO_FILE, options, error);
     if (operands > 0)
         complain(error, LAM_BAD_ARGUMENT, "key 'options': unexpected word '%.100s'", list[0]);
     free(list);

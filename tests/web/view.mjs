@@ -10,6 +10,9 @@ const [, , playwright, executablePath, model, folder, viewer, large] = process.a
 const browser = await launch(playwright, executablePath), context = await browser.newContext({ viewport: { width: 1000, height: 760 } }), reports = [];
 const part = join(folder, 'part.obj');
 
+// The browser reports these by itself: a damaged file's answer (422), requests to a viewer that is gone.
+const forgetReports = (expected) => reports.splice(0, reports.length, ...reports.filter((report) => !expected.test(report)));
+
 const message = (page) => page.locator('#message').textContent();
 const said = (command, hash, label) => console.log(`pixels ${JSON.stringify({ command, hash, label })}`);
 
@@ -49,7 +52,8 @@ async function oneModel() {
   ok(heard.some((sentence) => sentence.startsWith('The file has changed')), 'a changed file is announced', heard.join('\n'));
   writeFileSync(part, 'v 0 0 0\nf 1 2 x\n');
   await until(page, () => !document.getElementById('message').hidden);
-  ok((await message(page)) === `${part}:2: a face names vertex '2', but the file has 1` && (await pixels(page)) === after, 'a damaged file: the sentence, and the picture stays', await message(page));
+  // Said by the viewer, or by the page where the viewer has not read the file yet.
+  ok([part, 'part.obj'].includes((await message(page)).replace(/:2: a face names vertex '2', but the file has 1$/, '')) && (await pixels(page)) === after, 'a damaged file: the sentence, and the picture stays', await message(page));
   copyFileSync(join(folder, 'cube.obj'), part);
   await until(page, () => document.getElementById('message').hidden);
   await drawn(page, 'mended');
@@ -59,7 +63,7 @@ async function oneModel() {
   await page.locator('#undo').click();
   await settled(page, 'without the viewer');
   ok((await pixels(page)) === first, 'without the viewer: what was sent is drawn');
-  reports.splice(0, reports.length, ...reports.filter((report) => !/ERR_CONNECTION|ERR_INCOMPLETE|EventSource|Failed to load resource/.test(report))); // the damaged file, the viewer that is gone
+  forgetReports(/status of 422|ERR_CONNECTION|ERR_INCOMPLETE|EventSource/);
   await page.close();
 }
 
@@ -93,6 +97,7 @@ async function gallery() {
   ok(!/drawn by lambent view/.test(await page.locator('#status').textContent()), 'a small model after it is drawn by the page', await page.locator('#status').textContent());
   said(await commandOf(page), await pixels(page), 'a small model after it');
   await page.close();
+  forgetReports(/status of 422/); // the picture of broken.obj
 }
 
 for (const [name, act] of Object.entries({ oneModel, ...(large ? { gallery } : {}) }))

@@ -681,7 +681,6 @@ const struct demo_row demos[] = {
     {"textured-classic", "the same maps on a classic material", textured_classic},
     {"textured-as-phong", "metallic-roughness maps under Phong's model", textured_converted},
     {"textured-gouraud", "lit at the vertices: the diffuse map stays sharp", textured_gouraud},
-    {"textured-normals", "normals at vertices, which no map multiplies", textured_normals},
     {"textured-environment", "metallic-roughness maps in a studio, lit at the vertices", textured_environment},
     {"masked", "leaves: left out below half opacity to the left, blended to the right", textured_masked},
     {"shadows", "a ball, a box and a knot: hard shadows of a directional, a point and a spot light", shadows_hard},

@@ -148,12 +148,6 @@ bool textured_surround(struct demo *d, const char *name, double rotation_rad, la
     return ok;
 }
 
-bool textured_normals(struct demo *d, lam_error *error)
-{
-    d->params.output = LAM_OUTPUT_NORMALS;
-    return textured_gouraud(d, error);
-}
-
 bool textured_environment(struct demo *d, lam_error *error)
 {
     d->params.shading = LAM_SHADING_GOURAUD;

@@ -8,7 +8,6 @@ bool textured_physical(struct demo *d, lam_error *error);
 bool textured_classic(struct demo *d, lam_error *error);
 bool textured_gouraud(struct demo *d, lam_error *error);
 bool textured_environment(struct demo *d, lam_error *error);
-bool textured_normals(struct demo *d, lam_error *error);
 bool textured_converted(struct demo *d, lam_error *error);
 bool textured_masked(struct demo *d, lam_error *error);
 bool textured_shadows(struct demo *d, lam_error *error);

@@ -51,6 +51,18 @@ class Show(Case):
         self.assertEqual(pixel(self.png("sphere", "--view", "front", "-s", SIZE + 1, "--show", "roughness"), 20, 20), (0, 0, 0, 255))
         self.assertEqual(self.floats(*gold[:-2], "--material", "#ffc356,metallic=0.6,roughness=0.4", "--show", "roughness")[SIZE * SIZE // 2 * 3 + 60], struct.unpack("f", struct.pack("f", 0.4))[0])
 
+    def test_vectors_without_maps(self):
+        """Normals and cosines are no colours: a texture does not multiply them, wherever they are computed."""
+        (self.folder / "red.ppm").write_bytes(b"P6 1 1 255\n\xff\x10\x08")
+        (self.folder / "red.mtl").write_text("newmtl a\nmap_Kd red.ppm\n")
+        mesh = "usemtl a\nv -1 -1 0\nv 1 -1 0.5\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"
+        for name, start in ("red.obj", "mtllib red.mtl\n"), ("plain.obj", ""):
+            (self.folder / name).write_text(start + mesh)
+        for what in ("normals", "tangents", "n.l", "n.h"):
+            for shading in ("phong", "gouraud", "flat"):
+                words = ("--view", "front", "--light", "directional:direction=0/0/-1", "--shading", shading, "--show", what)
+                self.assertEqual(self.floats("red.obj", *words), self.floats("plain.obj", *words), (what, shading))
+
     def test_colors_without_material(self):
         """A surface with colours of its own and no material returns those colours, from a scene file too; one without returns grey."""
         head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"

@@ -34,7 +34,7 @@ int word_key(const char *name, const char *const *names, lam_error *error)
 int word_key_of(const char *name, int count, const char *(*name_of)(int key), lam_error *error)
 {
     const char *names[WORD_KEYS_MAX + 1];
-    int keys[WORD_KEYS_MAX], named = 0;
+    int keys[WORD_KEYS_MAX] = {0}, named = 0;
     for (int key = 0; key < count; key++)
         if (name_of(key)) {
             names[named] = name_of(key);

@@ -277,6 +277,7 @@ static bool draw(struct drawer *d, struct job *job, const struct view_words *w, 
     job->output = "picture.png";
     job->picture_bytes = &bytes;
     bool ok = job_run(job, NULL, error);
+    job->picture_bytes = NULL;
     if (ok)
         answer(d, 200, true, NULL, 0, bytes.data, bytes.size);
     lam_bytes_free(&bytes);

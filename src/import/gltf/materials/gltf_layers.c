@@ -63,7 +63,7 @@ static bool take_numbers(struct gltf *gltf, const struct place *place, const jso
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
         const json_t *extension = gltf_extension(object, numbers[i].extension);
         const struct place *here = KEY_OF(KEY_OF(place, "extensions"), numbers[i].extension);
-        float *member = (float *)((char *)material + numbers[i].offset);
+        float *member = (float *)(void *)((char *)material + numbers[i].offset);
         double values[3] = {(double)member[0]};
         for (int k = 1; k < numbers[i].count; k++)
             values[k] = (double)member[k];

@@ -26,6 +26,8 @@ enum { AZIMUTHS = 12, HULL_POINTS = AZIMUTHS * 2 * EXTENT_DIRECTIONS };
 enum { TURNS = 24 };
 // Places of the middle and the rim of a light, and of occlusion around a foot.
 enum { LIGHT_POINTS = 5, RIM_POINTS = 8 };
+// The most shadows of points, 72 bytes each. A scene file can have any number of lights.
+#define FALLS_MAX ((size_t)1 << 20)
 
 // What falls on the ground: for each point of the hull its foot on the ground, and where a shadow of it ends, relative to that.
 struct fall {
@@ -94,12 +96,14 @@ static lam_vec3 to_light(const struct frame_light *light, const struct frame_gro
     return k ? v3_add(to, v3_scale(side, (k & 1 ? LIGHT_SEEN : -LIGHT_SEEN) * light->radius)) : to;
 }
 
+static int light_points(const struct frame_light *light) { return light->radius > 0 ? LIGHT_POINTS : 1; }
+
 // Where the shadow of a point at this height above its foot ends, for the places of a light.
 static void add_shadows(struct falls *falls, const struct frame_light *light, const struct frame_ground *ground,
                         lam_vec3 foot, double height)
 {
     lam_vec3 point = v3_add(foot, v3_scale(ground->up, height));
-    for (int k = 0; k < (light->radius > 0 ? LIGHT_POINTS : 1); k++) {
+    for (int k = 0; k < light_points(light); k++) {
         lam_vec3 to = to_light(light, ground, k, point);
         double rise = v3_dot(to, ground->up);
         lam_vec3 flat = v3_sub(to, v3_scale(ground->up, rise));
@@ -127,13 +131,18 @@ static void add_point(struct falls *falls, const struct frame *frame, lam_vec3 f
     }
 }
 
+// False: there are too many, or no memory.
 static bool find_falls(struct falls *falls, const struct frame *frame, const lam_vec3 *hull, int hull_count,
                        lam_vec3 centre, const lam_vec3 *axis)
 {
     bool turns = axis && v3_length(*axis) > 0 && v3_finite(centre) && v3_finite(*axis);
     int angles = turns ? TURNS : 1;
-    size_t each = (size_t)frame->light_count * LIGHT_POINTS + RIM_POINTS;
+    size_t each = RIM_POINTS;
+    for (int i = 0; i < frame->light_count && frame->shadows; i++)
+        each += frame->lights[i].casts_shadows ? (size_t)light_points(&frame->lights[i]) : 0;
     size_t most = (size_t)angles * (size_t)hull_count * each;
+    if (most > FALLS_MAX)
+        return false;
     falls->items = malloc(most * sizeof *falls->items);
     falls->points = malloc(most * sizeof *falls->points);
     if (!falls->items || !falls->points)

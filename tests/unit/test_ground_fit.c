@@ -129,6 +129,21 @@ static void no_ground_no_change(void **state)
     lam_scene_free(p.scene);
 }
 
+// Thousands of lights cost no more than their bound: from there on the camera is that of the scene alone.
+static void many_lights_take_no_memory(void **state)
+{
+    (void)state;
+    struct placed p = place("cube", 30, 40, 0.1f);
+    lam_camera alone = lam_camera_fit(p.scene, SIDE, SIDE, NULL), camera = fitted(&p, NULL, NULL);
+    assert_memory_not_equal(&alone, &camera, sizeof camera);
+    lam_light light = *lam_scene_light(p.scene, 0);
+    for (int i = 0; i < 2000; i++)
+        assert_true(lam_scene_add_light(p.scene, &light, NULL) >= 0);
+    camera = fitted(&p, NULL, NULL);
+    assert_memory_equal(&alone, &camera, sizeof camera);
+    lam_scene_free(p.scene);
+}
+
 // One camera shows the shadows of a turning model at every angle.
 static void turning_shadows_are_in_the_picture(void **state)
 {
@@ -153,6 +168,7 @@ int main(void)
         cmocka_unit_test(shadows_are_in_the_picture),
         cmocka_unit_test(a_low_light_keeps_the_model_large),
         cmocka_unit_test(no_ground_no_change),
+        cmocka_unit_test(many_lights_take_no_memory),
         cmocka_unit_test(turning_shadows_are_in_the_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

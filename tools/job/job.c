@@ -35,18 +35,6 @@ const char *model_counts_text(const struct model_counts *counts, char out[MODEL_
     return out;
 }
 
-static lam_view view_of(const struct options *o)
-{
-    lam_view view = lam_view_of_side((lam_side)o->view);
-    if (o->has_azimuth)
-        view.azimuth_rad = radians(o->azimuth_deg);
-    if (o->has_elevation)
-        view.elevation_rad = radians(o->elevation_deg);
-    view.orthographic = o->projection == 1;
-    view.zoom = o->zoom;
-    return view;
-}
-
 bool job_control(const struct job *job, struct progress *progress, lam_control *control, lam_error *error)
 {
     const struct options *o = job->options;
@@ -268,111 +256,6 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     return true;
 }
 
-// The camera of the file that `--camera` names.
-static bool find_camera(struct job *job, lam_error *error)
-{
-    int count = lam_scene_camera_count(job->scene), index = lam_scene_find_camera(job->scene, job->options->camera);
-    char known[300] = "";
-    if (lam_scene_camera(job->scene, index, &job->camera))
-        return true;
-    for (int i = 0; i < count && strlen(known) < sizeof known - 60; i++) {
-        const char *name = lam_scene_camera_name(job->scene, i);
-        size_t used = strlen(known);
-        snprintf(known + used, sizeof known - used, "%s%d%s%.40s%s", i ? ", " : "", i, name ? " ('" : "",
-                 name ? name : "", name ? "')" : "");
-    }
-    return complain(
-        error, LAM_BAD_ARGUMENT,
-        "option '--camera': found '%.60s', expected keys such as eye=2/1/4, or a camera of the file, which has %s%s",
-        job->options->camera, count ? known : "none", count > 1 && strlen(known) >= sizeof known - 60 ? ", ..." : "");
-}
-
-// Makes one of several views the options of the next picture.
-static void choose_view(struct job *job, const struct job_view *view)
-{
-    job->own.width = view->width;
-    job->own.height = view->height;
-    if (view->side >= 0)
-        job->own.view = view->side;
-}
-
-lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct options *o, lam_rig rig)
-{
-    lam_view view = view_of(o);
-    lam_vec3 axis;
-    bool turns = job_turn_axis(o, &axis);
-    lam_draw_params draw = draw_params_of(o, rig);
-    return lam_camera_fit_ground(scene, &draw, o->width, o->height, &view, centre, turns ? &axis : NULL);
-}
-
-// Keeps the lights as they are before those of the options come, where these come again: for each view's camera, and where a
-// camera is fitted to their shadows.
-static bool keep_lights(struct job *job, lam_error *error)
-{
-    if ((job->view_count <= 1 && !job->options->draw.ground) || !job->options->lights.count)
-        return true;
-    job->light_count = lam_scene_light_count(job->scene);
-    free(job->lights);
-    job->lights = calloc((size_t)job->light_count + 1, sizeof *job->lights);
-    for (int i = 0; job->lights && i < job->light_count; i++)
-        job->lights[i] = *lam_scene_light(job->scene, i);
-    return job->lights || complain(error, LAM_LIMIT, "out of memory");
-}
-
-// Lights the scene for another camera. The sphere is that of the model before it was turned.
-static bool light_again(struct job *job, lam_error *error)
-{
-    if (!job->lights)
-        return true;
-    lam_scene_clear_lights(job->scene);
-    for (int i = 0; i < job->light_count; i++)
-        if (lam_scene_add_light(job->scene, &job->lights[i], error) < 0)
-            return false;
-    return job_light(job, &job->sphere, error);
-}
-
-// Fits the camera before the model is turned: one fit serves every angle. A camera in words aims at the turned model.
-static void fit_camera(struct job *job, const struct model_sphere *sphere, bool side_is_given)
-{
-    const struct options *o = job->options;
-    if (animation_camera(job, &job->camera))
-        return;
-    if (scene_settings_has_camera(job) && !side_is_given)
-        job->camera = job->settings.camera;
-    else if (!o->camera) {
-        job->camera = job_fit_camera(job->scene, sphere->centre, o, job->rig);
-        lam_error unused; // of a light's text, which job_light meets again
-        if (job->lights && o->draw.ground && light_again(job, &unused))
-            job->camera = job_fit_camera(job->scene, sphere->centre, o, job->rig);
-    }
-}
-
-static bool place_camera_and_turn(struct job *job, const struct model_sphere *sphere, lam_error *error)
-{
-    const struct options *o = job->options;
-    lam_camera same;
-    double start = clock_ms();
-    for (int i = job->view_count - 1; i >= 0; i--) { // the first one is in place then
-        choose_view(job, &job->views[i]);
-        fit_camera(job, sphere, job->views[i].side >= 0);
-        job->views[i].camera = job->camera;
-    }
-    if (!job->view_count)
-        fit_camera(job, sphere, false);
-    job->times.camera += clock_ms() - start;
-    if (!job_turn(job, sphere, error))
-        return false;
-    if (animation_camera(job, &same))
-        return true;
-    if (o->camera && !strchr(o->camera, '=') && !find_camera(job, error))
-        return false;
-    if (o->camera && strchr(o->camera, '='))
-        lam_camera_parse(o->camera, job->scene, &job->camera, NULL); // cannot fail: store_camera has parsed it
-    for (int i = 0; o->camera && i < job->view_count; i++)
-        job->views[i].camera = job->camera;
-    return true;
-}
-
 // Finds the exposure where it is automatic. All lights count then: what a light changes depends on the exposure.
 static bool fit_exposure(struct job *job, lam_draw_params *draw, int width, int height, lam_error *error)
 {
@@ -490,8 +373,8 @@ bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
     if (job->options->save_scene && job->options->files_inside && !scene_settings_are_beside(job))
         lam_scene_add_warning(job->scene, "the saved scene file names files outside of its folder");
     animation_sphere(job, &job->sphere);
-    return keep_lights(job, error) && place_camera_and_turn(job, &job->sphere, error) &&
-           (job->lights ? light_again(job, error) : job_light(job, &job->sphere, error)) &&
+    return job_place_camera(job, error) &&
+           (job->lights ? job_light_again(job, error) : job_light(job, &job->sphere, error)) &&
            animation_arrange(job, error) && (!job->options->show_lights || light_markers_add(job, error));
 }
 
@@ -544,10 +427,10 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error)
 
 bool job_run_view(struct job *job, int view, struct progress *progress, lam_error *error)
 {
-    choose_view(job, &job->views[view]);
+    job_choose_view(job, &job->views[view]);
     job->camera = job->views[view].camera;
     job->written = false;
-    if (!job_check_output(job, error) || (view > 0 && !light_again(job, error)))
+    if (!job_check_output(job, error) || (view > 0 && !job_light_again(job, error)))
         return false;
     job->planned = job->options->dry_run;
     return job->planned || (job_make_image(job, job->pixels, error) && draw(job, progress, error) &&

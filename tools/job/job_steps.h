@@ -10,6 +10,15 @@ bool job_control(const struct job *job, struct progress *progress, lam_control *
 // The camera that fills the picture with the scene, for all of its turns about `centre`.
 lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct options *o, lam_rig rig);
 
+// Makes one of several views the options of the next picture.
+void job_choose_view(struct job *job, const struct job_view *view);
+
+// Places the camera of each view, and turns the model.
+bool job_place_camera(struct job *job, lam_error *error);
+
+// Lights the scene for another camera, where lights of options came to those of the model.
+bool job_light_again(struct job *job, lam_error *error);
+
 // Makes job->image. LAM_LIMIT.
 bool job_make_image(struct job *job, lam_pixel_format format, lam_error *error);
 

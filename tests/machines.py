@@ -15,7 +15,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 ROOMS = ["base", "json", "image", "geometry", "environment", "texture", "scene", "export", "shapes", "import", "scene_file", "load", "frame", "rays", "edges", "occlusion", "device", "cpu"]
 INCLUDES = ["include", "src/lighting"] + [os.path.relpath(path, ROOT) for room in ROOMS
                                          for path, _, _ in os.walk(os.path.join(ROOT, "src", room))]
-FLAGS = ["-std=gnu11", "-fsyntax-only", "-D_GNU_SOURCE", "-DNDEBUG", "-ffp-contract=off", "-fno-math-errno", "-Wall", "-Werror", "-Wno-psabi", '-DLAMBENT_LIBDIR="lib"']
+FLAGS = ["-std=gnu11", "-fsyntax-only", "-D_GNU_SOURCE", "-DNDEBUG", "-ffp-contract=off", "-fno-math-errno", "-Wall", "-Werror", "-Wno-psabi"]
 MACHINES = {
     "arm64": {"flags": ["--target=aarch64-linux-gnu", "-isystem", "/usr/aarch64-linux-gnu/include"],
               "needs": "/usr/aarch64-linux-gnu/include/stdio.h", "package": "libc6-dev-arm64-cross",
@@ -46,7 +46,7 @@ def main():
     count, bad = 0, 0
     with tempfile.TemporaryDirectory() as folder:
         powers = os.path.join(folder, "number_powers.h")
-        subprocess.run([sys.executable, os.path.join(ROOT, "src/base/number_powers.py"), powers], check=True)
+        subprocess.run([sys.executable, os.path.join(ROOT, "src/base/text/number_powers.py"), powers], check=True)
         for name, machine in MACHINES.items():
             if not os.path.exists(machine["needs"]):
                 count += 1

@@ -19,7 +19,7 @@ struct import_source {
     const char *path;     // that opens the file; NULL: it came from memory or standard input
     const uint8_t *bytes; // FILE_PADDING zero bytes follow the last one
     size_t size;
-    // The owner of `bytes`. An importer whose arrays lie in them may give it to the scene's arena (arena_adopt). NULL with
+    // The owner of `bytes`. An importer whose arrays lie in them may give it to the scene's arena (file_move_to_arena). NULL with
     // load_stream.
     struct file_bytes *file;
     const lam_load_params *params;

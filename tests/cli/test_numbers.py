@@ -136,7 +136,7 @@ ROWS = [
     ("docs/shaders.md", "RGBA32F, {} texels wide", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
     ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the lights", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
     ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the products", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
-    ("docs/formats.md", "more than {} times its own size from zero", constant("src/base/math/origin.h", "ORIGIN_RATIO")),
+    ("docs/formats.md", "more than {} times its own size from zero", constant("src/geometry/origin.h", "ORIGIN_RATIO")),
     ("docs/formats.md", "| `Ns` | shininess, 0 to {}; none: {}. With exactly 0,", code("src/import/obj/mtl.c", r"field->max : (\w+)f"), field("shininess")),
     ("docs/check.md", "at most one pixel in {} differs by more than `--tolerance` ({} steps of 1/255)", PIXELS_OVER_CHECK, TOLERANCE),
     ("docs/check.md", "it exceeded `--stop-after` ({} seconds)", option("stop-after")),

@@ -2,6 +2,7 @@
 """lint.py BUILD: cppcheck and clang-tidy over src and tools, with the compile commands of a build folder. Exceptions and their reasons
 are in tests/lint/cppcheck.txt and .clang-tidy. A tool that is not installed is reported as skipped. Exit code 1: something was found."""
 import concurrent.futures
+import glob
 import json
 import os
 import re
@@ -27,7 +28,7 @@ def commands(build):
 def cppcheck(files):
     done = subprocess.run(["cppcheck", "-q", "-j", str(len(os.sched_getaffinity(0))), "--enable=warning,portability,performance", "--inline-suppr", "--std=c11",
                            "--language=c", "--suppressions-list=tests/lint/cppcheck.txt", "--suppress=missingIncludeSystem", "--suppress=unmatchedSuppression",
-                           "-Iinclude", "-Isrc/base", "-Isrc/base/math", "-Isrc/lighting", "--template={file}:{line}: {id}: {message}", *files],
+                           "-Iinclude", *["-I" + path for path in sorted(glob.glob("src/base/*/", root_dir=ROOT))], "-Isrc/lighting", "--template={file}:{line}: {id}: {message}", *files],
                           cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return [line for line in done.stdout.splitlines() if line.strip()]
 

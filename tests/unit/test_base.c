@@ -1,7 +1,7 @@
 // test_base.c: small parts of the base: growing text, UTF-8, edit distance, libraries opened when used.
 #include "call_control.h"
 #include "dynamic_library.h"
-#include "memory.h"
+#include "available_memory.h"
 #include "shown_name.h"
 #include "spelling.h"
 #include "text_builder.h"

@@ -340,11 +340,11 @@ static void *pass_to_arena(struct stream *stream, enum array kind, struct arena 
 {
     size_t bytes = (size_t)count_of(&stream->total, kind) * array_kinds[kind].row;
     pages_trim(stream->arrays[kind], &stream->reserved[kind], bytes);
-    struct file_bytes block = {stream->arrays[kind], bytes, stream->reserved[kind], stream->loop.call};
-    if (!call_charge(stream->loop.call, bytes + FILE_PADDING))
+    if (!call_charge(stream->loop.call, bytes))
         return NULL;
-    if (!arena_adopt(arena, &block)) {
-        call_refund(stream->loop.call, bytes + FILE_PADDING);
+    if (!arena_adopt(arena, stream->arrays[kind], stream->reserved[kind],
+                     stream->loop.call == arena->call ? bytes : 0)) {
+        call_refund(stream->loop.call, bytes);
         return NULL;
     }
     stream->reserved[kind] = 0;

@@ -75,10 +75,10 @@ bool gltf_buffers_end(struct gltf *gltf)
     for (size_t i = 0; gltf->buffers && i < gltf_list_size(gltf, "buffers"); i++) {
         struct gltf_buffer *buffer = &gltf->buffers[i];
         if (buffer->kept && ok)
-            ok = arena_adopt(&gltf->scene->arena, &buffer->file) || gltf_no_memory(gltf, sizeof *buffer);
+            ok = file_move_to_arena(&buffer->file, &gltf->scene->arena) || gltf_no_memory(gltf, sizeof *buffer);
         file_release(&buffer->file);
     }
     if (gltf->source_kept && ok)
-        ok = arena_adopt(&gltf->scene->arena, gltf->source->file) || gltf_no_memory(gltf, sizeof *gltf->buffers);
+        ok = file_move_to_arena(gltf->source->file, &gltf->scene->arena) || gltf_no_memory(gltf, sizeof *gltf->buffers);
     return ok;
 }

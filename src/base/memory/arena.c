@@ -1,7 +1,6 @@
 // arena.c: memory that is freed all at once.
 #include "arena.h"
 
-#include "file.h"
 #include "pages.h"
 
 #include <stdio.h>
@@ -185,21 +184,13 @@ char *arena_vformat(struct arena *arena, const char *format, va_list arguments)
     return text;
 }
 
-bool arena_adopt(struct arena *arena, struct file_bytes *bytes)
+bool arena_adopt(struct arena *arena, void *pages, size_t held, size_t charged)
 {
-    if (!bytes->held)
-        return true;
     struct arena_block *block = fails_now() ? NULL : calloc(1, sizeof *block);
     if (!block)
         return false;
-    // The file's reader charged the call; the arena refunds it when it is freed.
-    *block = (struct arena_block){.memory = (uint8_t *)(uintptr_t)bytes->data,
-                                  .capacity = bytes->held,
-                                  .used = bytes->held,
-                                  .held = bytes->held,
-                                  .whole = true,
-                                  .charged = bytes->call == arena->call ? bytes->size + FILE_PADDING : 0};
+    *block = (struct arena_block){
+        .memory = pages, .capacity = held, .used = held, .held = held, .whole = true, .charged = charged};
     link_block(arena, block);
-    bytes->held = 0;
     return true;
 }

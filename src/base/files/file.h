@@ -2,8 +2,9 @@
 #ifndef FILE_H
 #define FILE_H
 
-#include "pool.h"
+#include "arena.h"
 #include "call_control.h"
+#include "pool.h"
 
 // Files are read into memory of their own, in parallel pieces, rather than mapped: a mapped file that another program
 // shrinks kills the reader with SIGBUS, and copying from the page cache into huge pages costs no more than the page
@@ -52,6 +53,9 @@ bool file_hold(size_t size, struct call_control *call, struct file_bytes *out, l
 bool file_copy(const void *bytes, size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 
 void file_release(struct file_bytes *bytes);
+
+// Makes the arena the owner of the bytes, which stay where they are. False: out of memory; `bytes` still owns them.
+bool file_move_to_arena(struct file_bytes *bytes, struct arena *arena);
 
 // Writes a file whole or not at all, and leaves nothing else in its folder, even if a signal ends the process meanwhile
 // (file_write.c). Keeps the mode of an existing file; a symbolic link is kept, and its target replaced. A path that is not

@@ -1,10 +1,10 @@
-// memory.c: the memory that this process may use: the smallest of what the machine has and what its limits are.
+// available_memory.c: the memory that this process may use: the smallest of what the machine has and what its limits are.
 //
 // Control groups limit memory in a container or under a batch system: cgroup v2 in memory.max, v1 in
 // memory.limit_in_bytes, each for a group and all below it. Within a container the path in /proc/self/cgroup may be the
 // host's, so that it leads nowhere: the groups above it, up to the mount's root, are read all the same.
 // https://docs.kernel.org/admin-guide/cgroup-v2.html, .../cgroup-v1/memory.html
-#include "memory.h"
+#include "available_memory.h"
 
 #include "pages.h"
 

@@ -36,9 +36,9 @@ char *arena_string(struct arena *arena, const char *text);
 char *arena_string_of(struct arena *arena, const char *text, size_t length);
 char *arena_vformat(struct arena *arena, const char *format, va_list arguments);
 
-// Makes the arena own a block that came from file_read (file.h).
-struct file_bytes;
-bool arena_adopt(struct arena *arena, struct file_bytes *bytes);
+// Makes the arena own `held` bytes at `pages` (pages.h). `charged`: what its call was charged for them, to be refunded
+// with them. False: out of memory; the caller still owns them.
+bool arena_adopt(struct arena *arena, void *pages, size_t held, size_t charged);
 
 // For tests: from now on the allocation number `countdown` (0: the next) of this thread fails, once. −1: none.
 void arena_fail_after(long countdown);

@@ -1,6 +1,6 @@
-// memory.h: the memory that this process may use.
-#ifndef MEMORY_H
-#define MEMORY_H
+// available_memory.h: the memory that this process may use.
+#ifndef AVAILABLE_MEMORY_H
+#define AVAILABLE_MEMORY_H
 
 #include <stdint.h>
 

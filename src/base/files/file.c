@@ -62,6 +62,17 @@ void file_release(struct file_bytes *bytes)
     *bytes = (struct file_bytes){0};
 }
 
+bool file_move_to_arena(struct file_bytes *bytes, struct arena *arena)
+{
+    if (!bytes->held)
+        return true;
+    size_t charged = bytes->call == arena->call ? bytes->size + FILE_PADDING : 0;
+    if (!arena_adopt(arena, (void *)(uintptr_t)bytes->data, bytes->held, charged))
+        return false;
+    bytes->held = 0;
+    return true;
+}
+
 bool file_copy(const void *bytes, size_t size, struct call_control *call, struct file_bytes *out, lam_error *error)
 {
     if (!file_hold(size, call, out, error))

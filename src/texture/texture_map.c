@@ -31,9 +31,15 @@ bool texture_map_check(const lam_texture_map *map, const char *name, lam_error *
     return sum == 0 || fail(error, LAM_BAD_ARGUMENT, "%s: a number of the map is not finite", name);
 }
 
+bool texture_map_same_taps(const lam_texture_map *a, const lam_texture_map *b)
+{
+    const struct texture_level *at = &a->texture->levels[0], *bt = &b->texture->levels[0];
+    return at->width == bt->width && at->height == bt->height && a->texcoords == b->texcoords &&
+           a->wrap_s == b->wrap_s && a->wrap_t == b->wrap_t && a->magnify == b->magnify && a->minify == b->minify &&
+           a->mip == b->mip && memcmp(a->transform, b->transform, sizeof a->transform) == 0;
+}
+
 bool texture_map_same(const lam_texture_map *a, const lam_texture_map *b)
 {
-    return a->texture == b->texture && a->texcoords == b->texcoords && a->wrap_s == b->wrap_s &&
-           a->wrap_t == b->wrap_t && a->magnify == b->magnify && a->minify == b->minify && a->mip == b->mip &&
-           memcmp(a->transform, b->transform, sizeof a->transform) == 0;
+    return a->texture == b->texture && texture_map_same_taps(a, b);
 }

@@ -21,12 +21,31 @@ struct texture_points {
     const float *s, *t, *ds_dx, *dt_dx, *ds_dy, *dt_dy;
 };
 
-// The texels of a map at points, filtered, before scale and offset, to four rows. `anisotropy` ≥ 1: the most probes along
-// the longer axis of a pixel's footprint. `level` (may be NULL) gets the level of detail of each point.
-void texture_map_texels(const lam_texture_map *map, const struct texture_points *points, int count, int anisotropy,
-                        float *const out[4], float *level);
+// The texels that points read (texture_taps.h): four of a level, and four of the next where its share is not 0.
+enum { TAPS_ROW = 528 }; // points at a time, at most
 
-// The same at level 0 alone, without derivatives.
+struct texture_taps {
+    int32_t level[TAPS_ROW];
+    float next[TAPS_ROW]; // the share of the next level
+    struct tap_rows {
+        // The first texel of the four counted from the level's, and the steps to the right and down from there.
+        int32_t first[TAPS_ROW], across[TAPS_ROW], down[TAPS_ROW];
+        float right[TAPS_ROW], lower[TAPS_ROW]; // shares
+    } at[2];
+};
+
+// Whether two maps read the same places of pictures of the same size.
+bool texture_map_same_taps(const lam_texture_map *a, const lam_texture_map *b);
+
+// The texels of points, filtered, to four rows: the map's numbers before scale and offset.
+void texture_fetch(const struct lam_texture *texture, const struct texture_taps *taps, int count, float *const out[4]);
+
+// The same for points whose footprints are filtered with up to `anisotropy` > 1 probes along the longer axis. `level` gets
+// the level of detail of each point.
+void texture_map_anisotropic(const lam_texture_map *map, const struct texture_points *points, int count, int anisotropy,
+                             float *const out[4], float *level);
+
+// The texel of a map at a point, at level 0 alone.
 texel texture_map_base(const lam_texture_map *map, float s, float t);
 
 #endif

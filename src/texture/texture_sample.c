@@ -1,176 +1,135 @@
-// texture_sample.c: texels around a point, filtered (docs/textures.md).
+// texture_sample.c: the texels of points, filtered (docs/textures.md).
 //
-// Plain C with vectors of four channels: the kernels of every instruction set call this one function, so its bits are the
-// same for all of them.
+// Which texels a point reads is found LANES points at a time (texture_taps.h). Here they are fetched and mixed, four channels at
+// a time, by plain C, which every instruction set calls.
 #define LANES 1
-#include "functions.h"
+#include "texture_taps.h"
 
 #include "float_state.h"
-#include "texture_map.h"
 
 enum { PROBES_MAX = 16 };
 
-// The largest whole number ≤ x, for |x| < 2³¹; beyond, and for NaN, 0: such coordinates have no fraction left.
-static int floor_whole(float x)
-{
-    if (!(x > -2.0e9f && x < 2.0e9f))
-        return 0;
-    int whole = (int)x;
-    return whole - ((float)whole > x);
-}
-
-// A coordinate as a place in the picture, 0…1.
-static float wrapped(float s, lam_wrap wrap)
-{
-    if (!(s > -2.0e9f && s < 2.0e9f))
-        return s >= 2.0e9f && wrap == LAM_WRAP_CLAMP ? 1.0f : 0.0f;
-    if (wrap == LAM_WRAP_CLAMP)
-        return s < 0 ? 0.0f : s > 1 ? 1.0f : s;
-    int whole = floor_whole(s);
-    float part = s - (float)whole;
-    return wrap == LAM_WRAP_MIRROR && whole & 1 ? 1.0f - part : part;
-}
-
-// A texel's number that is one beyond the picture.
-static int neighbour(int i, int size, lam_wrap wrap)
-{
-    if (i >= 0 && i < size)
-        return i;
-    if (wrap == LAM_WRAP_REPEAT)
-        return i < 0 ? size - 1 : 0;
-    return i < 0 ? 0 : size - 1;
-}
+// --- fetching
 
 static texel mix(texel a, texel b, float share) { return a + (b - a) * share; }
 
-// `s` and `t` are wrapped.
-static texel nearest(const lam_texture_map *map, int level, float s, float t)
+static texel mix_four(const texel four[4], float right, float lower)
 {
-    const struct texture_level *l = &map->texture->levels[level];
-    int x = (int)(s * (float)l->width), y = (int)(t * (float)l->height);
-    return texel_at(map->texture, level, x < l->width ? x : l->width - 1, y < l->height ? y : l->height - 1);
+    return mix(mix(four[0], four[1], right), mix(four[2], four[3], right), lower);
 }
 
-static texel linear(const lam_texture_map *map, int level, float s, float t)
+static inline texel texel_of_floats(const float *at) { return *(const texel_memory *)at; }
+
+static inline texel texel_of_bytes(const uint8_t *at, const float *decode)
 {
-    const struct lam_texture *texture = map->texture;
-    const struct texture_level *l = &texture->levels[level];
-    float x = s * (float)l->width - 0.5f, y = t * (float)l->height - 0.5f;
-    int left = floor_whole(x), top = floor_whole(y);
-    float right_share = x - (float)left, bottom_share = y - (float)top;
-    int x0 = neighbour(left, l->width, map->wrap_s), x1 = neighbour(left + 1, l->width, map->wrap_s);
-    int y0 = neighbour(top, l->height, map->wrap_t), y1 = neighbour(top + 1, l->height, map->wrap_t);
-    texel upper = mix(texel_at(texture, level, x0, y0), texel_at(texture, level, x1, y0), right_share);
-    texel lower = mix(texel_at(texture, level, x0, y1), texel_at(texture, level, x1, y1), right_share);
-    return mix(upper, lower, bottom_share);
+    return (texel){decode[at[0]], decode[at[1]], decode[at[2]], decode[256 + at[3]]};
 }
 
-static texel filtered(const lam_texture_map *map, lam_filter filter, int level, float s, float t)
+// A level's texels at a tap, mixed.
+static inline texel fetch_tap(const struct lam_texture *texture, int level, int32_t first, int32_t across, int32_t down,
+                              float right, float lower)
 {
-    return filter == LAM_FILTER_NEAREST ? nearest(map, level, s, t) : linear(map, level, s, t);
+    const float *floats = texture->levels[level].floats;
+    ptrdiff_t at = 4 * (ptrdiff_t)first, to_right = 4 * (ptrdiff_t)across, to_lower = 4 * (ptrdiff_t)down;
+    if (floats) {
+        const float *upper = floats + at, *below = upper + to_lower;
+        return mix_four((texel[4]){texel_of_floats(upper), texel_of_floats(upper + to_right), texel_of_floats(below),
+                                   texel_of_floats(below + to_right)},
+                        right, lower);
+    }
+    const uint8_t *upper = texture->bytes + at, *below = upper + to_lower;
+    const float *decode = texture->decode;
+    return mix_four((texel[4]){texel_of_bytes(upper, decode), texel_of_bytes(upper + to_right, decode),
+                               texel_of_bytes(below, decode), texel_of_bytes(below + to_right, decode)},
+                    right, lower);
 }
 
-// A picture's place at a level of detail (OpenGL 4.6, section 8.14).
+static inline texel fetch_row(const struct lam_texture *texture, int level, const struct tap_rows *rows, int i)
+{
+    return fetch_tap(texture, level, rows->first[i], rows->across[i], rows->down[i], rows->right[i], rows->lower[i]);
+}
+
+void texture_fetch(const struct lam_texture *texture, const struct texture_taps *taps, int count, float *const out[4])
+{
+    for (int i = 0; i < count; i++) {
+        int level = taps->level[i];
+        texel value = fetch_row(texture, level, &taps->at[0], i);
+        if (taps->next[i] != 0)
+            value = mix(value, fetch_row(texture, level + 1, &taps->at[1], i), taps->next[i]);
+        for (int channel = 0; channel < 4; channel++)
+            out[channel][i] = value[channel];
+    }
+}
+
+// --- one point
+
+static texel fetch_one(const struct lam_texture *texture, int level, const struct tap_lanes *tap)
+{
+    return fetch_tap(texture, level, tap->first, tap->across, tap->down, tap->right, tap->lower);
+}
+
+// A picture's place at a level of detail.
 static texel at_level(const lam_texture_map *map, float s, float t, float detail)
 {
-    int last = map->texture->level_count - 1;
-    s = wrapped(s, map->wrap_s);
-    t = wrapped(t, map->wrap_t);
-    if (!(detail > 0))
-        return filtered(map, map->magnify, 0, s, t);
-    if (map->mip == LAM_MIP_NONE)
-        return filtered(map, map->minify, 0, s, t);
-    float top = (float)last;
-    if (map->mip == LAM_MIP_NEAREST) {
-        int level = detail >= top ? last : -floor_whole(-(detail + 0.5f)) - 1; // ⌈detail + ½⌉ − 1
-        return filtered(map, map->minify, level < last ? level : last, s, t);
-    }
-    if (detail >= top)
-        return filtered(map, map->minify, last, s, t);
-    int level = floor_whole(detail);
-    return mix(filtered(map, map->minify, level, s, t), filtered(map, map->minify, level + 1, s, t),
-               detail - (float)level);
+    struct taps_lanes taps = taps_of(map, s, t, detail);
+    texel value = fetch_one(map->texture, taps.level, &taps.at[0]);
+    return taps.next != 0 ? mix(value, fetch_one(map->texture, taps.level + 1, &taps.at[1]), taps.next) : value;
 }
 
-// --- from the mesh's texture coordinates to the picture's
-
-struct matrix {
-    float m[2][3];
-};
-
-static struct matrix matrix_of(const lam_texture_map *map)
-{
-    struct matrix matrix = {{{1, 0, 0}, {0, 1, 0}}};
-    for (int i = 0; i < 6; i++)
-        if (map->transform[i / 3][i % 3] != 0) {
-            memcpy(matrix.m, map->transform, sizeof matrix.m);
-            break;
-        }
-    return matrix;
-}
-
-static float row(const float m[3], float s, float t) { return m[0] * s + m[1] * t; }
-
-// One point with a footprint of several probes along its longer axis (convention 22).
-static texel anisotropic(const lam_texture_map *map, float s, float t, const float x[2], const float y[2], float longer,
-                         float shorter, int most, float *level)
+// The mean of several probes along the longer axis of a footprint that is minified (convention 22).
+static texel along_axis(const lam_texture_map *map, const struct texture_matrix *matrix,
+                        const struct texture_points *points, int i, const struct footprints *f, int most, float *level)
 {
     const struct texture_level *l = &map->texture->levels[0];
+    const float(*m)[3] = matrix->m;
+    float x[2] = {row_of(m[0], points->ds_dx[i], points->dt_dx[i]), row_of(m[1], points->ds_dx[i], points->dt_dx[i])};
+    float y[2] = {row_of(m[0], points->ds_dy[i], points->dt_dy[i]), row_of(m[1], points->ds_dy[i], points->dt_dy[i])};
+    float longer = square_root(f->longer), shorter = square_root(f->shorter);
     float ratio = shorter > 0 ? longer / shorter : (float)most;
-    int probes = ratio >= (float)most ? most : -floor_whole(-ratio);
+    int probes = ratio >= (float)most ? most : -floor_of(-ratio);
     probes = probes < 1 ? 1 : probes;
     float xs = x[0] * (float)l->width, xt = x[1] * (float)l->height, ys = y[0] * (float)l->width,
           yt = y[1] * (float)l->height;
     const float *axis = xs * xs + xt * xt >= ys * ys + yt * yt ? x : y;
     *level = log2_of(max_of(longer / (float)probes, 1.0e-30f));
     texel sum = {0, 0, 0, 0};
-    for (int i = 0; i < probes; i++) {
-        float along = ((float)i + 0.5f) / (float)probes - 0.5f;
-        sum += at_level(map, s + axis[0] * along, t + axis[1] * along, *level);
+    for (int k = 0; k < probes; k++) {
+        float along = ((float)k + 0.5f) / (float)probes - 0.5f;
+        sum += at_level(map, f->s + axis[0] * along, f->t + axis[1] * along, *level);
     }
     return sum * (1.0f / (float)probes);
 }
 
-void texture_map_texels(const lam_texture_map *map, const struct texture_points *points, int count, int anisotropy,
-                        float *const out[4], float *level)
+void texture_map_anisotropic(const lam_texture_map *map, const struct texture_points *points, int count, int anisotropy,
+                             float *const out[4], float *level)
 {
-    const struct matrix matrix = matrix_of(map);
-    const float(*m)[3] = matrix.m;
-    float width = (float)map->texture->levels[0].width, height = (float)map->texture->levels[0].height;
+    const struct texture_matrix matrix = texture_matrix_of(map);
     int most = anisotropy < PROBES_MAX ? anisotropy : PROBES_MAX;
     for (int i = 0; i < count; i++) {
-        float s = row(m[0], points->s[i], points->t[i]) + m[0][2], t = row(m[1], points->s[i], points->t[i]) + m[1][2];
-        float x[2] = {row(m[0], points->ds_dx[i], points->dt_dx[i]), row(m[1], points->ds_dx[i], points->dt_dx[i])};
-        float y[2] = {row(m[0], points->ds_dy[i], points->dt_dy[i]), row(m[1], points->ds_dy[i], points->dt_dy[i])};
-        float x_square = x[0] * width * (x[0] * width) + x[1] * height * (x[1] * height);
-        float y_square = y[0] * width * (y[0] * width) + y[1] * height * (y[1] * height);
-        float longer = max_of(x_square, y_square), shorter = min_of(x_square, y_square);
-        // The root is in the logarithm: log2 √longer. Footprints of no size, and of none that is known, are magnified.
-        float detail = longer > 1.0e-30f ? 0.5f * log2_of(min_of(longer, 1.0e30f)) : -50.0f;
-        texel value = most > 1 && detail > 0
-                          ? anisotropic(map, s, t, x, y, square_root(longer), square_root(shorter), most, &detail)
-                          : at_level(map, s, t, detail);
+        struct footprints f = footprints_of(map, &matrix, points, i);
+        level[i] = f.detail;
+        texel value =
+            f.detail > 0 ? along_axis(map, &matrix, points, i, &f, most, &level[i]) : at_level(map, f.s, f.t, f.detail);
         for (int channel = 0; channel < 4; channel++)
             out[channel][i] = value[channel];
-        if (level)
-            level[i] = detail;
     }
 }
 
-texel texture_map_base(const lam_texture_map *map, float s, float t)
+static texel at_coordinates(const lam_texture_map *map, float s, float t, float level)
 {
-    const struct matrix matrix = matrix_of(map);
-    return at_level(map, row(matrix.m[0], s, t) + matrix.m[0][2], row(matrix.m[1], s, t) + matrix.m[1][2], 0);
+    const struct texture_matrix matrix = texture_matrix_of(map);
+    const float(*m)[3] = matrix.m;
+    return at_level(map, row_of(m[0], s, t) + m[0][2], row_of(m[1], s, t) + m[1][2], level);
 }
+
+texel texture_map_base(const lam_texture_map *map, float s, float t) { return at_coordinates(map, s, t, 0); }
 
 lam_rgba lam_texture_sample(const lam_texture_map *map, double s, double t, double level)
 {
     if (!map || !map->texture || !texture_map_check(map, "map", NULL))
         return (lam_rgba){0, 0, 0, 0};
     uint64_t state = float_state_enter();
-    const struct matrix matrix = matrix_of(map);
-    texel value = at_level(map, row(matrix.m[0], (float)s, (float)t) + matrix.m[0][2],
-                           row(matrix.m[1], (float)s, (float)t) + matrix.m[1][2], (float)level);
+    texel value = at_coordinates(map, (float)s, (float)t, (float)level);
     float_state_leave(state);
     float scale = map->scale != 0 ? map->scale : 1;
     value = value * scale + map->offset;

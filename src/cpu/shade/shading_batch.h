@@ -4,6 +4,7 @@
 
 #include "light_cull.h"
 #include "opacity.h"
+#include "texture_map.h"
 #include "tile.h"
 
 #include <stdbool.h>
@@ -11,6 +12,7 @@
 // Rows are a little longer than a batch: the same entries of several rows then lie in different sets of the
 // processor's cache.
 enum { BATCH_MAX = 512, BATCH_ROW = BATCH_MAX + 16 };
+_Static_assert((int)BATCH_ROW <= (int)TAPS_ROW, "the taps of a batch fit");
 
 // Consecutive fragments that show the same triangle are a run. Rows hold what belongs to the triangle
 // (triangle_runs.inc).
@@ -35,6 +37,7 @@ struct shading_batch {
     struct {
         float s[BATCH_ROW], t[BATCH_ROW], ds_dx[BATCH_ROW], dt_dx[BATCH_ROW], ds_dy[BATCH_ROW], dt_dy[BATCH_ROW];
     } texcoord;
+    struct texture_taps taps;
     float texel[4][BATCH_ROW], level[BATCH_ROW];                   // of the map that was read last
     float vertex_color[3][BATCH_ROW], ambient_color[3][BATCH_ROW]; // what multiplies ka; `color` multiplies kd
     float specular[3][BATCH_ROW], emission[3][BATCH_ROW];          // what multiplies the highlights; the emission

@@ -207,9 +207,11 @@ def check_value(case, value, schema, place, root=SCHEMA):
         needed = [key for given, keys in schema.get("dependentRequired", {}).items() if given in value for key in keys]
         for key in [*schema.get("required", ()), *needed]:
             case.assertIn(key, value, place)
+        others = schema.get("additionalProperties", False)
         for key, inner in value.items():
-            case.assertIn(key, schema["properties"], place)
-            check_value(case, inner, schema["properties"][key], f"{place}.{key}", root)
+            if others is False:
+                case.assertIn(key, schema["properties"], place)
+            check_value(case, inner, schema.get("properties", {}).get(key, others), f"{place}.{key}", root)
     if isinstance(value, list):
         case.assertGreaterEqual(len(value), schema.get("minItems", 0), place)
         case.assertLessEqual(len(value), schema.get("maxItems", len(value)), place)
@@ -222,5 +224,5 @@ def check_value(case, value, schema, place, root=SCHEMA):
 def is_kind(value, kind):
     if isinstance(value, bool):
         return kind == "boolean"
-    return {"object": isinstance(value, dict), "array": isinstance(value, list), "string": isinstance(value, str),
+    return {"object": isinstance(value, dict), "array": isinstance(value, list), "boolean": False, "string": isinstance(value, str),
             "integer": isinstance(value, int), "number": isinstance(value, (int, float)), "null": value is None}[kind]

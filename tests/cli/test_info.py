@@ -136,6 +136,22 @@ class Info(GltfCase):
         text = self.good("info", self.folder / "two.obj").stdout.decode()
         self.assertIn("0 'map.png', png, 4x2, srgb: diffuse", text)
 
+    def test_material_fields(self):
+        plain = {"pbrMetallicRoughness": {"metallicFactor": 0.25}}
+        coated = {"alphaMode": "MASK", "alphaCutoff": 0.25, "extensions": {
+            "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.125},
+            "KHR_materials_sheen": {"sheenColorFactor": [1, 0.5, 0.25]}, "KHR_materials_ior": {"ior": 1.25},
+            "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": 1.5707963267948966}}}
+        model = self.model(materials=[plain, coated], extensionsUsed=list(coated["extensions"]))
+        first, second = self.info(model)[0]["materials"]
+        self.assertEqual((first["alpha_mode"], first["fields"]), ("opaque", {}))
+        self.assertEqual((second["alpha_mode"], second["alpha_cutoff"]), ("mask", 0.25))
+        self.assertEqual(second["fields"], {"ior": 1.25, "clearcoat": 0.5, "clearcoat_roughness": 0.125, "sheen_color": [1, 0.5, 0.25],
+                                            "anisotropy": 0.5, "anisotropy_rotation": 90})
+        text = self.good("info", model).stdout.decode()
+        self.assertIn("clearcoat 0.5, clearcoat_roughness 0.125, sheen_color 1/0.5/0.25", text)
+        self.assertIn("anisotropy_rotation 90, alpha mask below 0.25", text)
+
     def test_failures(self):
         done = self.run_program("info", "missing.obj", "teapot", "--json")
         self.assertEqual(done.returncode, 2)

@@ -19,9 +19,9 @@ static bool check_together(int count, char **models, const struct options *o, la
         return false;
     if (!output_name_is_pattern(o->output) && output_is_named(o->output) && count > 1)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--output' names one picture, but there are %d models; "
+                        "option '--output' names one picture, but there are %d models ('%.60s', '%.60s'%s); "
                         "name a folder, -o pictures/, or a pattern, -o '{stem}-{view}.png'",
-                        count);
+                        count, models[0], models[1], count > 2 ? " ..." : "");
     if (o->jobs || o->ahead || o->line_limit_bytes)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--%s' does not apply to this command; it belongs to batch: lambent batch --jobs -",

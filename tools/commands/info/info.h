@@ -44,7 +44,11 @@ struct info_counts info_count(const lam_scene *scene);
 const char *info_format(const lam_scene *scene);              // "shape" for a built-in shape
 const char *info_unit(const lam_scene *scene);                // of lengths: "metre"; NULL: the format does not say
 const char *info_material_kind(const lam_material *material); // "metallic-roughness", "classic" or "unlit"
-const char *info_support(lam_extension_support support);      // in words
+// The numbers of a field that is not among those printed of every material, where they differ from the default, as scene
+// files write them. Returns how many there are; 0: it has its default.
+int info_changed_field(const lam_field *field, const lam_material *material, double numbers[4]);
+const char *info_alpha_mode(const lam_material *material); // "opaque", "mask" or "blend"
+const char *info_support(lam_extension_support support);   // in words
 
 // A light's colour, its largest channel 1, and that channel: the intensity.
 lam_rgb info_light_color(const lam_light *light, double *intensity);

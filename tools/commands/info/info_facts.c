@@ -28,6 +28,39 @@ const char *info_material_kind(const lam_material *material)
     return material->unlit ? "unlit" : material->physical ? "metallic-roughness" : "classic";
 }
 
+// The fields that both forms print of every material.
+static bool is_always_printed(const lam_field *field)
+{
+    static const size_t printed[] = {
+        offsetof(lam_material, ambient),   offsetof(lam_material, diffuse),  offsetof(lam_material, diffuse.a),
+        offsetof(lam_material, specular),  offsetof(lam_material, emission), offsetof(lam_material, shininess),
+        offsetof(lam_material, physical),  offsetof(lam_material, unlit),    offsetof(lam_material, metallic),
+        offsetof(lam_material, roughness),
+    };
+    for (size_t i = 0; i < sizeof printed / sizeof *printed; i++)
+        if (field->offset == printed[i])
+            return true;
+    return false;
+}
+
+int info_changed_field(const lam_field *field, const lam_material *material, double numbers[4])
+{
+    if (is_always_printed(field))
+        return 0;
+    int count = lam_field_get_written(field, material, numbers);
+    for (int i = 0; i < count; i++)
+        if ((float)numbers[i] != (float)field->standard[i])
+            return count;
+    return 0;
+}
+
+const char *info_alpha_mode(const lam_material *material)
+{
+    return material->alpha_mode == LAM_ALPHA_MASK     ? "mask"
+           : material->alpha_mode == LAM_ALPHA_OPAQUE ? "opaque"
+                                                      : "blend";
+}
+
 const char *info_support(lam_extension_support support)
 {
     switch (support) {

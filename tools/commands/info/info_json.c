@@ -78,6 +78,21 @@ static void write_material(struct json *json, const lam_material *m, const struc
         json_color(json, "specular", m->specular);
         json_float(json, "shininess", m->shininess);
     }
+    json_text(json, "alpha_mode", info_alpha_mode(m));
+    if (m->alpha_mode == LAM_ALPHA_MASK)
+        json_float(json, "alpha_cutoff", m->alpha_cutoff);
+    json_open(json, "fields", '{');
+    for (int i = 0; lam_material_field(i); i++) {
+        double numbers[4];
+        int count = info_changed_field(lam_material_field(i), m, numbers);
+        if (count && lam_material_field(i)->type == LAM_FIELD_FLAG)
+            json_flag(json, lam_material_field(i)->key, true);
+        else if (count == 3)
+            json_vector(json, lam_material_field(i)->key, (lam_vec3){numbers[0], numbers[1], numbers[2]});
+        else if (count)
+            json_number(json, lam_material_field(i)->key, numbers[0]);
+    }
+    json_close(json, '}');
     json_open(json, "maps", '[');
     for (int map = 0; map < LAM_MAP_COUNT; map++) {
         int texture = info_texture_find(textures, m->maps[map] ? m->maps[map]->texture : NULL);

@@ -112,6 +112,22 @@ static void print_factors(const lam_material *m)
         printf(", emission ");
         print_color(m->emission);
     }
+    for (int i = 0; lam_material_field(i); i++) {
+        double numbers[4];
+        int count = info_changed_field(lam_material_field(i), m, numbers);
+        if (count)
+            printf(", %s ", lam_material_field(i)->key);
+        if (count == 3)
+            print_color((lam_rgb){(float)numbers[0], (float)numbers[1], (float)numbers[2]});
+        else if (count && lam_material_field(i)->type == LAM_FIELD_FLAG)
+            printf("on");
+        else if (count)
+            printf("%.4g", numbers[0]);
+    }
+    if (m->alpha_mode == LAM_ALPHA_MASK)
+        printf(", alpha mask below %.3g", (double)m->alpha_cutoff);
+    else if (m->alpha_mode == LAM_ALPHA_BLEND && m->physical)
+        printf(", alpha blended");
 }
 
 static void print_materials(const lam_scene *scene)

@@ -1,7 +1,9 @@
 // test_tangents.c: MikkTSpace: small meshes whose tangents follow from the definition, and four primitives of models against
 // the tangents that Mikkelsen's own code gives them (../shared/reference-pictures/mikktspace, where it is there).
+#include "cpu_features.h"
 #include "edge_twins.h"
 #include "mikktspace.h"
+#include "tangent_kernels.h"
 
 #include <lambent/lambent.h>
 
@@ -140,6 +142,75 @@ static void degenerate_triangle(void **state)
     expect(&made, 0, 1, 0, 0, 1);
 }
 
+// However narrow its angle is, a corner has its triangle's direction.
+static void sliver(void **state)
+{
+    (void)state;
+    static const float corners[][4] = {{0, 0, 0, 0}, {1, 0, 0, 1}, {1, 1e-9f, -1e-9f, 1}};
+    struct flat_mesh flat;
+    struct mesh_tangents made = tangents_of(flat_mesh(&flat, corners, 3), false);
+    for (uint32_t c = 0; c < 3; c++)
+        expect(&made, c, 0, -1, 0, 1);
+}
+
+// Directions that cancel, but for the rounding of √3/2, leave the tangent of meshes without texture coordinates. They lie at 210°,
+// 90° and 330°; none is mirrored.
+static void directions_that_cancel(void **state)
+{
+    (void)state;
+#define HEIGHT 0.8660254f
+    static const float corners[][4] = {{0, 0, 0, 0}, {1, 0, -1, 1},         {0.5f, HEIGHT, 0, -1},
+                                       {0, 0, 0, 0}, {0.5f, HEIGHT, 0, -1}, {-0.5f, HEIGHT, 1, 1},
+                                       {0, 0, 0, 0}, {-0.5f, HEIGHT, 1, 1}, {-1, 0, -2, -1}};
+    struct flat_mesh flat;
+    struct mesh_tangents made = tangents_of(flat_mesh(&flat, corners, 9), false);
+    assert_true(made.indices[0] == made.indices[3] && made.indices[3] == made.indices[6]);
+    expect(&made, 0, 1, 0, 0, 1);
+    expect(&made, 1, -HEIGHT, -0.5f, 0, 1);
+    expect(&made, 8, HEIGHT, -0.5f, 0, 1);
+}
+
+// Flags and sums are the same with every instruction set, for any number of triangles, with indices of one kind, of three or none.
+static void same_bytes(void **state)
+{
+    (void)state;
+    enum { TRIANGLES = 37, VERTICES = 3 * TRIANGLES };
+    static float numbers[8 * VERTICES];
+    static uint32_t indices[3 * VERTICES], groups[VERTICES];
+    uint32_t random = 1;
+    for (int i = 0; i < 8 * VERTICES; i++) {
+        random = random * 1664525 + 1013904223;
+        numbers[i] = i % 11 ? (float)(random >> 8) / 8388608.0f - 1 : 0;
+    }
+    for (uint32_t i = 0; i < 3 * VERTICES; i++) {
+        random = random * 1664525 + 1013904223;
+        indices[i] = (random >> 8) % VERTICES;
+        groups[i % VERTICES] = (random >> 8) % 20;
+    }
+    for (int kind = 0; kind < 3; kind++) {
+        const lam_mesh mesh = {.positions = numbers,
+                               .normals = numbers + 3 * VERTICES,
+                               .texcoords = numbers + 6 * VERTICES,
+                               .vertex_count = VERTICES,
+                               .triangle_count = TRIANGLES,
+                               .indices = kind ? indices : NULL,
+                               .normal_indices = kind == 2 ? indices + VERTICES : NULL,
+                               .texcoord_indices = kind == 2 ? indices + 2 * VERTICES : NULL};
+        uint8_t flags[3][TRIANGLES + TRIANGLES_AFTER];
+        float sums[3][20][4] = {{{0}}};
+        for (int lanes = 0; lanes < 3; lanes++) {
+            const struct tangent_kernels *kernels =
+                CPU_WIDEST(1 << (lanes + 2), &tangent_kernels_scalar, &tangent_kernels_avx2, &tangent_kernels_avx512);
+            kernels->look(&mesh, 0, TRIANGLES, flags[lanes]);
+            kernels->add(&mesh, 0, 16, flags[lanes], groups, sums[lanes]);
+            kernels->add(&mesh, 16, TRIANGLES, flags[lanes], groups, sums[lanes]);
+            assert_memory_equal(flags[lanes], flags[0], TRIANGLES);
+            assert_memory_equal(sums[lanes], sums[0], sizeof *sums);
+        }
+        assert_true(sums[0][0][3] > 0);
+    }
+}
+
 // Four triangles on one edge, in the order out, in, in, out: the first goes with the first, the second with the second.
 static void twins_of_a_fan(void **state)
 {
@@ -149,13 +220,13 @@ static void twins_of_a_fan(void **state)
                                        {0, -2, 0, -2}, {0, 0, 0, 0},   {1, 0, 1, 0}, {0, 2, 0, 2}};
     struct flat_mesh flat;
     const lam_mesh *mesh = flat_mesh(&flat, corners, 12);
-    const bool left_out[4] = {false, false, false, false};
+    const uint8_t flags[4] = {0};
     struct arena memory;
     struct corner_weld weld;
     struct edge_twins edges;
     arena_start(&memory, NULL);
     assert_true(corner_weld(&weld, mesh, &memory, NULL, NULL));
-    assert_true(edge_twins(&edges, &weld, 4, left_out, &memory, NULL, NULL));
+    assert_true(edge_twins(&edges, &weld, 4, flags, 1, &memory, NULL, NULL));
     assert_int_equal(edges.twin[0], 3);
     assert_int_equal(edges.twin[3], 0);
     assert_int_equal(edges.twin[9], 6);
@@ -358,6 +429,9 @@ int main(void)
         cmocka_unit_test(mirrored_halves),
         cmocka_unit_test(degenerate_texcoords),
         cmocka_unit_test(degenerate_triangle),
+        cmocka_unit_test(sliver),
+        cmocka_unit_test(directions_that_cancel),
+        cmocka_unit_test(same_bytes),
         cmocka_unit_test(twins_of_a_fan),
         cmocka_unit_test(equal_hashes_are_told_apart),
         cmocka_unit_test(tangents_of_a_normal_map),

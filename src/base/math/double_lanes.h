@@ -27,8 +27,10 @@ LANE_FN dnum dabsolute(dnum x) { return __builtin_fabs(x); }
 LANE_FN void dnum_store_float(float *at, dnum x) { *at = (float)x; }
 LANE_FN dnum dnum_of(double x) { return x; }
 LANE_FN dnum dnum_load(const double *at) { return *at; }
+LANE_FN dnum dnum_load_float(const float *at) { return (double)*at; }
 LANE_FN void dnum_store(double *at, dnum x) { *at = x; }
 LANE_FN dnum dpick(dmask m, dnum a, dnum b) { return m ? a : b; }
+LANE_FN dnum dsquare_root(dnum x) { return __builtin_sqrt(x); }
 LANE_FN unsigned dmask_bits(dmask m) { return m != 0; }
 #else
 LANE_FN dnum dabsolute(dnum x) { return (dnum)((dmask)x & INT64_MAX); } // clears the sign bit
@@ -40,8 +42,33 @@ LANE_FN void dnum_store_float(float *at, dnum x)
 }
 LANE_FN dnum dnum_of(double x) { return x - (dnum){0}; }
 LANE_FN dnum dnum_load(const double *at) { return (dnum) * (const dnum_memory *)at; }
+LANE_FN dnum dnum_load_float(const float *at)
+{
+    typedef float part __attribute__((vector_size(DLANES * 4)));
+    part f;
+    memcpy(&f, at, sizeof f);
+    return __builtin_convertvector(f, dnum);
+}
 LANE_FN void dnum_store(double *at, dnum x) { *(dnum_memory *)at = (dnum_memory)x; }
 LANE_FN dnum dpick(dmask m, dnum a, dnum b) { return (dnum)(((dmask)a & m) | ((dmask)b & ~m)); }
+// √, correctly rounded.
+LANE_FN dnum dsquare_root(dnum x)
+{
+#if LANES == 16 && defined(__AVX512F__)
+    return (dnum)_mm512_sqrt_pd((__m512d)x);
+#elif LANES == 8 && defined(__AVX__)
+    return (dnum)_mm256_sqrt_pd((__m256d)x);
+#elif LANES == 4 && defined(__SSE2__)
+    return (dnum)_mm_sqrt_pd((__m128d)x);
+#elif LANES == 4 && defined(__wasm_simd128__)
+    return (dnum)wasm_f64x2_sqrt((v128_t)x);
+#else
+    dnum r = x;
+    for (int i = 0; i < DLANES; i++)
+        r[i] = __builtin_sqrt(x[i]);
+    return r;
+#endif
+}
 LANE_FN unsigned dmask_bits(dmask m) // bit i: lane i
 {
 #if LANES == 16 && defined(__AVX512DQ__)

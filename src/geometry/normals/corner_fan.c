@@ -1,6 +1,7 @@
 // corner_fan.c: the normals at one position, from the corners that meet there.
 #include "corner_fan.h"
 
+#include "angle_series.h"
 #include "linear.h"
 #include "position_simd.h"
 
@@ -69,8 +70,7 @@ bool corner_fan_scratch_reserve(struct corner_fan_scratch *scratch, uint32_t cou
     return ok;
 }
 
-// atan2(y, x) for y ≥ 0 within 3e-6 rad: enough for a weight. The polynomial for atan on 0…1 goes through its
-// values at the six Chebyshev nodes of x².
+// atan2(y, x) for y ≥ 0.
 static double angle_of(double y, double x)
 {
     double ax = x < 0 ? -x : x;
@@ -79,10 +79,7 @@ static double angle_of(double y, double x)
     if (!(larger > 0))
         return 0;
     double t = (steep ? ax : y) / larger, z = t * t;
-    double a = t * (0.9999948346338877 +
-                    z * (-0.33295711032247277 +
-                         z * (0.1953465900279569 +
-                              z * (-0.12044858521312099 + z * (0.05658998519974516 + z * -0.013130382075233026)))));
+    double a = ANGLE_SERIES(t, z);
     if (steep)
         a = PI / 2 - a;
     return x < 0 ? PI - a : a;

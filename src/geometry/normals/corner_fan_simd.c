@@ -2,6 +2,7 @@
 // by side that the compiler vectorizes. Choices are made without branches, and nothing is divided by zero.
 #include "corner_fan_simd.h"
 
+#include "angle_series.h"
 #include "lanes.h"
 #include "linear.h"
 
@@ -104,11 +105,7 @@ static void look(struct corner_fan_block *b)
             int steep = length > across;
             double larger = steep ? length : across;
             double t = (steep ? across : length) / (spans ? larger : 1), s = t * t;
-            double angle =
-                t * (0.9999948346338877 +
-                     s * (-0.33295711032247277 +
-                          s * (0.1953465900279569 +
-                               s * (-0.12044858521312099 + s * (0.05658998519974516 + s * -0.013130382075233026)))));
+            double angle = ANGLE_SERIES(t, s);
             angle = steep ? PI / 2 - angle : angle;
             angle = dot < 0 ? PI - angle : angle;
             double weight = spans ? length * angle : 0;

@@ -24,18 +24,18 @@ static void join(uint32_t *twin, const uint64_t *out, uint32_t out_count, const 
 
 // Lists the corners by welded number. Returns the largest number of corners of one.
 static uint32_t list_corners(struct edge_twins *edges, const struct corner_weld *weld, size_t corners,
-                             const bool *left_out)
+                             const uint8_t *flags, unsigned left_out)
 {
     uint32_t max = 0;
     for (size_t c = 0; c < corners; c++)
-        edges->first[corner_weld_of(weld, c) + (size_t)1] += !left_out[c / 3];
+        edges->first[corner_weld_of(weld, c) + (size_t)1] += !(flags[c / 3] & left_out);
     for (size_t v = 0; v < weld->items; v++) {
         max = edges->first[v + 1] > max ? edges->first[v + 1] : max;
         edges->first[v + 1] += edges->first[v];
     }
     // Filling advances each start to its end; the loop after it restores them.
     for (size_t c = 0; c < corners; c++)
-        if (!left_out[c / 3])
+        if (!(flags[c / 3] & left_out))
             edges->list[edges->first[corner_weld_of(weld, c)]++] = (uint32_t)c;
     for (size_t v = weld->items; v > 0; v--)
         edges->first[v] = edges->first[v - 1];
@@ -43,8 +43,8 @@ static uint32_t list_corners(struct edge_twins *edges, const struct corner_weld 
     return max;
 }
 
-bool edge_twins(struct edge_twins *edges, const struct corner_weld *weld, uint32_t triangle_count, const bool *left_out,
-                struct arena *memory, struct call_control *call, lam_error *error)
+bool edge_twins(struct edge_twins *edges, const struct corner_weld *weld, uint32_t triangle_count, const uint8_t *flags,
+                unsigned left_out, struct arena *memory, struct call_control *call, lam_error *error)
 {
     size_t corners = (size_t)triangle_count * 3, starts = (size_t)weld->items + 1;
     edges->twin = arena_array(memory, corners, sizeof *edges->twin);
@@ -53,7 +53,7 @@ bool edge_twins(struct edge_twins *edges, const struct corner_weld *weld, uint32
     if (!edges->twin || !edges->first || !edges->list)
         return call_memory_error(call, (2 * corners + starts) * sizeof *edges->list, error);
     memset(edges->twin, 0xff, corners * sizeof *edges->twin);
-    uint32_t max = list_corners(edges, weld, corners, left_out);
+    uint32_t max = list_corners(edges, weld, corners, flags, left_out);
     uint64_t *out = arena_array(memory, max, sizeof *out), *in = arena_array(memory, max, sizeof *in);
     if (!out || !in)
         return call_memory_error(call, max * 2 * sizeof *out, error);

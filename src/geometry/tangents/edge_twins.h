@@ -18,8 +18,9 @@ struct edge_twins {
     uint32_t *first, *list;
 };
 
-// `left_out[t]`: triangle t has no twins and its corners are not in the list. `memory` as in corner_weld.
-bool edge_twins(struct edge_twins *edges, const struct corner_weld *weld, uint32_t triangle_count, const bool *left_out,
-                struct arena *memory, struct call_control *call, lam_error *error);
+// Triangles with one of the bits `left_out` in their flags have no twins and their corners are not in the list. `memory` as in
+// corner_weld.
+bool edge_twins(struct edge_twins *edges, const struct corner_weld *weld, uint32_t triangle_count, const uint8_t *flags,
+                unsigned left_out, struct arena *memory, struct call_control *call, lam_error *error);
 
 #endif

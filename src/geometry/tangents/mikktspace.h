@@ -15,7 +15,8 @@
 // none, or where a group's sum is zero, it is the tangent of meshes without texture coordinates, a direction around the y
 // axis; Mikkelsen's code leaves (1, 0, 0) or zero there.
 //
-// The sum is in double. The derivatives are in float, as in his code: whether they vanish decides about groups.
+// The summands are computed in double and summed as floats, in the order of the corners. The derivatives are in float, as in his
+// code: whether they vanish decides about groups.
 //
 // The bitangent is w·cross(n, t), not made unit.
 #ifndef MIKKTSPACE_H

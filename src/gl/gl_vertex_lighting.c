@@ -125,6 +125,18 @@ LANE_FN void pass_light(const struct side *side, const struct frame_light *l, co
     light->specular = mul3(light->specular, tint);
 }
 
+// What a light sends to the surface, before what it meets on its way. The ambient light that the rules of OpenGL 1 attenuate
+// with it is added to *sum.
+LANE_FN light_sample sample_of(const struct side *side, const struct frame_light *l, surface s, light_source *light,
+                               terms *sum)
+{
+    *light = source_of(side, l);
+    light_sample t = toward_light(s.p, *light, l->kind, l->falloff);
+    if (side->frame->gl1)
+        *sum = add_arriving_ambient(*sum, product3(&side->material->ambient.r, l->ambient), t);
+    return t;
+}
+
 // The rest of evaluate_terms for a material with layers, as src/cpu/shade/layered.inc. `sign`: of the bitangent.
 LANE_FN terms layered_terms(const struct side *side, const struct vertex_rays *rays, surface s, vec3 color, num sign,
                             terms sum, vec3 *around)
@@ -141,10 +153,8 @@ LANE_FN terms layered_terms(const struct side *side, const struct vertex_rays *r
     layered y = layered_of(s, given, !frame->single_scattering, set);
     for (int i = 0; i < frame->light_count; i++) {
         const struct frame_light *l = &frame->lights[i];
-        light_source light = source_of(side, l);
-        light_sample t = toward_light(s.p, light, l->kind, l->falloff);
-        if (frame->gl1)
-            sum = add_arriving_ambient(sum, product3(&m->ambient.r, l->ambient), t);
+        light_source light;
+        light_sample t = sample_of(side, l, s, &light, &sum);
         pass_light(side, l, rays, true, s, &t, &light);
         sum = add_layered(sum, light, t, layered_light(s, y, t.l, set));
     }
@@ -192,10 +202,8 @@ LANE_FN terms evaluate_terms(const struct side *side, const struct vertex_rays *
     lobe_parameters parameters = lobe_parameters_of(m, frame_shininess(frame, m));
     for (int i = 0; i < frame->light_count; i++) {
         const struct frame_light *l = &frame->lights[i];
-        light_source light = source_of(side, l);
-        light_sample t = toward_light(s.p, light, l->kind, l->falloff);
-        if (frame->gl1)
-            sum = add_arriving_ambient(sum, product3(&m->ambient.r, l->ambient), t);
+        light_source light;
+        light_sample t = sample_of(side, l, s, &light, &sum);
         if (lobe_properties(model) & LOBE_MICROFACET)
             light = with_fresnel(light, mirror, s.v, t.l);
         pass_light(side, l, rays, (lobe_properties(model) & LOBE_TANGENT) != 0, s, &t, &light);

@@ -192,25 +192,12 @@ static void add_body(struct text *text, const struct glsl_facts *f, bool origin)
     lecture_add_way(&way, c, "scale(-1.0, lights[i].direction)", "subtract(lights[i].position, P)");
     lecture_add_spots(&spots, c, "double");
     const struct preprocess_flag flags[] = {
+        LECTURE_FLAGS(c, f),
         {"flat", f->shading == LAM_SHADING_FLAT},
         {"has_origin", origin},
-        {"two_sided", c->two_sided},
-        {"highlights", f->highlights},
-        {"distant_viewer", c->distant_viewer},
         {"reads_point", reads_point},
         {"reads_normal", reads_normal},
-        {"has_hemispheres", f->hemispheres},
-        {"has_lights", f->lights},
-        {"has_falloff", f->attenuated},
-        {"has_range", lecture_has_range(c)},
-        {"has_cone", f->cones},
-        {"has_cutoff", lecture_has_kind(c, LIGHT_SPOT_CUTOFF)},
-        {"threads", f->tangent},
         {"tangents", tangents},
-        {"passes_tangent", tangents},
-        {"gated_threads", c->reflection == LAM_REFLECTION_KAJIYA_KAY},
-        {"phong", f->highlights && c->reflection == LAM_REFLECTION_PHONG},
-        {"blinn_phong", f->highlights && c->reflection == LAM_REFLECTION_BLINN_PHONG},
         {NULL, false},
     };
     char parameters[96], arguments[2][96], vertex_parameters[256], lights[16], hemispheres[16];

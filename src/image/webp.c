@@ -159,7 +159,7 @@ static int write_sink(const uint8_t *bytes, size_t size, const WebPPicture *pict
     return 1;
 }
 
-int webp_report_progress(int percent, const WebPPicture *picture)
+static int report_progress(int percent, const WebPPicture *picture)
 {
     (void)percent;
     return call_should_continue(picture->user_data);
@@ -178,9 +178,10 @@ static bool fail_encoding(const WebPPicture *picture, const struct sink *sink, l
 }
 
 // Lossless with the colours of fully transparent pixels as they are, or at a quality.
-bool webp_configure(const struct webp_library *webp, int quality, WebPConfig *config, WebPPicture *picture,
-                    lam_error *error)
+bool webp_configure(const struct webp_library *webp, const lam_image *image, const lam_save_params *params,
+                    struct call_control *call, WebPConfig *config, WebPPicture *picture, lam_error *error)
 {
+    int quality = (int)params->quality;
     if (!webp->WebPConfigInitInternal(config, WEBP_PRESET_DEFAULT, (float)quality, WEBP_ENCODER_ABI_VERSION) ||
         !webp->WebPPictureInitInternal(picture, WEBP_ENCODER_ABI_VERSION))
         return fail(error, LAM_UNSUPPORTED,
@@ -190,6 +191,11 @@ bool webp_configure(const struct webp_library *webp, int quality, WebPConfig *co
         config->quality = 75; // the effort
     config->exact = config->lossless;
     picture->use_argb = config->lossless;
+    picture->width = image->width;
+    picture->height = image->height;
+    picture->progress_hook = report_progress;
+    picture->user_data = call;
+    call_start(call, params->control);
     return true;
 }
 
@@ -198,16 +204,11 @@ static bool encode(const struct webp_library *webp, const lam_image *image, cons
 {
     WebPConfig config;
     WebPPicture picture;
-    if (!webp_configure(webp, (int)params->quality, &config, &picture, error))
-        return false;
     struct call_control call;
-    call_start(&call, params->control);
-    picture.width = image->width;
-    picture.height = image->height;
+    if (!webp_configure(webp, image, params, &call, &config, &picture, error))
+        return false;
     picture.writer = write_sink;
     picture.custom_ptr = sink;
-    picture.progress_hook = webp_report_progress;
-    picture.user_data = &call;
     bool ok = (call_should_continue(&call) && webp->WebPPictureImportRGBA(&picture, image->pixels, 4 * image->width) &&
                webp->WebPEncode(&config, &picture)) ||
               fail_encoding(&picture, sink, error);

@@ -92,15 +92,10 @@ static bool animation_add(void *state, const lam_image *frame, const lam_save_pa
     struct webp_library *webp = &animation->webp;
     WebPConfig config;
     WebPPicture picture;
-    if (!webp_configure(webp, (int)params->quality, &config, &picture, error))
-        return false;
     struct call_control call;
-    call_start(&call, params->control);
-    picture.width = frame->width;
-    picture.height = frame->height;
+    if (!webp_configure(webp, frame, params, &call, &config, &picture, error))
+        return false;
     picture.use_argb = 1; // what the encoder of animations takes
-    picture.progress_hook = webp_report_progress;
-    picture.user_data = &call;
     bool ok =
         call_should_continue(&call) && webp->WebPPictureImportRGBA(&picture, frame->pixels, 4 * frame->width) &&
         animation->WebPAnimEncoderAdd(animation->encoder, &picture, time_of(animation, animation->count), &config);

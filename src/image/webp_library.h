@@ -27,15 +27,12 @@ struct webp_library {
 // `file` begins messages; NULL: none does. LAM_UNSUPPORTED.
 bool webp_open(struct webp_library *webp, const char *file, lam_error *error);
 
-// Sets up a picture's encoding at a quality (lam_save_params). LAM_UNSUPPORTED.
-bool webp_configure(const struct webp_library *webp, int quality, WebPConfig *config, WebPPicture *picture,
-                    lam_error *error);
+// Sets up the encoding of an image: starts `call`, which the encoder reports to. LAM_UNSUPPORTED.
+bool webp_configure(const struct webp_library *webp, const lam_image *image, const lam_save_params *params,
+                    struct call_control *call, WebPConfig *config, WebPPicture *picture, lam_error *error);
 
 // LAM_LIMIT.
 bool webp_check_size(int width, int height, lam_error *error);
-
-// A WebPProgressHook; `user_data` is a struct call_control.
-int webp_report_progress(int percent, const WebPPicture *picture);
 
 #endif
 #endif

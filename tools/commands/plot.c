@@ -368,10 +368,7 @@ static void print_json(FILE *file, const struct plot *plot, const char *path)
         json_open(&json, "points", '[');
         for (int k = 0; k <= TABLE_STEPS; k++) {
             double x = (double)(float)(plot->x_max * k / TABLE_STEPS);
-            json_open(&json, NULL, '[');
-            json_number(&json, NULL, x);
-            json_number(&json, NULL, c->value(c, x));
-            json_close(&json, ']');
+            json_numbers(&json, NULL, (double[]){x, c->value(c, x)}, 2);
         }
         json_close(&json, ']');
         json_close(&json, '}');

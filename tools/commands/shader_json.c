@@ -81,10 +81,7 @@ static void draws(struct json *json, const lam_shader *s)
         yes_or_no(json, "translucent", d->translucent);
         yes_or_no(json, "has_colors", d->has_colors);
         yes_or_no(json, "has_tangents", d->has_tangents);
-        json_open(json, "origin", '[');
-        for (int k = 0; k < 3; k++)
-            json_number(json, NULL, d->origin[k]);
-        json_close(json, ']');
+        json_numbers(json, "origin", d->origin, 3);
         uniforms(json, "uniforms", d->uniforms, d->uniform_count);
         json_close(json, '}');
     }

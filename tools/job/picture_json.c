@@ -3,15 +3,6 @@
 
 #include "light_place.h"
 
-static void vector(struct json *json, const char *key, lam_vec3 v)
-{
-    json_open(json, key, '[');
-    json_number(json, NULL, v.x);
-    json_number(json, NULL, v.y);
-    json_number(json, NULL, v.z);
-    json_close(json, ']');
-}
-
 static void answer_camera(struct json *json, const struct job *job)
 {
     const lam_camera *c = &job->camera;
@@ -20,15 +11,15 @@ static void answer_camera(struct json *json, const struct job *job)
     scene_axes(job->scene, &pole, &front);
     lam_scene_sphere(job->scene, -1, &centre, &radius);
     json_open(json, "camera", '{');
-    vector(json, "eye", c->eye);
-    vector(json, "target", c->target);
-    vector(json, "up", c->up);
+    json_vector(json, "eye", c->eye);
+    json_vector(json, "target", c->target);
+    json_vector(json, "up", c->up);
     json_number(json, "fovy_deg", c->fovy_rad * (180 / 3.14159265358979323846));
     json_number(json, "ortho", c->ortho_half_height);
-    vector(json, "pole", pole);
+    json_vector(json, "pole", pole);
     json_close(json, '}');
     json_open(json, "sphere", '{');
-    vector(json, "centre", centre);
+    json_vector(json, "centre", centre);
     json_number(json, "radius", radius);
     json_close(json, '}');
 }

@@ -99,3 +99,16 @@ void json_flag(struct json *json, const char *key, bool value)
     before(json, key);
     fputs(value ? "true" : "false", json->file);
 }
+
+void json_numbers(struct json *json, const char *key, const double *values, int count)
+{
+    json_open(json, key, '[');
+    for (int i = 0; i < count; i++)
+        json_number(json, NULL, values[i]);
+    json_close(json, ']');
+}
+
+void json_vector(struct json *json, const char *key, lam_vec3 v)
+{
+    json_numbers(json, key, (double[]){v.x, v.y, v.z}, 3);
+}

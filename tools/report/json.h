@@ -9,6 +9,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include <lambent/base.h>
+
 struct json {
     FILE *file;
     bool comma; // the next value follows another one
@@ -23,6 +25,10 @@ void json_number(struct json *json, const char *key, double value); // not finit
 void json_count(struct json *json, const char *key, uint64_t value);
 void json_none(struct json *json, const char *key);
 void json_flag(struct json *json, const char *key, bool value);
+
+// Lists of numbers.
+void json_numbers(struct json *json, const char *key, const double *values, int count);
+void json_vector(struct json *json, const char *key, lam_vec3 v);
 
 // The shortest decimal number that reads back as `value`, at most 24 bytes with the closing zero.
 void shortest_number(double value, char text[32]);

@@ -131,15 +131,6 @@ void report_table(const struct job *job)
     time_row("total", job->times.total);
 }
 
-static void json_vector(struct json *json, const char *key, lam_vec3 v)
-{
-    json_open(json, key, '[');
-    json_number(json, NULL, v.x);
-    json_number(json, NULL, v.y);
-    json_number(json, NULL, v.z);
-    json_close(json, ']');
-}
-
 static void json_model(struct json *json, const struct job *job)
 {
     const lam_scene *scene = job->scene;

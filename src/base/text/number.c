@@ -359,8 +359,9 @@ static uint64_t round_decimal(const struct decimal *d, const struct format *form
 
 // --- the public functions
 
-// "inf", "infinity", "nan", "nan(…)", in any case. `*bits` is the mantissa's top bit for a NaN, 0 for infinity.
-static const uint8_t *scan_special(const uint8_t *at, const uint8_t *end, bool *negative, bool *nan)
+// "inf", "infinity", "nan", "nan(…)", in any case. `*bits`: those of the format, without the sign.
+static const uint8_t *scan_special(const uint8_t *at, const uint8_t *end, const struct format *format, bool *negative,
+                                   uint64_t *bits)
 {
     *negative = false;
     if (at < end && (*at == '-' || *at == '+'))
@@ -375,8 +376,10 @@ static const uint8_t *scan_special(const uint8_t *at, const uint8_t *end, bool *
         }
         if (*letter)
             continue;
-        *nan = w == 2;
-        if (*nan && c < end && *c == '(') {
+        bool nan = w == 2;
+        *bits = (uint64_t)format->infinite << format->mantissa_bits;
+        *bits |= (uint64_t)nan << (format->mantissa_bits - 1);
+        if (nan && c < end && *c == '(') {
             const uint8_t *inside = c + 1;
             while (inside < end &&
                    ((unsigned)(*inside - '0') < 10 || (unsigned)((*inside | 0x20) - 'a') < 26 || *inside == '_'))
@@ -405,26 +408,33 @@ static float float_of(uint64_t bits, bool negative)
     return x;
 }
 
+// The bits, without the sign, of a number to which the quick ways of number_double and number_float do not apply. `after`: as
+// scan returned it for `d`; NULL: only "inf" and "nan" remain.
+static const uint8_t *finish(const uint8_t *at, const uint8_t *end, const uint8_t *after, const struct format *format,
+                             struct decimal *d, uint64_t *bits)
+{
+    if (!after)
+        return scan_special(at, end, format, &d->negative, bits);
+    *bits = round_decimal(d, format);
+    return after;
+}
+
 const uint8_t *number_double(const uint8_t *at, const uint8_t *end, double *out)
 {
     static const double powers[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                       1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     struct decimal d;
     const uint8_t *after = scan(at, end, &d);
-    if (!after) {
-        bool negative, nan;
-        after = scan_special(at, end, &negative, &nan);
-        if (after)
-            *out = double_of(nan ? UINT64_C(0x7ff8) << 48 : UINT64_C(0x7ff0) << 48, negative);
-        return after;
-    }
-    if (d.digits <= UINT64_C(1) << 53 && d.exponent >= -22 && d.exponent <= 22 && !d.truncated) {
+    if (after && d.digits <= UINT64_C(1) << 53 && d.exponent >= -22 && d.exponent <= 22 && !d.truncated) {
         double x = (double)d.digits;
         x = d.exponent < 0 ? x / powers[-d.exponent] : x * powers[d.exponent];
         *out = d.negative ? -x : x;
         return after;
     }
-    *out = double_of(round_decimal(&d, &format_double), d.negative);
+    uint64_t bits;
+    after = finish(at, end, after, &format_double, &d, &bits);
+    if (after)
+        *out = double_of(bits, d.negative);
     return after;
 }
 
@@ -438,21 +448,17 @@ const uint8_t *number_float(const uint8_t *at, const uint8_t *end, float *out)
                                     1e8,   1e9,   1e10,  1e11,  1e12,  1e13,  1e14,  1e15,  1e16,  1e17,  1e18};
     struct decimal d;
     const uint8_t *after = scan(at, end, &d);
-    if (!after) {
-        bool negative, nan;
-        after = scan_special(at, end, &negative, &nan);
-        if (after)
-            *out = float_of(nan ? 0x7fc00000u : 0x7f800000u, negative);
-        return after;
-    }
-    if (d.exponent >= LEAST && d.exponent <= MOST) {
+    if (after && d.exponent >= LEAST && d.exponent <= MOST) {
         double x = (double)d.digits * powers[d.exponent - LEAST];
         if (number_rounds_surely(x)) {
             *out = (float)(d.negative ? -x : x);
             return after;
         }
     }
-    *out = float_of(round_decimal(&d, &format_float), d.negative);
+    uint64_t bits;
+    after = finish(at, end, after, &format_float, &d, &bits);
+    if (after)
+        *out = float_of(bits, d.negative);
     return after;
 }
 

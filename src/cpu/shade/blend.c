@@ -139,22 +139,36 @@ static void drop_empty(const struct sample_pattern *pattern, struct fragments *f
     fragments->count = (int)kept;
 }
 
+// The layers of a pixel; returns their number.
+static uint32_t list_layers(struct blend_scratch *scratch, int pixel)
+{
+    uint32_t first = scratch->start[pixel], count = scratch->start[pixel + 1] - first;
+    for (uint32_t i = 0; i < count; i++)
+        scratch->layers[i].fragment = scratch->order[first + i];
+    return count;
+}
+
+// Sorts layers, the nearest at a sample first. All are sorted, covering the sample or not: the next sample's order will be
+// nearly the same.
+static void rank_layers(const struct fragments *fragments, const struct layer_rows *rows, struct layer *layers,
+                        uint32_t count, int samples, int sample)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t f = layers[i].fragment;
+        layers[i].rank = rank_of(rows->keys[(size_t)f * (size_t)samples + (size_t)sample], fragments->id[f]);
+    }
+    sort_by_rank(layers, count);
+}
+
 // Blends the layers of one pixel: adds to its sums, and sets the transmittance of each sample.
 static void blend_pixel(const struct fragments *fragments, const struct layer_rows *rows, struct blend_scratch *scratch,
                         int samples, int pixel, struct pixel_sums *sums, struct recorder *recorder)
 {
-    uint32_t first = scratch->start[pixel], count = scratch->start[pixel + 1] - first;
+    uint32_t count = list_layers(scratch, pixel);
     struct layer *layers = scratch->layers;
     float share = 1.0f / (float)samples;
-    for (uint32_t i = 0; i < count; i++)
-        layers[i].fragment = scratch->order[first + i];
     for (int s = 0; s < samples; s++) {
-        // All layers are sorted, covering this sample or not: the next sample's order will be nearly the same.
-        for (uint32_t i = 0; i < count; i++) {
-            uint32_t f = layers[i].fragment;
-            layers[i].rank = rank_of(rows->keys[(size_t)f * (size_t)samples + (size_t)s], fragments->id[f]);
-        }
-        sort_by_rank(layers, count);
+        rank_layers(fragments, rows, layers, count, samples, s);
         float sum[3] = {0, 0, 0}, transmittance = 1;
         for (uint32_t i = 0; i < count && transmittance > 0; i++) {
             uint32_t f = layers[i].fragment;
@@ -183,17 +197,11 @@ static __attribute__((noinline)) void blend_tinted_pixel(const struct fragments 
                                                          const uint32_t *ids, int samples, int pixel,
                                                          struct pixel_sums *sums, struct recorder *recorder)
 {
-    uint32_t first = scratch->start[pixel], count = scratch->start[pixel + 1] - first;
+    uint32_t count = list_layers(scratch, pixel);
     struct layer *layers = scratch->layers;
     float share = 1.0f / (float)samples;
-    for (uint32_t i = 0; i < count; i++)
-        layers[i].fragment = scratch->order[first + i];
     for (int s = 0; s < samples; s++) {
-        for (uint32_t i = 0; i < count; i++) {
-            uint32_t f = layers[i].fragment;
-            layers[i].rank = rank_of(rows->keys[(size_t)f * (size_t)samples + (size_t)s], fragments->id[f]);
-        }
-        sort_by_rank(layers, count);
+        rank_layers(fragments, rows, layers, count, samples, s);
         float sum[3] = {0, 0, 0}, left[3] = {1, 1, 1}, mean = 1;
         for (uint32_t i = 0; i < count && mean > 0; i++) {
             uint32_t f = layers[i].fragment;

@@ -195,6 +195,21 @@ static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t
     return next;
 }
 
+// The index of a corner's texture coordinate or normal. Where the elements of its kind are not kept (not `kept`), it is
+// read past, and *unknown is set.
+static inline const uint8_t *read_further_index(struct obj_reader *reader, const uint8_t *at, bool kept, uint64_t total,
+                                                uint64_t so_far, const char *what, bool *unknown, uint32_t *out)
+{
+    if (kept)
+        return read_index(reader, at, total, so_far, what, out);
+    int64_t unused;
+    const uint8_t *next = number_int(at, reader->end, &unused);
+    if (!next)
+        return fail_expected(reader, at, what);
+    *unknown = true;
+    return next;
+}
+
 static const char name_position[] = "a vertex", name_texcoord[] = "a texture coordinate", name_normal[] = "a normal";
 
 // Reads a face: v, v/t, v//n or v/t/n for each corner; the forms may be mixed.
@@ -215,37 +230,14 @@ static const uint8_t *read_face(struct obj_reader *reader, const uint8_t *at)
             return NULL;
         if (*at == '/') {
             at++;
-            if (*at != '/' && !obj_at_word_end(at)) {
-                if (texcoords) {
-                    at = read_index(reader, at, obj->total.texcoords, reader->next.texcoords, name_texcoord, &texcoord);
-                    if (!at)
-                        return NULL;
-                } else {
-                    int64_t unused;
-                    const uint8_t *number = at;
-                    at = number_int(at, end, &unused);
-                    if (!at)
-                        return fail_expected(reader, number, name_texcoord);
-                    chunk->texcoord_unknown = true;
-                }
-            }
-            if (*at == '/') {
-                at++;
-                if (!obj_at_word_end(at)) {
-                    if (normals) {
-                        at = read_index(reader, at, obj->total.normals, reader->next.normals, name_normal, &normal);
-                        if (!at)
-                            return NULL;
-                    } else {
-                        int64_t unused;
-                        const uint8_t *number = at;
-                        at = number_int(at, end, &unused);
-                        if (!at)
-                            return fail_expected(reader, number, name_normal);
-                        chunk->normal_unknown = true;
-                    }
-                }
-            }
+            if (*at != '/' && !obj_at_word_end(at))
+                at = read_further_index(reader, at, texcoords, obj->total.texcoords, reader->next.texcoords,
+                                        name_texcoord, &chunk->texcoord_unknown, &texcoord);
+            if (at && *at == '/' && !obj_at_word_end(++at))
+                at = read_further_index(reader, at, normals, obj->total.normals, reader->next.normals, name_normal,
+                                        &chunk->normal_unknown, &normal);
+            if (!at)
+                return NULL;
         }
         if (__builtin_expect(!obj_at_word_end(at), 0))
             return fail_expected(reader, at, "a space between a face's corners (v, v/t, v//n or v/t/n)");

@@ -98,7 +98,7 @@ bool ply_read_ascii(const struct import_source *source, const struct ply_element
                     const struct ply_request *request, struct arena *keep, struct arena *scratch, size_t *at,
                     struct ply_table *table, lam_error *error);
 
-// Shared by ply_binary.c and ply_ascii.c. Sets offsets, types and stride for rows without their lists.
+// ply_rows.c. Sets offsets, types and stride for rows without their lists.
 bool ply_plan_rows(const struct import_source *source, const struct ply_request *request, struct arena *scratch,
                    struct ply_table *table, lam_error *error);
 // The error for a file that ends within the element's row `row`, counted from 0.

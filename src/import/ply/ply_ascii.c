@@ -3,29 +3,16 @@
 // Numbers are separated by white space of any kind, and a row may continue on the next line; but it ends where its line
 // ends: numbers left over belong to no property. A first, serial pass finds the begin of each piece of rows and the
 // lengths of its lists; then the pieces are read in parallel.
-#include "parallel_rows.h"
 #include "fail.h"
 #include "number.h"
-#include "ply.h"
+#include "ply_rows.h"
 #include "text_cursor.h"
 
 #include <stdio.h>
 #include <string.h>
 
-struct reader {
-    const struct import_source *source;
-    const struct ply_element *element;
-    const struct ply_request *request;
-    struct ply_table *table;
-    const uint8_t *first, *end; // the first row; the file's end
-    const uint8_t **pieces;     // begin of each piece
-    uint32_t *items, *starts;   // of the requested list
-    uint8_t *rows;              // scalars; NULL: not requested
-    size_t indexed;             // rows that index_rows found well
-};
-
-static bool fail_number(const struct reader *reader, size_t row, int property, const uint8_t *at, const char *expected,
-                        lam_error *error)
+static bool fail_number(const struct ply_reader *reader, size_t row, int property, const uint8_t *at,
+                        const char *expected, lam_error *error)
 {
     if (!error)
         return false;
@@ -37,14 +24,14 @@ static bool fail_number(const struct reader *reader, size_t row, int property, c
 }
 
 // Reads a word that is an integer; NULL: it is none.
-static const uint8_t *read_integer(const struct reader *reader, const uint8_t *at, int64_t *value)
+static const uint8_t *read_integer(const struct ply_reader *reader, const uint8_t *at, int64_t *value)
 {
     const uint8_t *next = number_int(at, reader->end, value);
     return next && (next == reader->end || text_white(*next)) ? next : NULL;
 }
 
 // Reads one scalar and writes it in binary; NULL: error.
-static const uint8_t *read_scalar(const struct reader *reader, size_t row, int property, const uint8_t *at,
+static const uint8_t *read_scalar(const struct ply_reader *reader, size_t row, int property, const uint8_t *at,
                                   uint8_t *out, lam_error *error)
 {
     static const struct {
@@ -86,7 +73,7 @@ static const uint8_t *read_scalar(const struct reader *reader, size_t row, int p
     return next;
 }
 
-static const uint8_t *read_item(const struct reader *reader, size_t row, const uint8_t *at, uint32_t *item,
+static const uint8_t *read_item(const struct ply_reader *reader, size_t row, const uint8_t *at, uint32_t *item,
                                 lam_error *error)
 {
     int64_t value = 0;
@@ -112,7 +99,7 @@ static const uint8_t *rest_of_line(const uint8_t *at, const uint8_t *end)
     return at < end && !text_white(*at) ? at : NULL;
 }
 
-static bool fail_rest(const struct reader *reader, size_t row, const uint8_t *rest, lam_error *error)
+static bool fail_rest(const struct ply_reader *reader, size_t row, const uint8_t *rest, lam_error *error)
 {
     const struct ply_element *element = reader->element;
     char found[TEXT_FOUND_SIZE], shown[2][SHOWN_NAME_SIZE];
@@ -124,22 +111,14 @@ static bool fail_rest(const struct reader *reader, size_t row, const uint8_t *re
 }
 
 // The serial pass: sets the begin of each piece and the starts of the list, and *at to the end of the last row.
-static bool index_rows(struct reader *reader, bool *all_triangles, const uint8_t **at, lam_error *error)
+static bool index_rows(struct ply_reader *reader, const uint8_t **at, lam_error *error)
 {
     const struct ply_element *element = reader->element;
     const uint8_t *word = reader->first, *end = reader->end;
-    uint64_t total = 0;
-    *all_triangles = true;
     for (size_t row = 0; row < element->count && element->property_count > 0; row++) {
         reader->indexed = row;
-        if (row % PARALLEL_ROWS == 0) {
-            if (reader->pieces)
-                reader->pieces[row / PARALLEL_ROWS] = word;
-            if (!call_should_continue(reader->source->call))
-                return call_error(reader->source->call, error);
-        }
-        if (reader->starts)
-            reader->starts[row] = (uint32_t)total;
+        if (!ply_index_row(reader, row, word, error))
+            return false;
         for (int i = 0; i < element->property_count; i++) {
             word = text_skip_white(word, end);
             if (word == end)
@@ -157,27 +136,23 @@ static bool index_rows(struct reader *reader, bool *all_triangles, const uint8_t
                         return ply_fail_truncated(reader->source, element, row, error);
                     next = text_skip_word(next, end);
                 }
-                if (i == reader->request->list) {
-                    total += (uint64_t)items;
-                    *all_triangles &= items == 3;
-                }
+                if (i == reader->request->list)
+                    ply_count_items(reader, items);
             }
             word = next;
         }
         const uint8_t *rest = rest_of_line(word, end);
         if (rest)
             return fail_rest(reader, row, rest, error);
-        if (total >= UINT32_MAX)
+        if (reader->total >= UINT32_MAX)
             return ply_fail_too_many(reader->source, element, error);
     }
-    if (reader->starts)
-        reader->starts[element->count] = (uint32_t)total;
     *at = word;
     return true;
 }
 
 // Reads a row and returns its end; NULL: an error. `scalars` and `items` NULL: the numbers are only checked.
-static const uint8_t *read_row(const struct reader *reader, size_t row, const uint8_t *at, uint8_t *scalars,
+static const uint8_t *read_row(const struct ply_reader *reader, size_t row, const uint8_t *at, uint8_t *scalars,
                                uint32_t *items, lam_error *error)
 {
     const struct ply_element *element = reader->element;
@@ -205,7 +180,7 @@ static const uint8_t *read_row(const struct reader *reader, size_t row, const ui
 
 static bool read_piece(void *user, size_t index, lam_error *error)
 {
-    const struct reader *reader = user;
+    const struct ply_reader *reader = user;
     size_t first, last;
     if (reader->element->property_count == 0)
         return true; // rows without a word have no beginning
@@ -218,7 +193,7 @@ static bool read_piece(void *user, size_t index, lam_error *error)
 }
 
 // After an error of index_rows: an error in the numbers of the rows before is the file's first one.
-static void check_rows_before(const struct reader *reader, lam_error *error)
+static void check_rows_before(const struct ply_reader *reader, lam_error *error)
 {
     const uint8_t *at = reader->first;
     if (error && error->code == LAM_CANNOT_READ)
@@ -226,46 +201,17 @@ static void check_rows_before(const struct reader *reader, lam_error *error)
             at = read_row(reader, row, at, NULL, NULL, error);
 }
 
-static bool read_rows(struct reader *reader, struct arena *keep, struct arena *scratch, const uint8_t **at,
+static bool read_rows(struct ply_reader *reader, struct arena *keep, struct arena *scratch, const uint8_t **at,
                       lam_error *error)
 {
-    struct ply_table *table = reader->table;
-    const struct ply_request *request = reader->request;
-    struct call_control *call = reader->source->call;
-    size_t pieces = parallel_rows_count(table->count);
-    if (!ply_plan_rows(reader->source, request, scratch, table, error))
+    if (!ply_plan_rows(reader->source, reader->request, scratch, reader->table, error) ||
+        !ply_start_rows(reader, scratch, error))
         return false;
-    reader->pieces = arena_array(scratch, pieces, sizeof *reader->pieces);
-    if (!reader->pieces)
-        return call_memory_error(call, pieces * sizeof *reader->pieces, error);
-    if (request->list >= 0) {
-        reader->starts = arena_array(scratch, table->count + 1, sizeof *reader->starts);
-        if (!reader->starts)
-            return call_memory_error(call, table->count * sizeof *reader->starts, error);
-    }
-    bool all_triangles;
-    if (!index_rows(reader, &all_triangles, at, error)) {
+    if (!index_rows(reader, at, error)) {
         check_rows_before(reader, error);
         return false;
     }
-    all_triangles = all_triangles && !request->restarts;
-    if (request->list >= 0) {
-        size_t total = reader->starts[table->count];
-        reader->items = arena_array(all_triangles ? keep : scratch, total, sizeof *reader->items);
-        if (!reader->items)
-            return call_memory_error(call, total * sizeof *reader->items, error);
-    }
-    if (request->scalars) {
-        reader->rows = arena_array(scratch, table->count, table->stride);
-        if (!reader->rows)
-            return call_memory_error(call, table->count * table->stride, error);
-    }
-    if (!parallel_rows_run(reader->source, pieces, read_piece, reader, error))
-        return false;
-    table->rows = reader->rows;
-    table->items = reader->items;
-    table->starts = all_triangles ? NULL : reader->starts;
-    return true;
+    return ply_read_rows(reader, read_piece, keep, scratch, error);
 }
 
 bool ply_read_ascii(const struct import_source *source, const struct ply_element *element,
@@ -279,7 +225,7 @@ bool ply_read_ascii(const struct import_source *source, const struct ply_element
         return ply_fail_truncated(source, element, left / row_bytes, error);
 
     static const struct ply_request nothing = {.list = -1};
-    struct reader reader = {.source = source, .element = element, .request = table ? request : &nothing};
+    struct ply_reader reader = {.source = source, .element = element, .request = table ? request : &nothing};
     reader.table = table;
     reader.first = source->bytes + *at;
     reader.end = source->bytes + source->size;
@@ -288,10 +234,8 @@ bool ply_read_ascii(const struct import_source *source, const struct ply_element
         *table = (struct ply_table){.element = element, .count = (size_t)element->count};
         if (!read_rows(&reader, keep, scratch, &end, error))
             return false;
-    } else {
-        bool all_triangles;
-        if (!index_rows(&reader, &all_triangles, &end, error))
-            return false;
+    } else if (!index_rows(&reader, &end, error)) {
+        return false;
     }
     *at = (size_t)(end - source->bytes);
     return true;

@@ -3,68 +3,12 @@
 // Rows without lists have a fixed stride and are used in place. Rows with lists are indexed by a serial pass; then
 // pieces of them are read in parallel. In nearly all files, faces are one list of three corners: where the number of
 // remaining bytes suggests this layout, the rows are read at its fixed stride and checked.
-#include "parallel_rows.h"
 #include "fail.h"
 #include "shown_name.h"
 #include "ply_load.h"
+#include "ply_rows.h"
 
-bool ply_fail_truncated(const struct import_source *source, const struct ply_element *element, uint64_t row,
-                        lam_error *error)
-{
-    char shown[SHOWN_NAME_SIZE];
-    return fail(error, LAM_CANNOT_READ,
-                "%s: the file is truncated: its header declares %llu rows of element \"%s\", found %llu in %zu bytes",
-                source->name, (unsigned long long)element->count, shown_name(element->name, shown),
-                (unsigned long long)row, source->size);
-}
-
-bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element, lam_error *error)
-{
-    char shown[SHOWN_NAME_SIZE];
-    return fail(error, LAM_LIMIT, "%s: element \"%s\" has too many rows or list items, expected at most %u",
-                source->name, shown_name(element->name, shown), UINT32_MAX - 1);
-}
-
-bool ply_plan_rows(const struct import_source *source, const struct ply_request *request, struct arena *scratch,
-                   struct ply_table *table, lam_error *error)
-{
-    const struct ply_element *element = table->element;
-    size_t count = (size_t)element->property_count;
-    uint32_t *offsets = arena_array(scratch, count, sizeof *offsets);
-    enum ply_type *types = arena_array(scratch, count, sizeof *types);
-    if (!offsets || !types)
-        return call_memory_error(source->call, count * (sizeof *offsets + sizeof *types), error);
-    table->stride = 0;
-    for (size_t i = 0; i < count; i++) {
-        const struct ply_property *property = &element->properties[i];
-        bool position = !property->list && property->name[0] >= 'x' && property->name[0] <= 'z' && !property->name[1];
-        types[i] = property->type;
-        if (position && request->positions != PLY_AS_DECLARED)
-            types[i] = request->positions == PLY_AS_FLOAT ? PLY_F32 : PLY_F64;
-        offsets[i] = (uint32_t)table->stride;
-        table->stride += property->list ? 0 : ply_type_size(types[i]);
-    }
-    table->offsets = offsets;
-    table->types = types;
-    table->positions = request->positions;
-    return true;
-}
-
-struct reader {
-    const struct import_source *source;
-    const struct ply_element *element;
-    const struct ply_request *request;
-    struct ply_table *table;
-    const uint8_t *first;     // row 0
-    const uint8_t **pieces;   // begin of each piece
-    uint32_t *items, *starts; // of the requested list
-    uint8_t *rows;            // scalars; NULL: not requested
-    // Rows with three items each
-    size_t list_offset, stride;
-    int mixed; // atomic; some row has another number of items
-};
-
-static bool fail_item(const struct reader *reader, size_t row, const uint8_t *at, lam_error *error)
+static bool fail_item(const struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error)
 {
     const struct ply_element *element = reader->element;
     const struct ply_property *list = &element->properties[reader->request->list];
@@ -76,7 +20,7 @@ static bool fail_item(const struct reader *reader, size_t row, const uint8_t *at
 }
 
 // Reads and checks the items of one row's list.
-static bool read_items(const struct reader *reader, size_t row, const uint8_t *at, uint32_t count, uint32_t *items,
+static bool read_items(const struct ply_reader *reader, size_t row, const uint8_t *at, uint32_t count, uint32_t *items,
                        lam_error *error)
 {
     enum ply_type type = reader->element->properties[reader->request->list].type;
@@ -97,7 +41,7 @@ static bool read_items(const struct reader *reader, size_t row, const uint8_t *a
 // Reads a piece of rows with three items each, at a fixed stride.
 static bool read_triangles(void *user, size_t index, lam_error *error)
 {
-    struct reader *reader = user;
+    struct ply_reader *reader = user;
     const struct ply_property *list = &reader->element->properties[reader->request->list];
     size_t first, last, count_size = ply_type_size(list->count_type);
     parallel_rows_range(reader->table->count, index, &first, &last);
@@ -136,7 +80,7 @@ static bool read_triangles(void *user, size_t index, lam_error *error)
 }
 
 // Whether the remaining bytes are exactly those of rows with three items each and the elements after them.
-static bool may_be_triangles(const struct reader *reader, const struct ply_header *header)
+static bool may_be_triangles(const struct ply_reader *reader, const struct ply_header *header)
 {
     const struct ply_element *element = reader->element, *end = header->elements + header->element_count;
     if (reader->request->list < 0 || reader->request->restarts || element->list_count != 1)
@@ -155,7 +99,7 @@ static bool may_be_triangles(const struct reader *reader, const struct ply_heade
 }
 
 // Reads the rows as triangles. *done: all rows have three items.
-static bool try_triangles(struct reader *reader, struct arena *keep, struct arena *scratch, bool *done,
+static bool try_triangles(struct ply_reader *reader, struct arena *keep, struct arena *scratch, bool *done,
                           lam_error *error)
 {
     const struct ply_element *element = reader->element;
@@ -190,21 +134,13 @@ static bool try_triangles(struct reader *reader, struct arena *keep, struct aren
 }
 
 // The serial pass: sets the begin of each piece and the starts of the list, and *end to the end of the last row.
-static bool index_rows(struct reader *reader, bool *all_triangles, const uint8_t **end, lam_error *error)
+static bool index_rows(struct ply_reader *reader, const uint8_t **end, lam_error *error)
 {
     const struct ply_element *element = reader->element;
     const uint8_t *at = reader->first, *file_end = reader->source->bytes + reader->source->size;
-    uint64_t total = 0;
-    *all_triangles = true;
     for (size_t row = 0; row < element->count; row++) {
-        if (row % PARALLEL_ROWS == 0) {
-            if (reader->pieces)
-                reader->pieces[row / PARALLEL_ROWS] = at;
-            if (!call_should_continue(reader->source->call))
-                return call_error(reader->source->call, error);
-        }
-        if (reader->starts)
-            reader->starts[row] = (uint32_t)total;
+        if (!ply_index_row(reader, row, at, error))
+            return false;
         for (int i = 0; i < element->property_count; i++) {
             const struct ply_property *property = &element->properties[i];
             size_t size = ply_type_size(property->list ? property->count_type : property->type);
@@ -222,25 +158,21 @@ static bool index_rows(struct reader *reader, bool *all_triangles, const uint8_t
                 size = (size_t)items * ply_type_size(property->type); // at most 2³² · 8
                 if ((size_t)(file_end - at) < size)
                     return ply_fail_truncated(reader->source, element, row, error);
-                if (i == reader->request->list) {
-                    total += (uint64_t)items;
-                    *all_triangles &= items == 3;
-                }
+                if (i == reader->request->list)
+                    ply_count_items(reader, items);
             }
             at += size;
         }
-        if (total >= UINT32_MAX)
+        if (reader->total >= UINT32_MAX)
             return ply_fail_too_many(reader->source, element, error);
     }
-    if (reader->starts)
-        reader->starts[element->count] = (uint32_t)total;
     *end = at;
     return true;
 }
 
 static bool read_piece(void *user, size_t index, lam_error *error)
 {
-    const struct reader *reader = user;
+    const struct ply_reader *reader = user;
     const struct ply_element *element = reader->element;
     size_t first, last;
     parallel_rows_range(reader->table->count, index, &first, &last);
@@ -265,43 +197,6 @@ static bool read_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-static bool read_lists(struct reader *reader, struct arena *keep, struct arena *scratch, const uint8_t **end,
-                       lam_error *error)
-{
-    struct ply_table *table = reader->table;
-    const struct ply_request *request = reader->request;
-    size_t pieces = parallel_rows_count(table->count);
-    reader->pieces = arena_array(scratch, pieces, sizeof *reader->pieces);
-    if (!reader->pieces)
-        return call_memory_error(reader->source->call, pieces * sizeof *reader->pieces, error);
-    if (request->list >= 0) {
-        reader->starts = arena_array(scratch, table->count + 1, sizeof *reader->starts);
-        if (!reader->starts)
-            return call_memory_error(reader->source->call, table->count * sizeof *reader->starts, error);
-    }
-    bool all_triangles;
-    if (!index_rows(reader, &all_triangles, end, error))
-        return false;
-    all_triangles = all_triangles && !request->restarts;
-    if (request->list >= 0) {
-        size_t total = reader->starts[table->count];
-        reader->items = arena_array(all_triangles ? keep : scratch, total, sizeof *reader->items);
-        if (!reader->items)
-            return call_memory_error(reader->source->call, total * sizeof *reader->items, error);
-    }
-    if (request->scalars) {
-        reader->rows = arena_array(scratch, table->count, table->stride);
-        if (!reader->rows)
-            return call_memory_error(reader->source->call, table->count * table->stride, error);
-    }
-    if (!parallel_rows_run(reader->source, pieces, read_piece, reader, error))
-        return false;
-    table->rows = reader->rows;
-    table->items = reader->items;
-    table->starts = all_triangles ? NULL : reader->starts;
-    return true;
-}
-
 bool ply_read_binary(const struct import_source *source, const struct ply_header *header,
                      const struct ply_element *element, const struct ply_request *request, struct arena *keep,
                      struct arena *scratch, size_t *at, struct ply_table *table, lam_error *error)
@@ -318,7 +213,7 @@ bool ply_read_binary(const struct import_source *source, const struct ply_header
     *table = (struct ply_table){.element = element, .count = (size_t)element->count};
     bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
     table->swapped = (header->format == PLY_BIG) != big;
-    struct reader reader = {.source = source, .element = element, .request = skip ? &nothing : request};
+    struct ply_reader reader = {.source = source, .element = element, .request = skip ? &nothing : request};
     reader.table = table;
     reader.first = source->bytes + *at;
 
@@ -330,15 +225,15 @@ bool ply_read_binary(const struct import_source *source, const struct ply_header
     const uint8_t *end = source->bytes + source->size;
     bool done = false;
     if (skip) {
-        bool all_triangles;
-        if (!index_rows(&reader, &all_triangles, &end, error))
+        if (!index_rows(&reader, &end, error))
             return false;
     } else {
         if (!ply_plan_rows(source, request, scratch, table, error))
             return false;
         if (may_be_triangles(&reader, header) && !try_triangles(&reader, keep, scratch, &done, error))
             return false;
-        if (!done && !read_lists(&reader, keep, scratch, &end, error))
+        if (!done && !(ply_start_rows(&reader, scratch, error) && index_rows(&reader, &end, error) &&
+                       ply_read_rows(&reader, read_piece, keep, scratch, error)))
             return false;
         if (done)
             end = reader.first + table->count * reader.stride;

@@ -6,30 +6,14 @@
 #include "explain_words.h"
 #include "json.h"
 
-static void triple(struct json *json, const char *key, double x, double y, double z)
-{
-    json_open(json, key, '[');
-    json_number(json, NULL, x);
-    json_number(json, NULL, y);
-    json_number(json, NULL, z);
-    json_close(json, ']');
-}
-
-static void vector(struct json *json, const char *key, lam_vec3 v) { triple(json, key, v.x, v.y, v.z); }
-
 static void color(struct json *json, const char *key, lam_rgb c)
 {
-    triple(json, key, (double)c.r, (double)c.g, (double)c.b);
+    json_numbers(json, key, (double[]){(double)c.r, (double)c.g, (double)c.b}, 3);
 }
 
 static void color4(struct json *json, const char *key, lam_rgba c)
 {
-    json_open(json, key, '[');
-    json_number(json, NULL, (double)c.r);
-    json_number(json, NULL, (double)c.g);
-    json_number(json, NULL, (double)c.b);
-    json_number(json, NULL, (double)c.a);
-    json_close(json, ']');
+    json_numbers(json, key, (double[]){(double)c.r, (double)c.g, (double)c.b, (double)c.a}, 4);
 }
 
 static void real(struct json *json, const char *key, float x) { json_number(json, key, (double)x); }
@@ -67,11 +51,11 @@ static void write_light(struct json *json, const lam_explained_light *l)
     json_text(json, "type", lam_light_type_describe(l->type)->word);
     json_text(json, "frame", light_frame_word(l->frame));
     matrix(json, "matrix", l->ambient, l->diffuse, l->specular);
-    vector(json, "position", l->position);
-    vector(json, "axis", l->axis);
-    vector(json, "l", l->l);
-    vector(json, "r", l->r);
-    vector(json, "h", l->h);
+    json_vector(json, "position", l->position);
+    json_vector(json, "axis", l->axis);
+    json_vector(json, "l", l->l);
+    json_vector(json, "r", l->r);
+    json_vector(json, "h", l->h);
     degrees(json, "theta_deg", l->theta_rad);
     degrees(json, "phi_deg", l->phi_rad);
     degrees(json, "psi_deg", l->psi_rad);
@@ -79,8 +63,9 @@ static void write_light(struct json *json, const lam_explained_light *l)
         json_none(json, "distance");
     else
         real(json, "distance", l->distance);
-    triple(json, "attenuation_terms", (double)l->attenuation_terms.constant, (double)l->attenuation_terms.linear,
-           (double)l->attenuation_terms.quadratic);
+    const lam_attenuation *a = &l->attenuation_terms;
+    json_numbers(json, "attenuation_terms", (double[]){(double)a->constant, (double)a->linear, (double)a->quadratic},
+                 3);
     if (l->range > 0)
         real(json, "range", l->range);
     else
@@ -123,15 +108,15 @@ static void write_point(struct json *json, const lam_explained_point *p)
 {
     json_open(json, NULL, '{');
     index_of(json, "corner", p->corner);
-    vector(json, "mesh_position", p->mesh_position);
-    vector(json, "world_position", p->world_position);
-    vector(json, "position", p->position);
-    vector(json, "n", p->n);
-    vector(json, "v", p->v);
+    json_vector(json, "mesh_position", p->mesh_position);
+    json_vector(json, "world_position", p->world_position);
+    json_vector(json, "position", p->position);
+    json_vector(json, "n", p->n);
+    json_vector(json, "v", p->v);
     if (is_zero(p->t))
         json_none(json, "t");
     else
-        vector(json, "t", p->t);
+        json_vector(json, "t", p->t);
     color(json, "color", p->color);
     color(json, "ambient_light", p->ambient_light);
     real(json, "unoccluded", p->unoccluded);
@@ -146,7 +131,7 @@ static void write_point(struct json *json, const lam_explained_point *p)
         json_open(json, NULL, '{');
         index_of(json, "light", h->light);
         json_text(json, "name", h->name);
-        vector(json, "up", h->up);
+        json_vector(json, "up", h->up);
         color(json, "sky", h->sky);
         color(json, "ground", h->ground);
         real(json, "n_dot_up", h->n_dot_up);
@@ -158,8 +143,8 @@ static void write_point(struct json *json, const lam_explained_point *p)
         json_none(json, "environment");
     } else {
         json_open(json, "environment", '{');
-        vector(json, "R", p->reflected);
-        vector(json, "direction", p->environment_direction);
+        json_vector(json, "R", p->reflected);
+        json_vector(json, "direction", p->environment_direction);
         color(json, "light", p->environment_light);
         if (p->environment_scale + p->environment_bias > 0) {
             real(json, "level", p->environment_level);
@@ -196,7 +181,7 @@ static void write_field(struct json *json, const lam_field *field, const lam_mat
     else if (count == 1)
         json_number(json, field->key, numbers[0]);
     else if (!in_matrix)
-        triple(json, field->key, numbers[0], numbers[1], numbers[2]);
+        json_numbers(json, field->key, numbers, 3);
 }
 
 static void write_maps(struct json *json, const lam_explained_fragment *f)
@@ -209,14 +194,8 @@ static void write_maps(struct json *json, const lam_explained_fragment *f)
         json_text(json, "texture", m->texture);
         json_count(json, "width", (uint64_t)m->width);
         json_count(json, "height", (uint64_t)m->height);
-        json_open(json, "coordinates", '[');
-        real(json, NULL, m->s);
-        real(json, NULL, m->t);
-        json_close(json, ']');
-        json_open(json, "place", '[');
-        real(json, NULL, m->column);
-        real(json, NULL, m->row);
-        json_close(json, ']');
+        json_numbers(json, "coordinates", (double[]){(double)m->s, (double)m->t}, 2);
+        json_numbers(json, "place", (double[]){(double)m->column, (double)m->row}, 2);
         real(json, "level", m->level);
         color4(json, "texel", m->texel);
         json_close(json, '}');
@@ -233,21 +212,13 @@ static void write_maps(struct json *json, const lam_explained_fragment *f)
     real(json, "roughness", v->roughness);
     real(json, "shininess", v->shininess);
     real(json, "occlusion", v->occlusion);
-    vector(json, "mesh_normal", v->mesh_normal);
+    json_vector(json, "mesh_normal", v->mesh_normal);
     if (is_zero(v->tangent))
         json_none(json, "tangent");
     else
-        vector(json, "tangent", v->tangent);
+        json_vector(json, "tangent", v->tangent);
     real(json, "bitangent_sign", v->bitangent_sign);
     json_close(json, '}');
-}
-
-static void doubles(struct json *json, const char *key, const double *values, int count)
-{
-    json_open(json, key, '[');
-    for (int i = 0; i < count; i++)
-        json_number(json, NULL, values[i]);
-    json_close(json, ']');
 }
 
 // The corners and the point in each space, or null.
@@ -263,11 +234,11 @@ static void write_places(struct json *json, const lam_explained_fragment *f)
         const lam_explained_place *p = &f->places[i];
         json_open(json, NULL, '{');
         json_text(json, "of", names[i]);
-        vector(json, "object", p->mesh_position);
-        vector(json, "eye", p->eye_position);
-        doubles(json, "clip", p->clip, 4);
-        doubles(json, "ndc", p->ndc, 3);
-        doubles(json, "window", p->window, 3);
+        json_vector(json, "object", p->mesh_position);
+        json_vector(json, "eye", p->eye_position);
+        json_numbers(json, "clip", p->clip, 4);
+        json_numbers(json, "ndc", p->ndc, 3);
+        json_numbers(json, "window", p->window, 3);
         json_close(json, '}');
     }
     json_close(json, ']');
@@ -312,11 +283,8 @@ static void write_fragment(struct json *json, const lam_explained_fragment *f)
         }
     json_close(json, ']');
     index_of(json, "lit_sample", f->lit_sample);
-    json_open(json, "picture_position", '[');
-    json_number(json, NULL, f->picture_x);
-    json_number(json, NULL, f->picture_y);
-    json_close(json, ']');
-    triple(json, "weights", (double)f->weights[0], (double)f->weights[1], (double)f->weights[2]);
+    json_numbers(json, "picture_position", (double[]){f->picture_x, f->picture_y}, 2);
+    json_numbers(json, "weights", (double[]){(double)f->weights[0], (double)f->weights[1], (double)f->weights[2]}, 3);
     write_places(json, f);
     json_open(json, "material", '{');
     index_of(json, "material", f->material);

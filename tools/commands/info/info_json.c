@@ -4,15 +4,6 @@
 #include "exit_codes.h"
 #include "json.h"
 
-static void json_vector(struct json *json, const char *key, lam_vec3 v)
-{
-    json_open(json, key, '[');
-    json_number(json, NULL, v.x);
-    json_number(json, NULL, v.y);
-    json_number(json, NULL, v.z);
-    json_close(json, ']');
-}
-
 // The shortest number that reads back as the same float.
 static void json_float(struct json *json, const char *key, float value)
 {

@@ -1,0 +1,102 @@
+// ply_rows.c: what the readers of ASCII and binary rows share.
+#include "ply_rows.h"
+
+#include "fail.h"
+#include "ply_load.h"
+#include "shown_name.h"
+
+bool ply_fail_truncated(const struct import_source *source, const struct ply_element *element, uint64_t row,
+                        lam_error *error)
+{
+    char shown[SHOWN_NAME_SIZE];
+    return fail(error, LAM_CANNOT_READ,
+                "%s: the file is truncated: its header declares %llu rows of element \"%s\", found %llu in %zu bytes",
+                source->name, (unsigned long long)element->count, shown_name(element->name, shown),
+                (unsigned long long)row, source->size);
+}
+
+bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element, lam_error *error)
+{
+    char shown[SHOWN_NAME_SIZE];
+    return fail(error, LAM_LIMIT, "%s: element \"%s\" has too many rows or list items, expected at most %u",
+                source->name, shown_name(element->name, shown), UINT32_MAX - 1);
+}
+
+bool ply_plan_rows(const struct import_source *source, const struct ply_request *request, struct arena *scratch,
+                   struct ply_table *table, lam_error *error)
+{
+    const struct ply_element *element = table->element;
+    size_t count = (size_t)element->property_count;
+    uint32_t *offsets = arena_array(scratch, count, sizeof *offsets);
+    enum ply_type *types = arena_array(scratch, count, sizeof *types);
+    if (!offsets || !types)
+        return call_memory_error(source->call, count * (sizeof *offsets + sizeof *types), error);
+    table->stride = 0;
+    for (size_t i = 0; i < count; i++) {
+        const struct ply_property *property = &element->properties[i];
+        bool position = !property->list && property->name[0] >= 'x' && property->name[0] <= 'z' && !property->name[1];
+        types[i] = property->type;
+        if (position && request->positions != PLY_AS_DECLARED)
+            types[i] = request->positions == PLY_AS_FLOAT ? PLY_F32 : PLY_F64;
+        offsets[i] = (uint32_t)table->stride;
+        table->stride += property->list ? 0 : ply_type_size(types[i]);
+    }
+    table->offsets = offsets;
+    table->types = types;
+    table->positions = request->positions;
+    return true;
+}
+
+bool ply_start_rows(struct ply_reader *reader, struct arena *scratch, lam_error *error)
+{
+    struct call_control *call = reader->source->call;
+    size_t count = reader->table->count, pieces = parallel_rows_count(count);
+    reader->pieces = arena_array(scratch, pieces, sizeof *reader->pieces);
+    if (!reader->pieces)
+        return call_memory_error(call, pieces * sizeof *reader->pieces, error);
+    if (reader->request->list >= 0) {
+        reader->starts = arena_array(scratch, count + 1, sizeof *reader->starts);
+        if (!reader->starts)
+            return call_memory_error(call, count * sizeof *reader->starts, error);
+    }
+    return true;
+}
+
+bool ply_index_row(struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error)
+{
+    if (row % PARALLEL_ROWS == 0) {
+        if (reader->pieces)
+            reader->pieces[row / PARALLEL_ROWS] = at;
+        if (!call_should_continue(reader->source->call))
+            return call_error(reader->source->call, error);
+    }
+    if (reader->starts)
+        reader->starts[row] = (uint32_t)reader->total;
+    return true;
+}
+
+bool ply_read_rows(struct ply_reader *reader, parallel_rows_task *read_piece, struct arena *keep, struct arena *scratch,
+                   lam_error *error)
+{
+    struct ply_table *table = reader->table;
+    struct call_control *call = reader->source->call;
+    bool all_triangles = !reader->has_other_counts && !reader->request->restarts;
+    if (reader->request->list >= 0) {
+        size_t total = (size_t)reader->total;
+        reader->starts[table->count] = (uint32_t)total;
+        reader->items = arena_array(all_triangles ? keep : scratch, total, sizeof *reader->items);
+        if (!reader->items)
+            return call_memory_error(call, total * sizeof *reader->items, error);
+    }
+    if (reader->request->scalars) {
+        reader->rows = arena_array(scratch, table->count, table->stride);
+        if (!reader->rows)
+            return call_memory_error(call, table->count * table->stride, error);
+    }
+    if (!parallel_rows_run(reader->source, parallel_rows_count(table->count), read_piece, reader, error))
+        return false;
+    table->rows = reader->rows;
+    table->items = reader->items;
+    table->starts = all_triangles ? NULL : reader->starts;
+    return true;
+}

@@ -364,24 +364,41 @@ static uint64_t gl_memory(const struct lam_device *base)
     return bytes;
 }
 
+static void APIENTRY keep_names(GLsizei count, const GLuint *names) { (void)count, (void)names; }
+static void APIENTRY keep_program(GLuint name) { (void)name; }
+
+// OpenGL deletes nothing from now on, for a context that cannot be made current: its objects go with it.
+static void keep_objects(struct gl *gl)
+{
+    gl->DeleteBuffers = keep_names;
+    gl->DeleteFramebuffers = keep_names;
+    gl->DeleteQueries = keep_names;
+    gl->DeleteSamplers = keep_names;
+    gl->DeleteTextures = keep_names;
+    gl->DeleteVertexArrays = keep_names;
+    gl->DeleteProgram = keep_program;
+}
+
 static void gl_free(struct lam_device *base)
 {
     struct gl_device *device = (struct gl_device *)base;
     struct gl_previous_context previous;
-    if (gl_context_enter(&device->context, &previous, NULL)) {
-        meshes_free(device);
-        textures_free(device);
-        vertex_lighting_free(device);
-        programs_free(device);
-        light_buffers_free(device);
-        shadows_free(device);
-        targets_free(device);
-        if (device->occlusion_texture)
-            device->context.gl.DeleteTextures(1, &device->occlusion_texture);
-        if (device->query)
-            device->context.gl.DeleteQueries(1, &device->query);
+    bool entered = gl_context_enter(&device->context, &previous, NULL);
+    if (!entered)
+        keep_objects(&device->context.gl);
+    meshes_free(device);
+    textures_free(device);
+    vertex_lighting_free(device);
+    programs_free(device);
+    light_buffers_free(device);
+    shadows_free(device);
+    targets_free(device);
+    if (device->occlusion_texture)
+        device->context.gl.DeleteTextures(1, &device->occlusion_texture);
+    if (device->query)
+        device->context.gl.DeleteQueries(1, &device->query);
+    if (entered)
         gl_context_leave(&device->context, &previous);
-    }
     gl_context_free(&device->context);
     buffer_free(&device->scratch);
     surfaces_free(device);

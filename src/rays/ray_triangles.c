@@ -84,9 +84,16 @@ static void choose_space(struct hierarchy *h, const struct bounds *bounds)
 bool ray_triangles_prepare(struct builder *builder, lam_error *error)
 {
     size_t pieces = ((size_t)builder->frame->triangle_count + RAY_PIECE - 1) / RAY_PIECE;
-    struct preparation preparation = {builder, calloc(pieces + 1, sizeof *preparation.bounds)};
-    if (!preparation.bounds)
-        return fail_memory(error, (pieces + 1) * sizeof *preparation.bounds);
+    struct call_control *call = builder->loop.call;
+    size_t bytes = (pieces + 1) * sizeof(struct bounds);
+    if (call && !call_charge(call, bytes))
+        return call_memory_error(call, bytes, error);
+    struct preparation preparation = {builder, calloc(1, bytes)};
+    if (!preparation.bounds) {
+        if (call)
+            call_refund(call, bytes);
+        return fail_memory(error, bytes);
+    }
     pool_run(builder->pool, pieces, place_task, &preparation);
     struct bounds all = {{1e308, 1e308, 1e308}, {-1e308, -1e308, -1e308}};
     for (size_t i = 0; i < pieces; i++)
@@ -98,5 +105,7 @@ bool ray_triangles_prepare(struct builder *builder, lam_error *error)
     choose_space(builder->hierarchy, &all);
     pool_run(builder->pool, pieces, box_task, &preparation);
     free(preparation.bounds);
+    if (call)
+        call_refund(call, bytes);
     return should_continue(&builder->loop) || loop_error(&builder->loop, 0, error);
 }

@@ -1,8 +1,10 @@
 // test_state.c: the OpenGL calls of the device. A frame of an unchanged scene creates no objects, uploads nothing, and sets
 // no state or uniform to its current value; after a change only the changed data are uploaded. The context reports errors
 // and performance warnings, and either fails the frame.
+#include "floor_scene.h"
 #include "gl_device.h"
 #include "scenes.h"
+#include "texture_levels.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -329,8 +331,33 @@ static void test_changed(void **state)
     lam_device_free(device);
 }
 
+static EGLBoolean EGLAPIENTRY refuse_current(EGLDisplay display, EGLSurface draw, EGLSurface read, EGLContext context)
+{
+    (void)display, (void)draw, (void)read, (void)context;
+    return EGL_FALSE;
+}
+
+// A device whose context cannot be made current any more frees what it holds: the texture is the test's alone again.
+static void test_lost_context(void **state)
+{
+    (void)state;
+    lam_device *device = start(LAM_GL_CORE);
+    lam_texture *texture = random_texture(8, 8, 1);
+    lam_texture_map map = {.texture = texture};
+    lam_scene *scene = floor_scene(&map);
+    lam_image image = floor_draw(device, scene, 16, 1, &(lam_draw_params){0});
+    lam_image_free(&image);
+    lam_scene_free(scene);
+    assert_true(texture->references > 1);
+    ((struct gl_device *)device)->context.egl.MakeCurrent = refuse_current;
+    lam_device_free(device);
+    assert_int_equal(texture->references, 1);
+    lam_texture_free(texture);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_unchanged), cmocka_unit_test(test_changed)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_unchanged), cmocka_unit_test(test_changed),
+                                       cmocka_unit_test(test_lost_context)};
     return cmocka_run_group_tests_name("gl-state", tests, NULL, NULL);
 }

@@ -94,6 +94,16 @@ class Class(CheckTest):
         self.assertIn("no-gate</b>", dict(rows)["bob"])
         self.assertIn("no shader in this folder", dict(rows)["eve"])
 
+    def test_deep_folders(self):
+        """A folder below sixteen others is not searched, and said so."""
+        deepest = "/".join(["ann"] + ["in"] * 15)
+        self.write(deepest + "/phong", "pittsburgh")
+        self.write(deepest + "/in/phong", "pittsburgh")
+        self.grade("--scenes", "gate", code=2)
+        rows = self.grades()
+        self.assertEqual({name: row["verdict"] for name, row in rows.items()}, {deepest: "passes", deepest + "/in": "no verdict"})
+        self.assertIn("too deep", rows[deepest + "/in"]["says"])
+
     def test_outputs_that_cannot_be_written(self):
         """The verdicts are there, whatever becomes of the pictures."""
         self.write("ann", "pittsburgh")

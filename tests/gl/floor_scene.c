@@ -1,6 +1,8 @@
 // floor_scene.c: a textured floor, and its picture.
 #include "floor_scene.h"
 
+#include "quad.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -34,7 +36,6 @@ lam_scene *floor_scene(const lam_texture_map *map)
                        normals[] = {0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0};
     static const float first[] = {-1.3f, -1.1f, 2.2f, -1.1f, 2.2f, 9, -1.3f, 9};
     static const float second[] = {-1.1f, 1.3f, -1.1f, -2.2f, 9, -2.2f, 9, 1.3f};
-    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
     lam_error error = {0};
     lam_scene *scene = lam_scene_make(&error);
     lam_material material = lam_material_default();
@@ -42,18 +43,7 @@ lam_scene *floor_scene(const lam_texture_map *map)
     material.diffuse = (lam_rgba){1, 1, 1, 1};
     material.maps[LAM_MAP_DIFFUSE] = map;
     const lam_part part = {.triangle_count = 2, .material = lam_scene_add_material(scene, &material, &error)};
-    const lam_mesh mesh = {.positions = positions,
-                           .vertex_count = 4,
-                           .indices = indices,
-                           .triangle_count = 2,
-                           .normals = normals,
-                           .normal_count = 4,
-                           .texcoords = first,
-                           .texcoord_count = 4,
-                           .second_texcoords = second,
-                           .second_texcoord_count = 4,
-                           .parts = &part,
-                           .part_count = 1};
+    const lam_mesh mesh = quad_mesh(positions, normals, first, second, &part);
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_mesh(scene, &mesh, &error);
     assert_true(part.material >= 0 && object.mesh >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);

@@ -1,6 +1,7 @@
 // test_device.c: the OpenGL device against the CPU device beyond the demonstration scenes: the three stages, all outputs,
 // exponents up to 1000, more lights than a uniform block holds, pictures in parts, several samples, limits.
 #include "context.h"
+#include "device_or_skip.h"
 #include "scenes.h"
 #include "share.h"
 
@@ -15,18 +16,6 @@
 #include <cmocka.h>
 
 static lam_device *cpu;
-
-static lam_device *device_or_skip(lam_gl_api api)
-{
-    lam_error error = {0};
-    lam_gl_params params = {.api = api, .debug = true};
-    lam_device *device = lam_device_gl(&params, &error);
-    if (!device) {
-        print_message("%s\n", error.text);
-        skip();
-    }
-    return device;
-}
 
 static void build(const char *name, struct demo *demo)
 {

@@ -1,5 +1,6 @@
 // test_shadows.c: what the OpenGL device keeps of shadows from frame to frame: a picture is always that of a device which draws
 // it first.
+#include "device_or_skip.h"
 #include "scenes.h"
 
 #include <setjmp.h>
@@ -11,17 +12,6 @@
 #include <cmocka.h>
 
 static lam_error error;
-
-static lam_device *device_or_skip(void)
-{
-    lam_gl_params params = {.debug = true};
-    lam_device *device = lam_device_gl(&params, &error);
-    if (!device) {
-        print_message("%s\n", error.text);
-        skip();
-    }
-    return device;
-}
 
 static bool try_draw(lam_device *device, const struct demo *demo, uint64_t memory_limit, lam_image *image)
 {
@@ -96,10 +86,10 @@ static void a_failed_upload_leaves_no_shadow(void **state)
     (void)state;
     enum { DETAIL = 100, TRIANGLES = 2 * DETAIL * DETAIL };
     static const uint64_t limits[] = {350, 450}; // bytes for each triangle
-    lam_device *other = device_or_skip();
+    lam_device *other = device_or_skip(LAM_GL_CORE);
     int failed_later = 0;
     for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
-        lam_device *device = device_or_skip();
+        lam_device *device = device_or_skip(LAM_GL_CORE);
         struct demo demo = ball();
         lam_image without = draw(device, &demo), unused;
         add_object(demo.scene, "sphere", DETAIL, 0.4, 0.5, 1.1, 0.3);
@@ -152,7 +142,7 @@ static void check_change(struct devices *d, const struct demo *demo, const char 
 static void surfaces_are_sent_when_they_change(void **state)
 {
     (void)state;
-    struct devices d = {.kept = device_or_skip(), .other = device_or_skip()};
+    struct devices d = {.kept = device_or_skip(LAM_GL_CORE), .other = device_or_skip(LAM_GL_CORE)};
     struct demo demo;
     assert_true(demo_build_named("shadows-leaves", &demo, &error));
     demo.width = 40;

@@ -1,6 +1,7 @@
 // test_state.c: the OpenGL calls of the device. A frame of an unchanged scene creates no objects, uploads nothing, and sets
 // no state or uniform to its current value; after a change only the changed data are uploaded. The context reports errors
 // and performance warnings, and either fails the frame.
+#include "device_or_skip.h"
 #include "floor_scene.h"
 #include "gl_device.h"
 #include "scenes.h"
@@ -165,13 +166,7 @@ COUNT(DrawElements, drawn, (GLenum a, GLsizei b, GLenum c, const void *d), (a, b
 
 static lam_device *start(lam_gl_api api)
 {
-    lam_error error = {0};
-    lam_gl_params params = {.api = api, .debug = true};
-    lam_device *device = lam_device_gl(&params, &error);
-    if (!device) {
-        print_message("%s\n", error.text);
-        skip();
-    }
+    lam_device *device = device_or_skip(api);
     struct gl *gl = &((struct gl_device *)device)->context.gl;
     real = *gl;
     known_count = 0;

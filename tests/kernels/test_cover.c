@@ -15,6 +15,8 @@
 
 #include <cmocka.h>
 
+#include "exact_cover.h"
+
 enum { SIZE = 128 };
 
 struct soup {
@@ -91,40 +93,6 @@ static void draw(const lam_scene *scene, lam_isa isa, int samples, float out[SIZ
     lam_device_free(device);
 }
 
-// Twice the signed area of (a, b, p) in 1/256 pixel, y down.
-static int64_t edge(const int64_t a[2], const int64_t b[2], const int64_t p[2])
-{
-    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-}
-
-// Whether a triangle covers a point by the top-left rule, and the depth there.
-static bool covers(const double *c, const int64_t p[2], double *depth)
-{
-    int64_t v[3][2];
-    for (int k = 0; k < 3; k++)
-        for (int a = 0; a < 2; a++)
-            v[k][a] = (int64_t)floor(c[3 * k + a] * 256 + 0.5);
-    int64_t area = edge(v[0], v[1], v[2]);
-    if (area == 0)
-        return false;
-    double sum = 0;
-    *depth = 0;
-    for (int k = 0; k < 3; k++) {
-        const int64_t *a = v[(k + 1) % 3], *b = v[(k + 2) % 3];
-        int64_t e = edge(a, b, p);
-        if (area < 0)
-            e = -e;
-        int64_t dx = area > 0 ? b[0] - a[0] : a[0] - b[0], dy = area > 0 ? b[1] - a[1] : a[1] - b[1];
-        bool top_or_left = dy < 0 || (dy == 0 && dx > 0);
-        if (e < 0 || (e == 0 && !top_or_left))
-            return false;
-        *depth += (double)e * c[3 * k + 2];
-        sum += (double)e;
-    }
-    *depth /= sum;
-    return true;
-}
-
 // What a pixel should show: a triangle's number, 0 for none, and whether the second is too near to call in floats.
 struct reference {
     int number[SIZE * SIZE];
@@ -140,7 +108,7 @@ static void refer(const struct soup *soup, struct reference *reference)
             int number = 0;
             for (int i = 0; i < soup->count; i++) {
                 double depth;
-                if (!covers(soup->corners + 9 * i, p, &depth))
+                if (!exact_cover(soup->corners + 9 * i, p, &depth))
                     continue;
                 if (depth > nearest) {
                     second = nearest;

@@ -16,6 +16,8 @@
 
 #include <cmocka.h>
 
+#include "exact_cover.h"
+
 enum { SIZE = 96, SAMPLES_MAX = 16 };
 
 // Triangles, each of one colour. `opaque` ones are drawn as an object of their own whose colours have no alpha below 1.
@@ -142,41 +144,6 @@ static void draw(const lam_scene *scene, const struct way *way, void *out)
 
 // --- the reference
 
-static int64_t edge(const int64_t a[2], const int64_t b[2], const int64_t p[2])
-{
-    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-}
-
-// Whether a triangle covers a point (1/256 pixel) by the top-left rule, and the depth there.
-static bool covers(double corners[3][3], const int64_t p[2], double *depth)
-{
-    int64_t v[3][2];
-    for (int k = 0; k < 3; k++)
-        for (int a = 0; a < 2; a++)
-            v[k][a] = (int64_t)floor(corners[k][a] * 256 + 0.5);
-    for (int a = 0; a < 2; a++)
-        if ((p[a] < v[0][a] && p[a] < v[1][a] && p[a] < v[2][a]) ||
-            (p[a] > v[0][a] && p[a] > v[1][a] && p[a] > v[2][a]))
-            return false;
-    int64_t area = edge(v[0], v[1], v[2]);
-    if (area == 0)
-        return false;
-    double sum = 0;
-    *depth = 0;
-    for (int k = 0; k < 3; k++) {
-        const int64_t *a = v[(k + 1) % 3], *b = v[(k + 2) % 3];
-        int64_t e = area < 0 ? -edge(a, b, p) : edge(a, b, p);
-        int64_t dx = area > 0 ? b[0] - a[0] : a[0] - b[0], dy = area > 0 ? b[1] - a[1] : a[1] - b[1];
-        bool top_or_left = dy < 0 || (dy == 0 && dx > 0);
-        if (e < 0 || (e == 0 && !top_or_left))
-            return false;
-        *depth += (double)e * corners[k][2];
-        sum += (double)e;
-    }
-    *depth /= sum;
-    return true;
-}
-
 struct hit {
     double depth;
     int triangle;
@@ -232,7 +199,7 @@ static void refer(const struct soup *soup, int samples, lam_rgba background, str
             int64_t p[2] = {i % SIZE * 256 + 128 + 16 * at[0], i / SIZE * 256 + 128 + 16 * at[1]};
             int n = 0;
             for (int t = 0; t < soup->count; t++)
-                if (covers(soup->corners[t], p, &hits[n].depth))
+                if (exact_cover(&soup->corners[t][0][0], p, &hits[n].depth))
                     hits[n++].triangle = t;
             qsort(hits, (size_t)n, sizeof *hits, farther);
             double sum[4] = {0, 0, 0, 0};

@@ -97,3 +97,31 @@ lam_image draw_spheres(const lam_scene *scene, lam_draw_params params, int threa
     lam_device_free(device);
     return image;
 }
+
+void check_white_furnace(lam_draw_params params)
+{
+    lam_error error;
+    lam_image white = {0};
+    assert_true(lam_image_make(&white, 64, 32, LAM_RGBA32F, &error));
+    for (int i = 0; i < 64 * 32 * 4; i++)
+        ((float *)white.pixels)[i] = 1;
+    lam_environment *environment = lam_environment_from_image(&white, LAM_COLOR_SRGB, &error);
+    lam_scene *scene = make_spheres(environment, (lam_rgb){1, 1, 1});
+    lam_image picture = draw_spheres(scene, params, 0, LAM_ISA_AUTO);
+    int count = 0;
+    for (int y = (DOWN - 1) * CELL; y < picture.height; y++)
+        for (int x = 0; x < picture.width; x++) {
+            const float *pixel = (const float *)picture.pixels + 4 * ((size_t)y * (size_t)picture.width + (size_t)x);
+            if (pixel[3] == 0)
+                continue;
+            count++;
+            for (int c = 0; c < 3; c++)
+                if (fabsf(pixel[c] - 1) > 0.01f)
+                    fail_msg("pixel %d, %d: %g, expected 1", x, y, (double)pixel[c]);
+        }
+    assert_true(count > 5000);
+    lam_image_free(&picture);
+    lam_image_free(&white);
+    lam_scene_free(scene);
+    lam_environment_free(environment);
+}

@@ -23,4 +23,7 @@ lam_scene *make_spheres(const lam_environment *environment, lam_rgb color);
 // Their picture of linear floats, one sample a pixel, seen along −z without perspective.
 lam_image draw_spheres(const lam_scene *scene, lam_draw_params params, int threads, lam_isa isa);
 
+// In a uniform environment of 1, white metals return all of its light, whatever their roughness.
+void check_white_furnace(lam_draw_params params);
+
 #endif

@@ -11,19 +11,10 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "vec.h"
+
 enum { W = 96, H = 72, AROUND = 14, ALONG = 9, VERTICES = (AROUND + 1) * (ALONG + 1), TRIANGLES = 2 * AROUND * ALONG };
 
-typedef struct vec {
-    double x, y, z;
-} vec;
-
-static vec of(double x, double y, double z) { return (vec){x, y, z}; }
-static vec add(vec a, vec b) { return of(a.x + b.x, a.y + b.y, a.z + b.z); }
-static vec sub(vec a, vec b) { return of(a.x - b.x, a.y - b.y, a.z - b.z); }
-static vec times(vec a, double s) { return of(a.x * s, a.y * s, a.z * s); }
-static double dot(vec a, vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static vec cross(vec a, vec b) { return of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); }
-static vec unit(vec a) { return times(a, 1 / sqrt(dot(a, a))); }
 static vec each(vec a, vec b) { return of(a.x * b.x, a.y * b.y, a.z * b.z); }
 
 // --- the mesh: an open piece of a sphere, so that both sides show

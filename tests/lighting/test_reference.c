@@ -155,28 +155,7 @@ static void test_integral(void **state)
 static void test_white_furnace(void **state)
 {
     (void)state;
-    lam_error error;
-    lam_image white = {0};
-    assert_true(lam_image_make(&white, 64, 32, LAM_RGBA32F, &error));
-    for (int i = 0; i < 64 * 32 * 4; i++)
-        ((float *)white.pixels)[i] = 1;
-    lam_environment *environment = lam_environment_from_image(&white, LAM_COLOR_SRGB, &error);
-    lam_scene *scene = make_spheres(environment, (lam_rgb){1, 1, 1});
-    lam_image picture = draw_spheres(scene, (lam_draw_params){.reference = 1024}, 0, LAM_ISA_AUTO);
-    int count = 0;
-    for (int y = (DOWN - 1) * CELL; y < picture.height; y++)
-        for (int x = 0; x < picture.width; x++) {
-            const float *pixel = (const float *)picture.pixels + 4 * ((size_t)y * (size_t)picture.width + (size_t)x);
-            count += pixel[3] > 0;
-            for (int c = 0; c < 3 && pixel[3] > 0; c++)
-                if (fabsf(pixel[c] - 1) > 0.01f)
-                    fail_msg("pixel %d, %d: %g, expected 1", x, y, (double)pixel[c]);
-        }
-    assert_true(count > 5000);
-    lam_image_free(&picture);
-    lam_image_free(&white);
-    lam_scene_free(scene);
-    lam_environment_free(environment);
+    check_white_furnace((lam_draw_params){.reference = 1024});
 }
 
 // The same bytes with every instruction set and number of threads.

@@ -63,6 +63,19 @@ static inline lam_scene *load_text(const char *text, const char *name)
     return load_with(text, strlen(text), name, NULL);
 }
 
+// A scene of one object.
+static inline lam_scene *scene_of(const lam_mesh *mesh)
+{
+    lam_error error = {0};
+    lam_scene *scene = lam_scene_make(NULL);
+    lam_object object = lam_object_default();
+    object.mesh = lam_scene_add_mesh(scene, mesh, &error);
+    if (object.mesh < 0)
+        fail_msg("%s", error.text);
+    assert_true(lam_scene_add_object(scene, &object, NULL) >= 0);
+    return scene;
+}
+
 // The load must fail with this code and this whole sentence.
 static inline void refuse(const void *bytes, size_t size, const char *name, lam_code code, const char *sentence)
 {

@@ -16,17 +16,7 @@
 #include <cmocka.h>
 #include <spng.h>
 
-typedef struct {
-    double x, y, z;
-} vec;
-
-static vec of(double x, double y, double z) { return (vec){x, y, z}; }
-static vec add(vec a, vec b) { return of(a.x + b.x, a.y + b.y, a.z + b.z); }
-static vec sub(vec a, vec b) { return of(a.x - b.x, a.y - b.y, a.z - b.z); }
-static vec times(vec a, double s) { return of(a.x * s, a.y * s, a.z * s); }
-static double dot(vec a, vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static vec cross(vec a, vec b) { return of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); }
-static vec unit(vec a) { return times(a, 1 / sqrt(dot(a, a))); }
+#include "vec.h"
 
 // --- cubes of pictures, and their reference in double
 

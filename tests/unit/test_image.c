@@ -15,22 +15,13 @@
 
 #include <cmocka.h>
 
-static char folder[64];
+#include "temporary_folder.h"
 
 static int make_folder(void **state)
 {
     (void)state;
     strcpy(folder, "/tmp/lambent-test-image-XXXXXX");
     return mkdtemp(folder) ? 0 : -1;
-}
-
-static const char *in_folder(const char *name)
-{
-    static char paths[4][384];
-    static unsigned next;
-    char *path = paths[next++ % 4];
-    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
-    return path;
 }
 
 static int files_in_folder(void)
@@ -54,12 +45,6 @@ static int empty_folder(void **state)
             unlink(in_folder(entry->d_name));
     closedir(dir);
     return 0;
-}
-
-static int remove_folder(void **state)
-{
-    empty_folder(state);
-    return rmdir(folder);
 }
 
 static void write_file(const char *path, const void *data, size_t size)

@@ -10,6 +10,8 @@
 #include <unistd.h>
 #include <cmocka.h>
 
+#include "temporary_folder.h"
+
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
 static void expect_error(const char *bytes, size_t size, const char *name, lam_code code, const char *sentence)
@@ -154,29 +156,29 @@ static void write_text(const char *path, const char *text)
 static void test_files(void **unused)
 {
     (void)unused;
-    char folder[] = "/tmp/lambent-import-XXXXXX", path[64], inner[64];
-    assert_non_null(mkdtemp(folder));
+    char outer[] = "/tmp/lambent-import-XXXXXX", path[64], inner[64];
+    assert_non_null(mkdtemp(outer));
     lam_error error;
-    assert_null(lam_scene_load(folder, NULL, NULL, &error));
+    assert_null(lam_scene_load(outer, NULL, NULL, &error));
     assert_int_equal(error.code, LAM_CANNOT_READ);
-    assert_non_null(strstr(error.text, folder));
-    snprintf(path, sizeof path, "%s/none.obj", folder);
+    assert_non_null(strstr(error.text, outer));
+    snprintf(path, sizeof path, "%s/none.obj", outer);
     assert_null(lam_scene_load(path, NULL, NULL, &error));
     assert_int_equal(error.code, LAM_CANNOT_READ);
 
-    snprintf(inner, sizeof inner, "%s/inner", folder);
+    snprintf(inner, sizeof inner, "%s/inner", outer);
     assert_int_equal(mkdir(inner, 0700), 0);
     static const char *const libraries[] = {"a.mtl",      "./a.mtl",      "../outside.mtl",
                                             "/etc/a.mtl", "C:\\x\\a.mtl", "sub/../../outside.mtl"};
     static const bool found[] = {true, true, false, true, true, false};
-    snprintf(path, sizeof path, "%s/inner/a.mtl", folder);
+    snprintf(path, sizeof path, "%s/inner/a.mtl", outer);
     write_text(path, "newmtl inside\nKd 1 0 0\n");
-    snprintf(path, sizeof path, "%s/outside.mtl", folder);
+    snprintf(path, sizeof path, "%s/outside.mtl", outer);
     write_text(path, "newmtl outside\nKd 1 0 0\n");
     for (size_t i = 0; i < sizeof libraries / sizeof *libraries; i++) {
         char text[256];
         snprintf(text, sizeof text, "mtllib %s\n" TRIANGLE, libraries[i]);
-        snprintf(path, sizeof path, "%s/inner/m.obj", folder);
+        snprintf(path, sizeof path, "%s/inner/m.obj", outer);
         write_text(path, text);
         lam_scene *scene = lam_scene_load(path, NULL, NULL, &error);
         assert_non_null(scene);
@@ -185,40 +187,21 @@ static void test_files(void **unused)
         lam_scene_free(scene);
         unlink(path);
     }
-    snprintf(path, sizeof path, "%s/inner/a.mtl", folder);
+    snprintf(path, sizeof path, "%s/inner/a.mtl", outer);
     unlink(path);
-    snprintf(path, sizeof path, "%s/outside.mtl", folder);
+    snprintf(path, sizeof path, "%s/outside.mtl", outer);
     unlink(path);
     rmdir(inner);
-    rmdir(folder);
+    rmdir(outer);
 }
 
 // --- what a model names, on disk
-
-static char folder[64];
-
-static const char *in_folder(const char *name)
-{
-    static char paths[4][200];
-    static int next;
-    char *path = paths[next++ % 4];
-    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
-    return path;
-}
 
 static int make_folder(void **state)
 {
     (void)state;
     strcpy(folder, "/tmp/lambent-import-XXXXXX");
     return mkdtemp(folder) && mkdir(in_folder("inner"), 0700) == 0 && mkdir(in_folder("inner/sub"), 0700) == 0 ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[100];
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    return system(command);
 }
 
 // The model inner/m.obj with this text before its triangle.

@@ -323,7 +323,7 @@ static void *no_memory(size_t size)
     return NULL;
 }
 
-// libdeflate's own memory is out: an error too.
+// libdeflate's own memory has run out: an error too.
 static void best_without_memory(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
 // test_scene_models.c: the files that scene files name: what objects share, and which folders they may lie in.
 #include "loading.h"
+#include "temporary_folder.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -174,14 +175,14 @@ static void test_clear(void **unused)
 static void test_written(void **unused)
 {
     (void)unused;
-    char folder[] = "/tmp/lambent-shared-XXXXXX", path[2][64], model[64];
-    assert_non_null(mkdtemp(folder));
-    snprintf(model, sizeof model, "%s/m.obj", folder);
+    char shared[] = "/tmp/lambent-shared-XXXXXX", path[2][64], model[64];
+    assert_non_null(mkdtemp(shared));
+    snprintf(model, sizeof model, "%s/m.obj", shared);
     FILE *file = fopen(model, "w");
     fputs(TRIANGLE "f 1 2 3\n", file);
     fclose(file);
     for (int i = 0; i < 2; i++)
-        snprintf(path[i], sizeof path[i], "%s/%d.json", folder, i);
+        snprintf(path[i], sizeof path[i], "%s/%d.json", shared, i);
     file = fopen(path[0], "w");
     fputs("{\"lambent\": 1, \"objects\": [{\"file\": \"m.obj\", \"name\": \"a\"}, {\"file\": \"m.obj\", \"transform\": "
           "[[\"translate\", 3, 0, 0]], \"material\": {\"diffuse\": [1, 0, 0]}}, {\"shape\": \"cube\"}, {\"file\": "
@@ -210,7 +211,7 @@ static void test_written(void **unused)
     unlink(path[0]);
     unlink(path[1]);
     unlink(model);
-    rmdir(folder);
+    rmdir(shared);
 }
 
 // A thousand objects of one model need little more than one; so do a thousand with changes of their own.
@@ -241,17 +242,6 @@ static void test_memory(void **unused)
 
 // --- folders
 
-static char folder[64];
-
-static const char *in_folder(const char *name)
-{
-    static char paths[4][200];
-    static int next;
-    char *path = paths[next++ % 4];
-    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
-    return path;
-}
-
 static void write_bytes(const char *name, const char *bytes)
 {
     FILE *file = fopen(in_folder(name), "wb");
@@ -278,14 +268,6 @@ static int make_folder(void **state)
                    symlink("../sky.ppm", in_folder("in/out.ppm")) || mkfifo(in_folder("in/pipe"), 0600)
                ? -1
                : 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[100];
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    return system(command);
 }
 
 // The files that a load looks for: the model, what it names, and what a scene file's models name; also missing ones.

@@ -22,18 +22,6 @@ static int tear_down(void **state)
 
 enum { SIDE = 64 };
 
-static lam_scene *scene_of(const lam_mesh *mesh)
-{
-    lam_error error = {0};
-    lam_scene *scene = lam_scene_make(NULL);
-    lam_object object = lam_object_default();
-    object.mesh = lam_scene_add_mesh(scene, mesh, &error);
-    if (object.mesh < 0)
-        fail_msg("%s", error.text);
-    assert_true(lam_scene_add_object(scene, &object, NULL) >= 0);
-    return scene;
-}
-
 static lam_camera facing(double distance)
 {
     lam_camera camera = lam_camera_default();

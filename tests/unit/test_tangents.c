@@ -3,6 +3,7 @@
 #include "cpu_features.h"
 #include "edge_twins.h"
 #include "mikktspace.h"
+#include "quad.h"
 #include "tangent_kernels.h"
 
 #include <lambent/lambent.h>
@@ -280,7 +281,6 @@ static lam_scene *normal_mapped_square(int set, const float transform[2][3])
     static const float positions[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0},
                        normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
     static const float mirrored[] = {1, 0, 0, 0, 0, 1, 1, 1}, straight[] = {0, 0, 1, 0, 1, 1, 0, 1};
-    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
     static const uint8_t flat[] = {128, 128, 255, 255};
     lam_error error = {0};
     lam_image image = {.width = 1, .height = 1, .format = LAM_RGBA8, .pixels = (void *)(uintptr_t)flat};
@@ -294,18 +294,7 @@ static lam_scene *normal_mapped_square(int set, const float transform[2][3])
         material.maps[LAM_MAP_NORMAL] = &map;
     const lam_part part = {.triangle_count = 2, .material = lam_scene_add_material(scene, &material, &error)};
     assert_int_equal(part.material, 0);
-    const lam_mesh mesh = {.positions = positions,
-                           .vertex_count = 4,
-                           .indices = indices,
-                           .triangle_count = 2,
-                           .normals = normals,
-                           .normal_count = 4,
-                           .texcoords = mirrored,
-                           .texcoord_count = 4,
-                           .second_texcoords = straight,
-                           .second_texcoord_count = 4,
-                           .parts = &part,
-                           .part_count = 1};
+    const lam_mesh mesh = quad_mesh(positions, normals, mirrored, straight, &part);
     assert_int_equal(lam_scene_add_mesh(scene, &mesh, &error), 0);
     lam_texture_free(texture);
     return scene;

@@ -50,7 +50,7 @@ typedef void edge_rays(const struct edge_view *view, const struct edge_line *lin
 // The widest of at most `lanes` lanes. Every one gives the same answers.
 edge_rays *edge_rays_for(int lanes);
 
-// A piece of a line's picture is drawn into `strokes`. False: memory is out.
+// A piece of a line's picture is drawn into `strokes`. False: out of memory.
 bool edge_stroke_add(struct edge_strokes *strokes, struct edge_stroke stroke, struct call_control *call);
 
 // Fills memory->coverage from the strokes of all threads.

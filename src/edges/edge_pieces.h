@@ -32,14 +32,14 @@ struct edge_piece {
 // Bytes of scratch memory that a thread needs.
 size_t edge_scratch_bytes(void);
 
-// False: memory is out, or the call must end.
+// False: out of memory, or the call must end.
 bool edge_piece_draw(struct edge_piece *piece, void *scratch);
 
 // Fills the measures of a piece, but for those of its chains.
 void edge_piece_measure(struct edge_piece *piece);
 
 // Links the measured edges of a draw to chains, and places them there: through each corner two lines of one style that meet
-// alone, or else the straightest pairs that turn by less than 60 degrees. False: memory is out, or the call must end.
+// alone, or else the straightest pairs that turn by less than 60 degrees. False: out of memory, or the call must end.
 bool edge_chains_link(const struct frame_draw *draw, const struct mesh_edge *edges, struct edge_measure *measures,
                       uint32_t count, struct loop_status *loop);
 

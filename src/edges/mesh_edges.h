@@ -23,7 +23,7 @@ struct mesh_edge {
 static inline uint32_t edge_end(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
 // Lists the edges of a mesh in `edges`, which has space for three of each triangle, and returns how many there are. Corners at the same
-// position are the same, whatever their indices. Triangles with two equal corners have no edges. *failed: memory is out, or the call must end, and
+// position are the same, whatever their indices. Triangles with two equal corners have no edges. *failed: out of memory, or the call must end, and
 // `error` is filled.
 uint32_t mesh_edges(const lam_mesh *mesh, struct mesh_edge *edges, struct call_control *call, bool *failed,
                     lam_error *error);

@@ -26,7 +26,7 @@ struct aabb_tree {
     size_t first[BOX_LEVELS], count[BOX_LEVELS];
 };
 
-// `used` lists the vertices of the tree, in order (NULL: the first `count`). False when memory is out.
+// `used` lists the vertices of the tree, in order (NULL: the first `count`). False when memory has run out.
 bool box_tree_make(struct aabb_tree *tree, const lam_mesh *mesh, const uint32_t *used, size_t count,
                    struct arena *arena, struct pool *pool, lam_error *error);
 

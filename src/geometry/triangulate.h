@@ -26,7 +26,7 @@ void triangulator_stop(struct triangulator *scratch);
 
 // Cuts the polygon whose corner i lies at positions[3·corners[i] …] (finite numbers), count ≥ 3, and writes count − 2
 // triples of corner numbers (0 … count − 1, which hold for every attribute) to `triples`, wound like the polygon. False
-// when memory is out or the call must end (call_should_continue says which); never for up to four corners.
+// when memory has run out or the call must end (call_should_continue says which); never for up to four corners.
 bool triangulate(struct triangulator *scratch, const float *positions, const uint32_t *corners, uint32_t count,
                  uint32_t *triples);
 

@@ -13,7 +13,7 @@
 
 // The fonts of Debian's packages fonts-dejavu-core, fonts-liberation2, fonts-liberation, fonts-noto-core,
 // fonts-freefont-ttf and fonts-roboto-unhinted.
-static const char *const places[] = {
+static const char *const font_paths[] = {
     "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
     "/usr/share/fonts/truetype/liberation2/LiberationSans-Regular.ttf",
     "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
@@ -24,7 +24,7 @@ static const char *const places[] = {
 
 const char *lam_font_path(int index)
 {
-    return index >= 0 && index < (int)(sizeof places / sizeof *places) ? places[index] : NULL;
+    return index >= 0 && index < (int)(sizeof font_paths / sizeof *font_paths) ? font_paths[index] : NULL;
 }
 
 #ifdef HAVE_FREETYPE
@@ -94,7 +94,7 @@ lam_font *lam_font_open(const char *path, lam_error *error)
         ok = fail(error, LAM_CANNOT_READ, "%s: the font is not there or cannot be read", path);
     ok = ok && file_check_regular(path, error);
     if (ok && font->ft.init(&font->library) != 0)
-        ok = fail(error, LAM_LIMIT, "text: FreeType did not start: memory is out");
+        ok = fail(error, LAM_LIMIT, "text: FreeType did not start: out of memory");
     if (ok && font->ft.new_face(font->library, path, 0, &font->face) != 0)
         ok = fail(error, LAM_CANNOT_READ, "%s: not a font that FreeType can read", path);
     if (ok && !FT_IS_SCALABLE(font->face))
@@ -118,7 +118,7 @@ void lam_font_free(lam_font *font)
     free(font);
 }
 
-// Returns the code point at *text and advances *text; U+FFFD for an invalid byte.
+// Returns the code point at *text and advances *text; U+FFFD for an invalid byte or sequence.
 static FT_ULong next_letter(const char **text)
 {
     const unsigned char *s = (const unsigned char *)*text;
@@ -186,15 +186,15 @@ static void stamp(lam_image *image, const FT_Bitmap *bitmap, int left, int top, 
         }
 }
 
-// Advances the pen, in units of 1/64 pixel, along the line, and draws the letters where there is a picture. A letter
-// that the font cannot load is left out.
+// Lays out a line of text and returns its width in pixels; draws it unless `image` is NULL. A letter that the font cannot load
+// is left out.
 static double walk(lam_image *image, lam_font *font, double x, double y, double size_px, lam_rgba color,
                    const char *text)
 {
     if (font->ft.set_char_size(font->face, 0, (FT_F26Dot6)(size_px * 64 + 0.5), 72, 72) != 0)
         return 0;
     FT_UInt before = 0;
-    FT_Pos pen = 0;
+    FT_Pos pen = 0; // in 1/64 pixel
     while (*text) {
         FT_UInt glyph = font->ft.get_char_index(font->face, next_letter(&text));
         FT_Vector kerning = {0, 0};

@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Formats that can be written come first, those without a mark of their own last.
+// Formats that can be written come first, those whose files do not begin with a signature last.
 static const struct codec *const codecs[] = {&codec_png,  &codec_ppm, &codec_pfm, &codec_exr, &codec_jpeg,
                                              &codec_webp, &codec_hdr, &codec_bmp, &codec_tga};
 enum { CODECS = sizeof codecs / sizeof *codecs, WRITTEN = 6, MAX_THREADS = 1024, LIST_BYTES = 128 };
@@ -136,7 +136,7 @@ bool lam_image_save(const lam_image *image, const char *path, const lam_save_par
     lam_bytes bytes = {0};
     if (!codec || !encode(codec, image, params, &bytes, error))
         return false;
-    // The last moment at which nothing has been written.
+    // From here on there is a file: a call that must end ends before.
     struct call_control call;
     call_start(&call, params ? params->control : NULL);
     bool ok = call_should_continue(&call)
@@ -200,7 +200,7 @@ bool lam_image_is_from_lambent(const char *path)
 {
     if (!path)
         return false;
-    // Pipes and devices are not opened; non-blocking, should one come into the place of the file.
+    // Pipes and devices are not opened. O_NONBLOCK: one may have replaced the file since stat.
     struct stat about;
     int file = stat(path, &about) == 0 && S_ISREG(about.st_mode)
                    ? open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)

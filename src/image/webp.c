@@ -139,7 +139,7 @@ bool webp_check_size(int width, int height, lam_error *error)
 struct sink {
     uint8_t *bytes; // from malloc
     size_t size, capacity;
-    bool full; // memory is out
+    bool full; // out of memory
 };
 
 static int write_sink(const uint8_t *bytes, size_t size, const WebPPicture *picture)

@@ -125,7 +125,7 @@ bool batch_begin_suspects(struct batch *b)
     return true;
 }
 
-// The next pass is over the models that were none.
+// The next pass is over the models that were not suspects.
 void batch_end_suspects(struct batch *b)
 {
     for (size_t i = 0; i < b->plan->count; i++) {
@@ -135,7 +135,7 @@ void batch_end_suspects(struct batch *b)
     }
 }
 
-// --- what comes of a model
+// --- results
 
 static void count(struct batch *b, const struct batch_unit *u, int view)
 {
@@ -165,7 +165,7 @@ static void count(struct batch *b, const struct batch_unit *u, int view)
     }
 }
 
-// Of a model of the batch's plan: its pictures' states, and its records for the page.
+// Stores the state of a picture of the plan, and its record for the page.
 static void keep(struct batch *b, struct batch_unit *u, int view)
 {
     size_t at = u->task.model * (size_t)b->plan->view_count + (size_t)view;
@@ -197,7 +197,7 @@ void batch_deliver(struct batch *b, struct batch_unit *u)
             keep(b, u, i);
     }
     b->tally.warnings += (size_t)u->warnings;
-    if (job) { // its answer has its errors
+    if (job) { // errors are in the job's answer
         if (b->options->verbose && u->err)
             fputs(u->err, stderr);
     } else {

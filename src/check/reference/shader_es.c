@@ -46,7 +46,8 @@ const struct contract_name *shader_dialect_built_in(const char *name)
     return NULL;
 }
 
-// Words of older versions, as the two stages of ES 3.00 say them. `declaration`: what the text needs then.
+// Words of older versions, and what replaces them in the two stages of ES 3.00. `declaration` is added where the word occurs;
+// NULL: none.
 static const struct old_word {
     const char *old, *vertex, *fragment, *declaration;
 } words[] = {
@@ -154,7 +155,7 @@ static void put_all(struct rewriting *r, const char *text)
 char *shader_dialect_es(const char *text, bool is_vertex, lam_error *error)
 {
     struct rewriting r = {.vertex = is_vertex};
-    put_body(&r, text); // tells which declarations the text needs
+    put_body(&r, text); // finds which declarations the text needs
     put_all(&r, text);
     r.capacity = r.at + 1;
     r.out = malloc(r.capacity);

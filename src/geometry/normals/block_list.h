@@ -39,7 +39,7 @@ _Static_assert(sizeof(struct list_block) <= BLOCK_BYTES, "blocks lie side by sid
 struct block_lists {
     struct arena arena;
     struct scratch_memory *scratch; // shared by all threads
-    struct loop_status *loop;       // stopped when memory is out
+    struct loop_status *loop;       // stopped when memory has run out
     size_t slab_bytes;
     char *slab;
     size_t slab_left;

@@ -28,7 +28,7 @@ struct corner_fan_scratch {
 };
 void corner_fan_scratch_start(struct corner_fan_scratch *scratch, struct call_control *call);
 void corner_fan_scratch_free(struct corner_fan_scratch *scratch);
-// Makes space for `count` corners. False when memory is out.
+// Makes space for `count` corners. False when memory has run out.
 bool corner_fan_scratch_reserve(struct corner_fan_scratch *scratch, uint32_t count);
 
 // Computes the fans of the `count` corners in scratch->numbers, ascending, all at one position, by the rule in

@@ -57,7 +57,7 @@ static inline void copy_bits(uint32_t to[3], const uint32_t from[3])
 uint32_t position_hash_find(const struct position_hash *table, const uint32_t bits[3], uint32_t hash, size_t *probes);
 
 // Fills a part from its bin in each of `threads` lists, and empties the bins. With `duplicates`, each vertex whose
-// position another one represents goes to that list of `mine`. False: the probe limit is reached, or memory is out.
+// position another one represents goes to that list of `mine`. False: the probe limit is reached, or memory has run out.
 bool position_hash_fill(struct position_hash *table, uint32_t part, struct block_lists *lists, int threads,
                         struct block_lists *mine, bool duplicates);
 

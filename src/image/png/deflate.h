@@ -53,7 +53,7 @@ struct deflate {
     uint32_t counts[2][4][DEFLATE_KINDS];
 };
 
-// Allocates from the arena; false: memory is out. deflate_scratch: about how many bytes that takes.
+// Allocates from the arena; false: out of memory. deflate_scratch: about how many bytes that takes.
 bool deflate_make(struct deflate *deflate, struct arena *arena, int width, int rows, int bytes_per_pixel);
 size_t deflate_scratch(int width, int rows);
 

@@ -147,7 +147,7 @@ static void filter_strip(const struct png_encoding *encoding, struct best_thread
 
 // Makes the last block of a deflate stream one that others can follow, and ends on a byte boundary with an empty stored
 // block. libdeflate writes whole streams only, so zlib finds where the last block starts. `scratch` has capacity for
-// the decompressed bytes. Returns the new size; 0: memory is out.
+// the decompressed bytes. Returns the new size; 0: out of memory.
 static size_t open_stream(uint8_t *stream, size_t size, uint8_t *scratch, size_t capacity)
 {
     enum { AT_BOUNDARY = 128, IN_LAST = 64, UNUSED_BITS = 7 }; // z_stream's data_type after inflate(…, Z_BLOCK)

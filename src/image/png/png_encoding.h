@@ -30,7 +30,7 @@ struct png_method {
     bool (*start)(struct png_encoding *encoding, struct pool *pool, struct arena *arena, lam_error *error);
 
     // Writes one strip as deflate blocks that are not the last and end on a byte boundary, and adds its filtered rows
-    // to `adler`. Returns the number of bytes; 0: memory is out, or the call must stop.
+    // to `adler`. Returns the number of bytes; 0: out of memory, or the call must stop.
     size_t (*strip)(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out);
 
     // Frees what the arena does not own; also after a start that failed. NULL: nothing.

@@ -37,7 +37,7 @@ const json_t *gltf_take_object(struct gltf *gltf, const struct place *place, con
 const json_t *gltf_take_list(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                              bool *ok);
 
-// The name of an object, copied into the scene. NULL: it has none, or memory is out (*ok becomes false).
+// The name of an object, copied into the scene. NULL: it has none, or memory has run out (*ok becomes false).
 const char *gltf_name(struct gltf *gltf, const json_t *object, bool *ok);
 
 // The element of a list (NULL: an empty one) that the caller names: by its name, else by its number from 0. −1: an

@@ -186,7 +186,7 @@ static bool start_material(struct reader *reader, const uint8_t *at, const uint8
     return true;
 }
 
-// Skips a map's options and returns the begin of its file name, which may contain spaces.
+// Skips a map's options and returns the start of its file name, which may contain spaces.
 static const uint8_t *skip_options(const uint8_t *at, const uint8_t *end)
 {
     static const struct {

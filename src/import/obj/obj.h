@@ -143,11 +143,11 @@ struct obj_reader {
 };
 
 // obj_lines.c, compiled for several instruction sets: reads lines up to the first with a continuation. Returns the
-// begin of the next line, at most `end`; NULL: error.
+// start of the next line, at most `end`; NULL: error.
 typedef const uint8_t *obj_lines_reader(struct obj_reader *reader, const uint8_t *line, const uint8_t *end);
 obj_lines_reader obj_read_lines_scalar, obj_read_lines_avx512;
 
-// obj_line.c. Reads one logical line of any kind and returns the begin of the next; NULL: error.
+// obj_line.c. Reads one logical line of any kind and returns the start of the next; NULL: error.
 const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at);
 // obj_parse.c
 bool obj_parse(struct obj *obj, lam_error *error); // pass two
@@ -222,7 +222,7 @@ static inline enum obj_kind obj_kind_of(const uint8_t *at)
     return *at == '\n' || *at == '#' || *at == 0 ? OBJ_EMPTY : OBJ_OTHER;
 }
 
-// Skips the rest of the statement and returns the begin of the next line.
+// Skips the rest of the statement and returns the start of the next line.
 static inline const uint8_t *obj_skip_line(const uint8_t *at, const uint8_t *end)
 {
     while (!obj_at_line_end(at, end)) {

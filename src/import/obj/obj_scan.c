@@ -78,7 +78,7 @@ static void count_face(struct obj_counts *counts, uint64_t corners)
     counts->polygons += corners > 3;
 }
 
-// Counts a statement with a comment or a continuation, or the last one. Returns the begin of the next line.
+// Counts a statement with a comment or a continuation, or the last one. Returns the start of the next line.
 static const uint8_t *count_slowly(struct obj_chunk *chunk, const uint8_t *at, const uint8_t *end)
 {
     while (at < end && obj_white(*at))

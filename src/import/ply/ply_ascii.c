@@ -1,7 +1,7 @@
 // ply_ascii.c: converts the rows of one element of an ASCII PLY to a table of binary rows.
 //
 // Numbers are separated by white space of any kind, and a row may continue on the next line; but it ends where its line
-// ends: numbers left over belong to no property. A first, serial pass finds the begin of each piece of rows and the
+// ends: numbers left over belong to no property. A first, serial pass finds the start of each piece of rows and the
 // lengths of its lists; then the pieces are read in parallel.
 #include "fail.h"
 #include "number.h"
@@ -110,7 +110,7 @@ static bool fail_rest(const struct ply_reader *reader, size_t row, const uint8_t
                      shown_name(element->properties[element->property_count - 1].name, shown[1]));
 }
 
-// The serial pass: sets the begin of each piece and the starts of the list, and *at to the end of the last row.
+// The serial pass: sets the start of each piece and the starts of the list, and *at to the end of the last row.
 static bool index_rows(struct ply_reader *reader, const uint8_t **at, lam_error *error)
 {
     const struct ply_element *element = reader->element;

@@ -1,4 +1,4 @@
-// ply_rows.h: the rows of one element, as ply_ascii.c and ply_binary.c read them: a serial pass finds the begin of each piece of
+// ply_rows.h: the rows of one element, as ply_ascii.c and ply_binary.c read them: a serial pass finds the start of each piece of
 // rows and the lengths of its lists; then the pieces are read in parallel.
 #ifndef PLY_ROWS_H
 #define PLY_ROWS_H
@@ -12,14 +12,14 @@ struct ply_reader {
     const struct ply_request *request;
     struct ply_table *table;
     const uint8_t *first;     // row 0
-    const uint8_t **pieces;   // begin of each piece
+    const uint8_t **pieces;   // start of each piece
     uint32_t *items, *starts; // of the requested list
     uint8_t *rows;            // scalars; NULL: not requested
     uint64_t total;           // items of the requested list so far
     bool has_other_counts;    // some row has not three of them
     // ply_ascii.c
     const uint8_t *end; // of the file
-    size_t indexed;     // rows that index_rows found well
+    size_t indexed;     // rows that passed index_rows
     // ply_binary.c: rows with three items each
     size_t list_offset, stride;
     int mixed; // atomic; some row has another number of items
@@ -28,7 +28,7 @@ struct ply_reader {
 // Allocates what the serial pass fills.
 bool ply_start_rows(struct ply_reader *reader, struct arena *scratch, lam_error *error);
 
-// The serial pass at the begin of a row. False: the call must end.
+// The serial pass at the start of a row. False: the call must end.
 bool ply_index_row(struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error);
 // The serial pass at a row's requested list.
 static inline void ply_count_items(struct ply_reader *reader, int64_t items)

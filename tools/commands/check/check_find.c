@@ -3,7 +3,8 @@
 // A folder with one fragment shader is one submission, named after the folder, with the one vertex shader in it if there
 // is one. In other folders, and in the class's own, each fragment shader is a submission, named after the file; its
 // vertex shader is the one of the same name beside it, else the only one beside it without a fragment shader of its
-// name. Folders are searched to any depth; hidden files and links are left out.
+// name. Hidden files and links are left out. What lies
+// below MAX_DEPTH folders is reported as a problem.
 #include "check.h"
 
 #include <dirent.h>
@@ -156,11 +157,16 @@ static bool search(struct finding *f, const char *top, const char *folder, int d
         complain(error, LAM_LIMIT, "out of memory");
     for (int i = 0; ok && i < count; i++) {
         struct stat found;
-        if (lstat(paths[i], &found) != 0 || !S_ISDIR(found.st_mode) || depth == MAX_DEPTH)
+        if (lstat(paths[i], &found) != 0 || !S_ISDIR(found.st_mode))
             continue;
+        if (depth == MAX_DEPTH) {
+            if (!add(f, name_of(top, paths[i], false), NULL, NULL, "the folder lies too deep: it was not searched"))
+                ok = complain(error, LAM_LIMIT, "out of memory");
+            continue;
+        }
         int before = f->count;
         ok = search(f, top, paths[i], depth + 1, error);
-        // Somebody who handed in something else is not forgotten.
+        // A folder without shaders is listed too, so that nobody who handed in something else is missed.
         if (ok && depth == 0 && f->count == before &&
             !add(f, name_of(top, paths[i], false), NULL, NULL, "there is no shader in this folder"))
             ok = complain(error, LAM_LIMIT, "out of memory");

@@ -19,7 +19,7 @@ enum { DRACO_REASON_SIZE = 160 };
 // what a header says bounds nothing.
 struct draco_memory {
     size_t granted; // bytes
-    // Asks for more; 0: there is no more, and decoding ends as where memory is out. It adds what it grants to `granted`.
+    // Asks for more; 0: there is no more, and decoding ends as where memory has run out. It adds what it grants to `granted`.
     int (*grant)(struct draco_memory *memory, size_t bytes);
     void *user;
 };

@@ -174,6 +174,10 @@ typedef struct lam_material {
     float thickness;            // units of the mesh, ≥ 0; default 0: none
     float attenuation_distance; // units of the world; 0, the default: infinite
     lam_rgb attenuation_color;  // 0..1; default 1
+    // Of the dielectric: its matt part is also multiplied by 1 − specular_glossiness · (largest channel of f0). 1: the
+    // material is one of specular and glossiness (KHR_materials_pbrSpecularGlossiness), with ior = 0 and its specular
+    // colour as f0_color.
+    float specular_glossiness; // 0..1; default 0
     LAM_RESERVED(64);
 } lam_material;
 

@@ -116,6 +116,7 @@ static const struct {
     {"ior", NULL, LAYER_DIELECTRIC, false},
     {"specular_weight", NULL, LAYER_DIELECTRIC, false},
     {"f0_color", NULL, LAYER_DIELECTRIC, true},
+    {"specular_glossiness", NULL, LAYER_DIELECTRIC, false},
     {"clearcoat", NULL, LAYER_CLEARCOAT, false},
     {"clearcoat_roughness", NULL, LAYER_CLEARCOAT, false},
     {"sheen_color", NULL, LAYER_SHEEN, true},

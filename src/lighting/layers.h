@@ -12,10 +12,11 @@ STRUCT(layer_values)
     vec3 base; // base colour
     num metallic;
     num roughness;
-    num ior;             // of the dielectric
-    num specular_weight; // what it reflects at grazing angles
-    vec3 f0_color;       // factor of what it reflects along the normal
-    num clearcoat;       // share of the surface that has a coat
+    num ior;                 // of the dielectric
+    num specular_weight;     // what it reflects at grazing angles
+    vec3 f0_color;           // factor of what it reflects along the normal
+    num specular_glossiness; // share of what it reflects along the normal that the matt part lacks
+    num clearcoat;           // share of the surface that has a coat
     num clearcoat_roughness;
     vec3 clearcoat_normal; // unit
     vec3 sheen_color;
@@ -47,6 +48,7 @@ STRUCT(layered)
     num iridescence_ior;
     num film;
     num opaque; // share of the light in the dielectric that does not go through
+    num matt;   // and leaves as matt light
     vec3 sheen_color;
     num sheen_largest; // the largest channel
     num sheen_roughness;
@@ -263,6 +265,10 @@ FN layered layered_of(surface s, layer_values m, int scattering, int set)
     if ((set & LAYER_TRANSMISSION) != 0) {
         y.opaque = 1.0f - m.transmission;
     }
+    y.matt = y.opaque;
+    if ((set & LAYER_DIELECTRIC) != 0) {
+        y.matt = y.opaque * positive(1.0f - m.specular_glossiness * largest3(y.dielectric));
+    }
     y.sheen_color = m.sheen_color;
     y.sheen_largest = num_of(0.0f);
     y.sheen_roughness = m.sheen_roughness;
@@ -313,7 +319,8 @@ FN vec3 layered_mix(layered m, vec3 dielectric, vec3 metal)
 }
 
 // The light of one direction:
-//     base   = (1 - metallic) ((1 - max F_d) (1 - transmission) n.l, F_d S) + metallic F_m S
+//     base   = (1 - metallic) ((1 - max F_d) (1 - max f0_d) (1 - transmission) n.l, F_d S) + metallic F_m S
+//              without the second factor unless the material is one of specular and glossiness
 //     sheen  = sheen_color S_s + base min(1 - max sheen_color E(n.v), 1 - max sheen_color E(n.l))
 //     coated = clearcoat F(n_c.v) S_c + (1 - clearcoat F(n_c.v)) sheen
 FN layered_value layered_light(surface s, layered m, vec3 l, int set)
@@ -330,7 +337,7 @@ FN layered_value layered_light(surface s, layered m, vec3 l, int set)
     if ((set & LAYER_ANISOTROPY) != 0) {
         strength = stretched_lobe(s, l, m);
     }
-    r.diffuse = lambert * positive(1.0f - largest3(dielectric)) * m.opaque;
+    r.diffuse = lambert * positive(1.0f - largest3(dielectric)) * m.matt;
     r.specular = scale3(layered_mix(m, dielectric, metal), strength);
     if ((set & LAYER_SHEEN) != 0) {
         num left = positive(1.0f - m.sheen_largest * sheen_albedo(positive(dot3(s.n, l)), m.sheen_roughness));
@@ -404,7 +411,7 @@ FN vec3 layered_surroundings(surface s, layered m, vec3 kd, surroundings e, surr
         d = mix3(d, film_d, m.iridescence);
         f = mix3(f, film_m, m.iridescence);
     }
-    num matt = positive(1.0f - largest3(d)) * m.opaque;
+    num matt = positive(1.0f - largest3(d)) * m.matt;
     vec3 light = mul3(scale3(kd, matt), e.irradiance);
     light = add3(light, mul3(layered_mix(m, d, f), e.prefiltered));
     if ((set & LAYER_SHEEN) != 0) {
@@ -453,6 +460,7 @@ LANE_FN layer_values layers_of(const lam_material *m)
     y.ior = num_of(m->ior);
     y.specular_weight = num_of(m->specular_weight);
     y.f0_color = vec3_of(num_of(m->f0_color.r), num_of(m->f0_color.g), num_of(m->f0_color.b));
+    y.specular_glossiness = num_of(m->specular_glossiness);
     y.clearcoat = num_of(m->clearcoat);
     y.clearcoat_roughness = num_of(m->clearcoat_roughness);
     y.clearcoat_normal = zero;

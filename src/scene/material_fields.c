@@ -82,6 +82,8 @@ static const struct material_field rows[] = {
           .summary = "how much of a dielectric's reflection there is"),
     LAYER(f0_color, DIELECTRIC, .type = LAM_FIELD_RGB, .max = UNBOUNDED, .standard = GREY(1),
           .summary = "colour of a dielectric's reflection along the normal"),
+    LAYER(specular_glossiness, DIELECTRIC, .max = 1,
+          .summary = "1: the matt part is also multiplied by 1 - max f0, as specular-glossiness files have it"),
     LAYER(clearcoat, CLEARCOAT, .max = 1, .summary = "share of the surface under a clear coat"),
     LAYER(clearcoat_roughness, CLEARCOAT, .max = 1, .summary = "of the coat, as roughness"),
     LAYER(sheen_color, SHEEN, .type = LAM_FIELD_RGB, .max = 1,

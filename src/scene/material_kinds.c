@@ -9,6 +9,16 @@ static float mixed(double from, double to, double share) { return (float)(from +
 
 static double within(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
 
+// What the dielectric of a material of specular and glossiness reflects along the normal; of others the usual 0.04.
+static void dielectric_f0_of(const lam_material *m, double f0[3])
+{
+    const float *color = &m->f0_color.r;
+    double ior = (double)m->ior, boundary = (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1));
+    for (int i = 0; i < 3; i++)
+        f0[i] = m->specular_glossiness > 0 ? within(boundary * (double)color[i], 0, 1) * (double)m->specular_weight
+                                           : dielectric_f0;
+}
+
 lam_material lam_material_as_classic(const lam_material *material)
 {
     lam_material m = *material;
@@ -19,12 +29,17 @@ lam_material lam_material_as_classic(const lam_material *material)
     double exponent = within(2 / within(slope * slope, 1e-12, 1) - 2, 1, 4096), energy = (exponent + 8) / 8;
     m.physical = false;
     m.ambient = (lam_rgb){base.r, base.g, base.b};
-    m.diffuse.r = mixed((double)base.r, 0, metallic);
-    m.diffuse.g = mixed((double)base.g, 0, metallic);
-    m.diffuse.b = mixed((double)base.b, 0, metallic);
-    m.specular.r = (float)(energy * (double)mixed(dielectric_f0, (double)base.r, metallic));
-    m.specular.g = (float)(energy * (double)mixed(dielectric_f0, (double)base.g, metallic));
-    m.specular.b = (float)(energy * (double)mixed(dielectric_f0, (double)base.b, metallic));
+    double f0[3];
+    dielectric_f0_of(&m, f0);
+    double largest = f0[0] > f0[1] ? f0[0] : f0[1];
+    largest = largest > f0[2] ? largest : f0[2];
+    double matt = 1 - (double)m.specular_glossiness * largest;
+    m.diffuse.r = mixed((double)base.r * matt, 0, metallic);
+    m.diffuse.g = mixed((double)base.g * matt, 0, metallic);
+    m.diffuse.b = mixed((double)base.b * matt, 0, metallic);
+    m.specular.r = (float)(energy * (double)mixed(f0[0], (double)base.r, metallic));
+    m.specular.g = (float)(energy * (double)mixed(f0[1], (double)base.g, metallic));
+    m.specular.b = (float)(energy * (double)mixed(f0[2], (double)base.b, metallic));
     m.shininess = (float)exponent;
     return m;
 }

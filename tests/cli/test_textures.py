@@ -114,6 +114,31 @@ class Textures(Case):
         turn = {"extensions": {"KHR_texture_transform": {"rotation": 1.5707963267948966, "offset": [0, 1]}}}
         self.assertEqual(self.drawn(self.gltf(sampler=nearest, info=turn)), [b, r, w, g])
 
+    def test_specular_glossiness(self):
+        """The map's colours and alpha multiply both factors: a map of one texel is the same as other factors."""
+        def glossy(texel, specular, glossiness, **diffuse):
+            self.give("t.png", write_png(1, 1, bytes(texel)))
+            found = {"diffuseFactor": [0.5, 0.4, 0.9, 1], "specularFactor": specular, "glossinessFactor": glossiness,
+                     "specularGlossinessTexture": {"index": 0}, **diffuse}
+            self.good(self.gltf(images=[{"uri": "t.png"}], materials=[{"extensions": {"KHR_materials_pbrSpecularGlossiness": found}}]),
+                      "--light", "directional:direction=-0.2/0.3/-1,intensity=0.7", "--tone", "none", "--single-scattering", *LOOK)
+            self.given.add("a.png")
+            return corners(read_png((self.folder / "a.png").read_bytes()))
+
+        def linear(byte):
+            return ((byte / 255 + 0.055) / 1.055) ** 2.4
+        plain = glossy((255, 255, 255, 255), [0.5 * linear(200), 0.25 * linear(100), linear(50)], 0.8 * 102 / 255)
+        mapped = glossy((200, 100, 50, 102), [0.5, 0.25, 1], 0.8)
+        for a, b in zip(sum(plain, ()), sum(mapped, ())):
+            self.assertLessEqual(abs(a - b), 1)
+        for other in (glossy((100, 100, 50, 102), [0.5, 0.25, 1], 0.8), glossy((200, 100, 50, 200), [0.5, 0.25, 1], 0.8)):
+            self.assertGreater(max(abs(a - b) for a, b in zip(sum(plain, ()), sum(other, ()))), 3)
+        # Lambert's part alone, by the extension's text: diffuse (1 - max specular)(1 - max F), F = f0 but for 2e-5 along the normal.
+        matt = glossy((255, 255, 255, 255), [0.5, 0.2, 0], 0, diffuseFactor=[1, 1, 1, 1])
+        black = glossy((255, 255, 255, 255), [0.5, 0.2, 0], 0, diffuseFactor=[0, 0, 0, 1])
+        cosine = 1 / (0.2 ** 2 + 0.3 ** 2 + 1) ** 0.5
+        self.assertAlmostEqual(linear(matt[0][2]) - linear(black[0][2]), 0.7 * cosine * 0.5 * 0.5, delta=0.01)
+
     def test_gltf_pictures(self):
         self.give("t.png", QUARTERS)
         self.assertEqual(self.drawn(self.gltf(images=[{"uri": "t.png"}]))[0], self.drawn(self.gltf())[0])

@@ -39,7 +39,7 @@ static double largest(const double c[3]) { return fmax(fmax(c[0], c[1]), c[2]); 
 // A material and a light at a point.
 struct point {
     vector n, v, l, t, coat_n;
-    double base[3], metallic, roughness, ior, weight, color[3], coat, coat_roughness, sheen[3], sheen_roughness,
+    double base[3], metallic, roughness, ior, weight, glossy, color[3], coat, coat_roughness, sheen[3], sheen_roughness,
         strength, iridescence, film_ior, film, transmission;
 };
 
@@ -169,6 +169,8 @@ static void layered_textbook(const struct point *p, int set, double *diffuse, do
     }
     double gain = 1 / (double)single_scattering((float)n_v, (float)mean) - 1;
     *diffuse = fmax(n_l, 0) * fmax(1 - largest(dielectric_f), 0);
+    if (set & LAYER_DIELECTRIC) // KHR_materials_pbrSpecularGlossiness where `glossy` is 1
+        *diffuse *= 1 - p->glossy * largest(f0);
     if (set & LAYER_TRANSMISSION)
         *diffuse *= 1 - p->transmission;
     for (int i = 0; i < 3; i++)
@@ -229,6 +231,7 @@ static struct point random_point(struct random *r)
     p.roughness = 0.1 + 0.9 * share(r);
     p.ior = 1 + 2 * share(r);
     p.weight = share(r);
+    p.glossy = share(r);
     p.coat = share(r);
     p.coat_roughness = 0.1 + 0.9 * share(r);
     p.sheen_roughness = 0.2 + 0.8 * share(r);
@@ -248,6 +251,7 @@ static layer_values layers_from(const struct point *p)
                       .ior = (float)p->ior,
                       .specular_weight = (float)p->weight,
                       .f0_color = {(float)p->color[0], (float)p->color[1], (float)p->color[2]},
+                      .specular_glossiness = (float)p->glossy,
                       .clearcoat = (float)p->coat,
                       .clearcoat_roughness = (float)p->coat_roughness,
                       .clearcoat_normal = narrow(p->coat_n),
@@ -307,6 +311,7 @@ static void test_neutral(void **state)
         layer_values given = layers_from(&p);
         given.ior = 1.5f;
         given.specular_weight = 1;
+        given.specular_glossiness = 0;
         given.f0_color = (vec3){1, 1, 1};
         given.clearcoat = given.anisotropy = given.iridescence = given.transmission = 0;
         given.sheen_color = (vec3){0, 0, 0};

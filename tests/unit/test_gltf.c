@@ -559,13 +559,17 @@ static void test_materials(void **state)
     assert_true(m->diffuse.a == 0.5f && m->diffuse.g == 0.5f && m->metallic == 1 && m->roughness == 0);
     m = lam_scene_material(scene, 2);
     assert_true(m->unlit && m->diffuse.g == 0.2f);
-    // Specular-glossiness: the metalness that gives both colours, as the brightest channel has it
+    // Specular-glossiness: a dielectric that reflects its specular colour, and all at grazing angles
     m = lam_scene_material(scene, 3);
     assert_true(m->physical && m->roughness == 1 && m->diffuse.a == 0.4f);
     assert_true(m->alpha_mode == LAM_ALPHA_MASK && m->alpha_cutoff == 0.3f);
-    double base = (double)m->diffuse.b, metallic = (double)m->metallic;
-    assert_near(base * (1 - metallic), 0.3, 1e-5);
-    assert_near(0.04 * (1 - metallic) + base * metallic, 0.7, 1e-5);
+    assert_true(m->diffuse.b == 0.3f && m->metallic == 0 && m->ior == 0 && m->specular_weight == 1);
+    assert_true(m->f0_color.r == 0.5f && m->f0_color.g == 0.6f && m->f0_color.b == 0.7f);
+    assert_true(m->specular_glossiness == 1 && lam_scene_material(scene, 0)->specular_glossiness == 0);
+    // As a classic material it is what it says, less the light that the specular part takes.
+    lam_material classic = lam_material_as_classic(m);
+    assert_near((double)classic.diffuse.b, 0.3 * (1 - 0.7), 1e-6);
+    assert_near((double)classic.specular.r, 0.5 * 9 / 8, 1e-6);
     lam_scene_free(scene);
     // No material: the specification's default, rough white metal.
     scene = load_more(SCENE, "", NULL);

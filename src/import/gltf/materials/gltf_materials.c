@@ -14,6 +14,7 @@ struct factors {
     double base[4];               // colour and alpha
     double metallic, roughness;   // 0…1
     double specular[3];           // of specular-glossiness
+    double glossiness;            // and, 0…1
     bool has_specular;            // specular-glossiness, not metallic-roughness
     double emission[3], strength; // emissiveFactor; KHR_materials_emissive_strength
     double cutoff;
@@ -49,7 +50,6 @@ static bool take_specular_glossiness(struct gltf *gltf, const struct place *plac
 {
     const json_t *pbr = gltf_extension(object, "KHR_materials_pbrSpecularGlossiness");
     const struct place *here = KEY_OF(KEY_OF(place, "extensions"), "KHR_materials_pbrSpecularGlossiness");
-    double glossiness = 1;
     if (!pbr)
         return true;
     f->has_specular = true;
@@ -57,10 +57,11 @@ static bool take_specular_glossiness(struct gltf *gltf, const struct place *plac
         f->base[i] = 1;
     if (!gltf_take_numbers(gltf, here, pbr, "diffuseFactor", 4, f->base) ||
         !gltf_take_numbers(gltf, here, pbr, "specularFactor", 3, f->specular) ||
-        !take_share(gltf, here, pbr, "glossinessFactor", &glossiness))
+        !take_share(gltf, here, pbr, "glossinessFactor", &f->glossiness))
         return false;
     f->metallic = 0;
-    f->roughness = 1 - glossiness;
+    // With a map of it the roughness 1 − glossiness · alpha is the map's own, as offset + scale · alpha.
+    f->roughness = json_object_get(pbr, "specularGlossinessTexture") ? 1 : 1 - f->glossiness;
     return true;
 }
 
@@ -95,13 +96,13 @@ static lam_material material_of(const struct factors *f, const char *name)
     material.alpha_cutoff = (float)f->cutoff;
     material.emission = rgb_of(f->emission, f->strength);
     material.unlit = f->unlit;
-    if (f->has_specular) { // the metalness that gives both colours
-        material.specular = rgb_of(f->specular, (1.0 + 8) / 8);
-        material.shininess = 1;
-        material = lam_material_as_physical(&material);
+    if (f->has_specular) { // a dielectric that reflects everything but for its colour
+        material.ior = 0;
+        material.f0_color = rgb_of(f->specular, 1);
+        material.specular_glossiness = 1;
     }
     material.physical = true;
-    material.metallic = f->has_specular ? material.metallic : (float)f->metallic;
+    material.metallic = (float)f->metallic;
     material.roughness = (float)f->roughness;
     return material;
 }
@@ -110,12 +111,25 @@ static const struct factors default_factors = {.base = {1, 1, 1, 1},
                                                .metallic = 1,
                                                .roughness = 1,
                                                .specular = {1, 1, 1},
+                                               .glossiness = 1,
                                                .strength = 1,
                                                .cutoff = 0.5,
                                                .alpha = LAM_ALPHA_OPAQUE};
 
+// The maps of a material of specular and glossiness: the specular colour with the glossiness in its alpha.
+static bool take_glossy_maps(struct gltf *gltf, const struct place *place, const json_t *glossy, int index,
+                             float glossiness)
+{
+    const struct gltf_map_request color = {index, LAM_MAP_DIFFUSE, LAM_TEXTURE_COLOR, 0, 1, 0},
+                                  f0 = {index, LAM_MAP_F0_COLOR, LAM_TEXTURE_COLOR, 0, 1, 0},
+                                  roughness = {index, LAM_MAP_ROUGHNESS, LAM_TEXTURE_COLOR, 3, -glossiness, 1};
+    return gltf_take_map(gltf, place, glossy, "diffuseTexture", color, NULL) &&
+           gltf_take_map(gltf, place, glossy, "specularGlossinessTexture", f0, NULL) &&
+           (glossiness == 0 || gltf_take_map(gltf, place, glossy, "specularGlossinessTexture", roughness, NULL));
+}
+
 // Asks for the maps of material `index`.
-static bool take_maps(struct gltf *gltf, const struct place *place, const json_t *object, int index)
+static bool take_maps(struct gltf *gltf, const struct place *place, const json_t *object, int index, float glossiness)
 {
     bool ok = true;
     const json_t *pbr = gltf_take_object(gltf, place, object, "pbrMetallicRoughness", &ok);
@@ -139,7 +153,7 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
     return (scale == 0 || gltf_take_map(gltf, place, object, "normalTexture", bent, NULL)) &&
            (strength == 0 || gltf_take_map(gltf, place, object, "occlusionTexture", hidden, NULL)) &&
            gltf_take_map(gltf, place, object, "emissiveTexture", glow, NULL) &&
-           (glossy ? gltf_take_map(gltf, in_glossy, glossy, "diffuseTexture", color, NULL)
+           (glossy ? take_glossy_maps(gltf, in_glossy, glossy, index, glossiness)
                    : gltf_take_map(gltf, in_pbr, pbr, "baseColorTexture", color, NULL) &&
                          gltf_take_map(gltf, in_pbr, pbr, "metallicRoughnessTexture", metallic, NULL) &&
                          gltf_take_map(gltf, in_pbr, pbr, "metallicRoughnessTexture", roughness, NULL));
@@ -169,7 +183,8 @@ bool gltf_materials_read(struct gltf *gltf)
         const struct place *place = ELEMENT_OF(KEY_OF(NULL, "materials"), i);
         const json_t *object = gltf_list_item(gltf, "materials", (int)i);
         struct factors factors = default_factors;
-        bool ok = take_factors(gltf, place, object, &factors) && take_maps(gltf, place, object, (int)i);
+        bool ok = take_factors(gltf, place, object, &factors) &&
+                  take_maps(gltf, place, object, (int)i, (float)factors.glossiness);
         lam_material material = material_of(&factors, ok ? gltf_name(gltf, object, &ok) : NULL);
         ok = ok && gltf_take_layers(gltf, place, object, (int)i, &material);
         if (!ok || scene_adopt_material(gltf->scene, &material, gltf->json.error) < 0)

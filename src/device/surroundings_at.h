@@ -15,6 +15,39 @@ LANE_FN vec3 to_environment_axes(const struct frame *frame, vec3 w)
                    (m[2][0] * w.x + m[2][1] * w.y) + m[2][2] * w.z);
 }
 
+// What cube_look finds, with the four texels around each direction gathered as they are needed: side by side for each channel.
+LANE_FN vec3 cube_gathered(const struct lam_environment *cube, vec3 direction)
+{
+    struct cube_place place = cube_place(direction.x, direction.y, direction.z, cube->size);
+    const float *texels = cube->texels, *below = texels + cube_row(cube);
+    inum column = int_of(place.s), row = int_of(place.t), side = inum_of(cube->size + 2);
+    num s = place.s - num_of_int(column), t = place.t - num_of_int(row), a[3], b[3], c[3], d[3], mixed[3];
+    uint32_t at[LANES];
+    inum_store((int32_t *)at, wrap_add(wrap_mul(wrap_add(wrap_mul(place.face, side), row), side), column));
+    gather3(texels, at, 3, a);
+    gather3(texels + 3, at, 3, b);
+    gather3(below, at, 3, c);
+    gather3(below + 3, at, 3, d);
+    for (int i = 0; i < 3; i++) {
+        num upper = a[i] + (b[i] - a[i]) * s, lower = c[i] + (d[i] - c[i]) * s;
+        mixed[i] = upper + (lower - upper) * t;
+    }
+    return vec3_of(mixed[0], mixed[1], mixed[2]);
+}
+
+// What prefiltered_look finds: of a material without maps all lanes have the same two levels.
+LANE_FN vec3 prefiltered_gathered(const struct environment_light *light, num level, vec3 direction)
+{
+    inum first = int_of(min_of(level, num_of((float)(ENVIRONMENT_LEVELS - 2))));
+    int number = ilane(first, 0);
+    if (!all_lanes(num_of_int(first) == (float)number)) {
+        struct cube_color c = prefiltered_look(light, level, direction.x, direction.y, direction.z);
+        return vec3_of(c.r, c.g, c.b);
+    }
+    vec3 a = cube_gathered(&light->level[number], direction), b = cube_gathered(&light->level[number + 1], direction);
+    return add3(a, scale3(sub3(b, a), level - num_of_int(first)));
+}
+
 // The surroundings of a surface of that roughness.
 LANE_FN surroundings surroundings_at(const struct frame *frame, const struct environment_light *light, surface s,
                                      num roughness)
@@ -22,10 +55,8 @@ LANE_FN surroundings surroundings_at(const struct frame *frame, const struct env
     surroundings e;
     vec3 n = to_environment_axes(frame, s.n), r = to_environment_axes(frame, mirror3(s.v, s.n));
     num n_dot_v = dot3(s.n, s.v);
-    struct cube_color above = cube_look(&light->irradiance, n.x, n.y, n.z);
-    struct cube_color around = prefiltered_look(light, prefilter_level(roughness), r.x, r.y, r.z);
-    e.irradiance = vec3_of(above.r, above.g, above.b);
-    e.prefiltered = vec3_of(around.r, around.g, around.b);
+    e.irradiance = cube_gathered(&light->irradiance, n);
+    e.prefiltered = prefiltered_gathered(light, prefilter_level(roughness), r);
     e.albedo = single_scattering(n_dot_v, roughness);
     e.bias = schlick_scattering(n_dot_v, roughness);
     return e;

@@ -3,8 +3,10 @@
 
 Two rules hold the house together (docs/architecture.md): files never depend on one another in a circle, in the library or in
 the program; and a room of the library uses no room below it in the list. The include paths of the build keep headers to that
-order; this test keeps function calls to it."""
+order; this test keeps function calls to it. A third keeps the way through the house: a file that a page or a comment names
+is there."""
 import collections
+import glob
 import os
 import re
 import subprocess
@@ -95,10 +97,34 @@ def circles(edges):
     return found
 
 
+TOPS = "src|tools|tests|include|web|scripts|bench|scenes|examples|docs"
+NAMED = re.compile(r"(?<![\w./-])((?:%s)/[\w./-]*\w)" % TOPS)  # a path from the root
+BARE = re.compile(r"(?<![\w./<-])([a-z][a-z_0-9]+\.(?:c|inc|h))(?!\w)")  # a file without its folder, in a comment of the library
+ELSEWHERE = {"jpeglib.h", "teapots.c", "docs/turning"}  # a library's, a program's that is cited, a program that is built
+
+
+def missing_files():
+    """(file, name) for each path in a page or a C file, and each file in a comment of the library, that is not there."""
+    files = [os.path.relpath(os.path.join(path, name), ROOT) for top in ["."] + TOPS.split("|") for path, folders, names in
+             os.walk(os.path.join(ROOT, top)) if top != "." or not folders.clear() for name in names]
+    known = {os.path.basename(name) for name in files}
+    for file in files:
+        if not file.endswith((".c", ".h", ".inc", ".md")) or file == "CHANGELOG.md" or "node_modules" in file:
+            continue
+        for line in open(os.path.join(ROOT, file), encoding="utf-8", errors="replace"):
+            for name in NAMED.findall(line):
+                # A name may stand for several files or one that is made: docs/turning.c, results/DATE.json, job_*.
+                if not (os.path.exists(os.path.join(ROOT, name)) or glob.glob(os.path.join(ROOT, name) + "*") or
+                        "DATE" in name or name in ELSEWHERE):
+                    yield file, name
+            if file.startswith("src/") and not file.endswith(".md") and "//" in line:
+                yield from ((file, name) for name in BARE.findall(line.split("//", 1)[1]) if name not in known | ELSEWHERE)
+
+
 def main():
     edges, order = graph(sys.argv[1]), rooms()
     bad = 0
-    print("1..2")
+    print("1..3")
     found = circles(edges)
     print("%s 1 - no circle between files" % ("not ok" if found else "ok"))
     for part in found:
@@ -114,6 +140,11 @@ def main():
     for a, b, symbols in sorted(back):
         bad += 1
         print("#   %s uses %s: %s" % (a, b, ", ".join(sorted(symbols)[:6])))
+    absent = sorted(set(missing_files()))
+    print("%s 3 - files that pages and comments name are there" % ("not ok" if absent else "ok"))
+    for file, name in absent:
+        bad += 1
+        print("#   %s names %s" % (file, name))
     if not edges:
         print("# no objects were found in %s" % sys.argv[1])
     return 1 if bad or not edges else 0

@@ -1,5 +1,6 @@
 # test_check.py: the command `check`: correct shaders pass, each known mistake is identified, and shaders that do not compile, do
 # not end or write NaN are reported.
+# Above 600 lines: one test for each option and each kind of submission, with the programs that they share.
 import concurrent.futures
 import json
 import os

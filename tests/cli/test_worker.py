@@ -1,4 +1,5 @@
 # test_worker.py: lambent batch --jobs: jobs as lines of JSON and their answers, hostile ones among them (docs/worker.md).
+# Above 600 lines: one test for each key of a job and each way that a worker ends.
 import base64
 import json
 import os

@@ -2,8 +2,8 @@
 // double, for every instruction set and several thread counts.
 //
 // The camera is orthographic and maps one unit to one pixel, so that a corner at a multiple of 1/256 is snapped to
-// itself. Colours are painted unlit. What is told here is told twice, in the library and below, from docs/lighting.md
-// alone. Above 600 lines: the reference in double and every way to reach it stand together.
+// itself. Colours are painted unlit. The reference is written from docs/lighting.md alone.
+// Above 600 lines: the reference in double and every way to reach it stand together.
 #include <lambent/lambent.h>
 
 #include <math.h>

@@ -1,4 +1,5 @@
 // test_edges.c: wireframes and feature edges: which edges, how wide, what hides them, on every device alike.
+#include "device_fixture.h"
 #include "loading.h"
 
 #include <math.h>
@@ -6,22 +7,6 @@
 #ifndef M_PI
 #define M_PI 3.14159265358979323846
 #endif
-
-static lam_device *device;
-
-static int set_up(void **state)
-{
-    (void)state;
-    device = lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL);
-    return device ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    lam_device_free(device);
-    return 0;
-}
 
 enum { SIDE = 256 };
 

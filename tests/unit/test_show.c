@@ -13,21 +13,7 @@
 
 #include <cmocka.h>
 
-static lam_device *device;
-
-static int set_up(void **state)
-{
-    (void)state;
-    device = lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL);
-    return device ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    lam_device_free(device);
-    return 0;
-}
+#include "device_fixture.h"
 
 static lam_image draw(const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params, int width,
                       int height, lam_pixel_format format)

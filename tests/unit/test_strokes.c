@@ -1,24 +1,9 @@
 // test_strokes.c: lines and points: their width in pixels, clipping, light, colours, the camera's fit, and the files that
 // hold them.
+#include "device_fixture.h"
 #include "loading.h"
 
 #include <math.h>
-
-static lam_device *device;
-
-static int set_up(void **state)
-{
-    (void)state;
-    device = lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL);
-    return device ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    lam_device_free(device);
-    return 0;
-}
 
 enum { SIDE = 64 };
 

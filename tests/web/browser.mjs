@@ -1,6 +1,7 @@
 // browser.mjs PLAYWRIGHT CHROMIUM BUILD_WEB MODELS SEQUENCES: the page in a browser, by what a person does: pointers, keys, drops. Prints lines of the
 // Test Anything Protocol without numbers, and for each random sequence of gestures "pixels {command, hash}": the command that the page copies,
 // and the SHA-256 of the canvas' colours; the caller (browser.py) draws that command with the program.
+// Above 600 lines: one test for each thing that a person does, in one browser, which takes seconds to start.
 import { createHash } from 'node:crypto';
 import { readFileSync, truncateSync, writeFileSync } from 'node:fs';
 import { extname, join, resolve } from 'node:path';

@@ -1,4 +1,4 @@
-// realpath.c: the absolute path of a file. What a module sees as its files is a tree without links (web/files.js), whose
+// realpath.c: the absolute path of a file. What a module sees as its files is a tree without links (web/wasi.js), whose
 // current folder is the root.
 #include <errno.h>
 #include <limits.h>

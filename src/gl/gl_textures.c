@@ -6,6 +6,7 @@
 #include "gl_device.h"
 
 #include "fail.h"
+#include "pixels.h"
 #include "texture_levels.h"
 
 #define LANES 1
@@ -33,7 +34,7 @@ static void pack_level(const struct lam_texture *texture, int level, const struc
     uint16_t *shorts = out;
     float *floats = out;
     if (format->type == GL_UNSIGNED_BYTE && !l->floats) {
-        memcpy(out, texture->bytes, (size_t)l->width * (size_t)l->height * 4);
+        pixels_to_working(texture->channels == 3 ? LAM_RGB8 : LAM_RGBA8, texture->bytes, l->width * l->height, out);
         return;
     }
     for (int y = 0; y < l->height; y++)
@@ -56,7 +57,7 @@ static void pack_level(const struct lam_texture *texture, int level, const struc
 static bool needs_floats(const struct lam_texture *texture)
 {
     const struct texture_level *l = &texture->levels[0];
-    size_t count = (size_t)l->width * (size_t)l->height * 4;
+    size_t count = (size_t)l->width * (size_t)l->height * (size_t)texture->channels;
     bool outside = false;
     for (size_t i = 0; l->floats && !outside && i < count; i++)
         outside = !(l->floats[i] >= 0 && l->floats[i] <= 1);

@@ -35,8 +35,8 @@ struct codec {
     // decoded one by one under picture_continues.
     bool (*read)(const struct picture_file *file, lam_image *image, lam_error *error);
 
-    // As read, for a format that can have more than 8 bits a number. For such a file `image` becomes LAM_RGBA32F with
-    // the file's numbers, 0…1, neither decoded nor premultiplied, and *wide becomes true. NULL: read keeps all bits.
+    // As read, but as the file has it. More than 8 bits a number: `image` becomes LAM_RGBA32F with the file's numbers, 0…1,
+    // neither decoded nor premultiplied, and *wide becomes true. 8 bits without alpha: LAM_RGB8. NULL: read does that.
     bool (*read_wide)(const struct picture_file *file, lam_image *image, bool *wide, lam_error *error);
 
     // Whether the first bytes of a file of this format (CODEC_HEAD of them or the whole file) say that
@@ -66,6 +66,10 @@ bool picture_size_check(const struct picture_file *file, uint32_t width, uint32_
 bool picture_make(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
                   lam_image *image, lam_error *error);
 
+// The same with more bytes behind the pixels, fewer than a row has for each row; they are not charged.
+bool picture_make_larger(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
+                         size_t more, lam_image *image, lam_error *error);
+
 // Frees a picture and refunds its bytes. `call` may be NULL; an empty picture is fine.
 void picture_free(struct call_control *call, lam_image *image);
 
@@ -78,7 +82,7 @@ static inline bool picture_continues(const struct picture_file *file, int64_t y,
 // Decodes a picture of any format; with `linear` to LAM_RGBA32F, linear and premultiplied. Its bytes stay charged to the
 // file's call (picture_free).
 bool picture_decode(const struct picture_file *file, lam_image *image, lam_error *error);
-// With all bits of the file, as read_wide gives them.
+// As read_wide gives it: also LAM_RGB8.
 bool picture_decode_wide(const struct picture_file *file, bool *wide, lam_image *image, lam_error *error);
 bool picture_decode_linear(const struct picture_file *file, lam_color_mode color, lam_image *image, lam_error *error);
 

@@ -28,6 +28,11 @@ static void *get_pixels(size_t bytes)
 
 bool lam_image_make(lam_image *image, int width, int height, lam_pixel_format format, lam_error *error)
 {
+    return image_make_larger(image, width, height, format, 0, error);
+}
+
+bool image_make_larger(lam_image *image, int width, int height, lam_pixel_format format, size_t more, lam_error *error)
+{
     if (!image)
         return fail(error, LAM_BAD_ARGUMENT, "image: none given");
     *image = (lam_image){0};
@@ -38,7 +43,7 @@ bool lam_image_make(lam_image *image, int width, int height, lam_pixel_format fo
     if (width > MAX_SIDE || height > MAX_SIDE)
         return fail(error, LAM_LIMIT, "image: %d×%d pixels, expected at largest %d×%d", width, height, MAX_SIDE,
                     MAX_SIDE);
-    uint64_t bytes = (uint64_t)width * (uint64_t)height * pixel_bytes(format); // below 2³⁶
+    uint64_t bytes = (uint64_t)width * (uint64_t)height * pixel_bytes(format) + more; // below 2³⁷
     // The system promises more memory than it has and kills the process that uses it; drawing and encoding need
     // some too.
     void *pixels = bytes <= SIZE_MAX && bytes <= pages_of_machine() / 2 ? get_pixels((size_t)bytes) : NULL;

@@ -2,6 +2,7 @@
 // bytes on every processor.
 #include "codec.h"
 #include "fail.h"
+#include "pixels.h"
 
 #include <setjmp.h>
 #include <stdio.h> // jpeglib.h wants it
@@ -20,6 +21,7 @@ struct reader {
     jmp_buf out;
     char message[JMSG_LENGTH_MAX];
     const struct picture_file *file;
+    bool rgb;           // LAM_RGB8 rather than LAM_RGBA8, but for inks
     bool stopped;       // the call must end
     bool out_of_memory; // libjpeg's own
     size_t charged;     // for libjpeg's coefficients
@@ -109,18 +111,19 @@ static bool decode(struct reader *reader, lam_image *image, lam_error *error)
     if (!jpeg_fits(jpeg, file->size))
         return fail(error, LAM_CANNOT_READ, "%s: JPEG of %u×%u pixels, which cannot be in a file of %zu bytes",
                     file->name, jpeg->image_width, jpeg->image_height, file->size);
-    jpeg->out_color_space = inks ? JCS_CMYK : JCS_EXT_RGBA; // alpha 255
+    lam_pixel_format format = reader->rgb && !inks ? LAM_RGB8 : LAM_RGBA8;
+    jpeg->out_color_space = inks ? JCS_CMYK : format == LAM_RGB8 ? JCS_RGB : JCS_EXT_RGBA; // alpha 255
     jpeg->dct_method = JDCT_ISLOW;
     jpeg->do_fancy_upsampling =
         TRUE; // colours at half the size are interpolated linearly: integers, the same everywhere
     jpeg->do_block_smoothing = FALSE; // only matters to files that lack scans, which are refused
     // The picture first: where there is no memory for it, the coefficients need none.
-    if (!picture_make(file, jpeg->image_width, jpeg->image_height, LAM_RGBA8, image, error) ||
+    if (!picture_make(file, jpeg->image_width, jpeg->image_height, format, image, error) ||
         !charge_coefficients(reader, error))
         return false;
     jpeg_start_decompress(jpeg);
     while (jpeg->output_scanline < jpeg->output_height) {
-        JSAMPROW row = (JSAMPROW)image->pixels + (size_t)jpeg->output_scanline * jpeg->output_width * 4;
+        JSAMPROW row = image_row(image, (int)jpeg->output_scanline);
         jpeg_read_scanlines(jpeg, &row, 1);
         if (inks)
             mix_inks(row, jpeg->output_width, jpeg->saw_Adobe_marker);
@@ -144,7 +147,7 @@ static bool decode_or_jump(struct reader *reader, lam_image *image, lam_error *e
     return setjmp(reader->out) == 0 ? decode(reader, image, error) : fail_jump(reader, error);
 }
 
-static bool jpeg_read(const struct picture_file *file, lam_image *image, lam_error *error)
+static bool jpeg_read_as(bool rgb, const struct picture_file *file, lam_image *image, lam_error *error)
 {
     struct reader reader;
     reader.jpeg = (struct jpeg_decompress_struct){.err = jpeg_std_error(&reader.errors)};
@@ -153,6 +156,7 @@ static bool jpeg_read(const struct picture_file *file, lam_image *image, lam_err
     reader.errors.output_message = print_nothing;
     reader.progress = (struct jpeg_progress_mgr){.progress_monitor = monitor};
     reader.file = file;
+    reader.rgb = rgb;
     reader.stopped = reader.out_of_memory = false;
     reader.charged = 0;
     bool ok = decode_or_jump(&reader, image, error);
@@ -162,6 +166,17 @@ static bool jpeg_read(const struct picture_file *file, lam_image *image, lam_err
     if (!ok)
         picture_free(file->call, image);
     return ok;
+}
+
+static bool jpeg_read(const struct picture_file *file, lam_image *image, lam_error *error)
+{
+    return jpeg_read_as(false, file, image, error);
+}
+
+static bool jpeg_read_wide(const struct picture_file *file, lam_image *image, bool *wide, lam_error *error)
+{
+    *wide = false;
+    return jpeg_read_as(true, file, image, error);
 }
 
 // A remark after the marks of a file's begin and of JFIF.
@@ -180,5 +195,6 @@ const struct codec codec_jpeg = {
     .write = jpeg_write,
     .probe = jpeg_probe,
     .read = jpeg_read,
+    .read_wide = jpeg_read_wide,
     .ours = jpeg_ours,
 };

@@ -1,6 +1,7 @@
 // linearize.c: a picture's numbers, as a file has them, to linear light.
 #include "codec.h"
 #include "fail.h"
+#include "pixels.h"
 #include "srgb.h"
 
 #include <stdlib.h>
@@ -48,16 +49,17 @@ static bool decode_bytes(const struct picture_file *file, lam_image *image, cons
     if (!picture_make(file, (uint32_t)image->width, (uint32_t)image->height, LAM_RGBA32F, &floats, error))
         return false;
     const uint8_t *from = image->pixels;
+    const size_t bytes = pixel_bytes(image->format); // 4, or 3 without alpha
     float *pixel = floats.pixels;
     for (int y = 0; y < image->height; y++) {
         if (!picture_continues(file, y, error)) {
             picture_free(file->call, &floats);
             return false;
         }
-        for (int x = 0; x < image->width; x++, pixel += 4, from += 4) {
+        for (int x = 0; x < image->width; x++, pixel += 4, from += bytes) {
             for (int channel = 0; channel < 3; channel++)
                 pixel[channel] = table[from[channel]];
-            pixel[3] = (float)from[3] / 255.0f;
+            pixel[3] = bytes == 4 ? (float)from[3] / 255.0f : 1;
             premultiply(pixel);
         }
     }

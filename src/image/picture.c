@@ -23,13 +23,19 @@ bool picture_size_check(const struct picture_file *file, uint32_t width, uint32_
 bool picture_make(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
                   lam_image *image, lam_error *error)
 {
+    return picture_make_larger(file, width, height, format, 0, image, error);
+}
+
+bool picture_make_larger(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
+                         size_t more, lam_image *image, lam_error *error)
+{
     *image = (lam_image){0};
     if (!picture_size_check(file, width, height, error))
         return false;
     size_t bytes = (size_t)width * height * pixel_bytes(format);
     if (file->call && !call_charge(file->call, bytes))
         return call_memory_error(file->call, bytes, error);
-    if (lam_image_make(image, (int)width, (int)height, format, error))
+    if (image_make_larger(image, (int)width, (int)height, format, more, error))
         return true;
     if (file->call)
         call_refund(file->call, bytes);

@@ -26,6 +26,9 @@ static inline void *image_row(const lam_image *image, int y)
     return (char *)image->pixels + (ptrdiff_t)y * image_stride(image);
 }
 
+// As lam_image_make, with more bytes behind the pixels.
+bool image_make_larger(lam_image *image, int width, int height, lam_pixel_format format, size_t more, lam_error *error);
+
 // Whether a picture of the caller's can be used: its pixels, size, format and stride. `what` begins the sentence.
 bool image_check(const lam_image *image, const char *what, lam_error *error);
 

@@ -23,16 +23,19 @@ static struct cover cover_of(int from, int to, int i)
     return cover;
 }
 
+// The fourth number of three belongs to the next texel, which is stored later.
+static void store_texel(float *out, texel t) { *(texel_memory *)out = t; }
+
 static void halve_even(const struct lam_texture *texture, int level)
 {
     const struct texture_level *to = &texture->levels[level];
     float *out = (float *)(uintptr_t)to->floats;
     for (int y = 0; y < to->height; y++)
-        for (int x = 0; x < to->width; x++, out += 4) {
+        for (int x = 0; x < to->width; x++, out += texture->channels) {
             texel upper = texel_at(texture, level - 1, 2 * x, 2 * y) + texel_at(texture, level - 1, 2 * x + 1, 2 * y);
             texel lower =
                 texel_at(texture, level - 1, 2 * x, 2 * y + 1) + texel_at(texture, level - 1, 2 * x + 1, 2 * y + 1);
-            *(texel_memory *)out = (upper + lower) * 0.25f;
+            store_texel(out, (upper + lower) * 0.25f);
         }
 }
 
@@ -42,14 +45,14 @@ static void halve_any(const struct lam_texture *texture, int level)
     float *out = (float *)(uintptr_t)to->floats;
     for (int y = 0; y < to->height; y++) {
         struct cover rows = cover_of(from->height, to->height, y);
-        for (int x = 0; x < to->width; x++, out += 4) {
+        for (int x = 0; x < to->width; x++, out += texture->channels) {
             struct cover columns = cover_of(from->width, to->width, x);
             texel sum = {0, 0, 0, 0};
             for (int j = 0; j < rows.count; j++)
                 for (int i = 0; i < columns.count; i++)
                     sum += texel_at(texture, level - 1, columns.first + i, rows.first + j) *
                            (columns.weight[i] * rows.weight[j]);
-            *(texel_memory *)out = sum;
+            store_texel(out, sum);
         }
     }
 }

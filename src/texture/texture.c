@@ -27,7 +27,7 @@ static int side_of(int side, int level) { return side >> level ? side >> level :
 #define PAGES_FROM ((size_t)2 << 20)
 
 // Allocates a texture of this size, with its levels except for level 0 of bytes. NULL: LAM_LIMIT.
-static struct lam_texture *allocate(const lam_image *image, const char *name, struct call_control *call,
+static struct lam_texture *allocate(const lam_image *image, int channels, const char *name, struct call_control *call,
                                     lam_error *error)
 {
     bool floats = image->format == LAM_RGBA32F;
@@ -35,7 +35,8 @@ static struct lam_texture *allocate(const lam_image *image, const char *name, st
     size_t name_bytes = name ? strlen(name) + 1 : 0, table = 512 * sizeof(float), texels = 0;
     for (int level = floats ? 0 : 1; level < levels; level++)
         texels += (size_t)side_of(image->width, level) * (size_t)side_of(image->height, level);
-    size_t floats_bytes = texels * 4 * sizeof(float), own = sizeof(struct lam_texture) + table + name_bytes;
+    size_t floats_bytes = (texels * (size_t)channels + 1) * sizeof(float);
+    size_t own = sizeof(struct lam_texture) + table + name_bytes;
     bool large = floats_bytes >= PAGES_FROM;
     if (call && !call_charge(call, own + floats_bytes)) {
         call_memory_error(call, own + floats_bytes, error);
@@ -52,18 +53,18 @@ static struct lam_texture *allocate(const lam_image *image, const char *name, st
         return NULL;
     }
     float *decode = (float *)(texture + 1), *next = large ? pages : decode + 512;
-    *texture =
-        (struct lam_texture){.references = 1, .level_count = levels, .decode = decode, .pages = pages, .held = held};
+    *texture = (struct lam_texture){
+        .references = 1, .level_count = levels, .channels = channels, .decode = decode, .pages = pages, .held = held};
     for (int level = 0; level < levels; level++) {
         struct texture_level *l = &texture->levels[level];
         *l = (struct texture_level){side_of(image->width, level), side_of(image->height, level), NULL};
         if (level == 0 && !floats)
             continue;
         l->floats = next;
-        next += (size_t)l->width * (size_t)l->height * 4;
+        next += (size_t)l->width * (size_t)l->height * (size_t)channels;
     }
     if (name)
-        texture->name = memcpy(large ? decode + 512 : next, name, name_bytes);
+        texture->name = memcpy(large ? decode + 512 : next + 1, name, name_bytes);
     return texture;
 }
 
@@ -86,6 +87,45 @@ void lam_texture_free(lam_texture *texture)
 
 // --- level 0
 
+static size_t pixels_of(const lam_image *image) { return (size_t)image->width * (size_t)image->height; }
+
+// Takes the alphas out of a picture of bytes where all are 255, and a quarter of its memory.
+static void drop_opaque_alpha(lam_image *image, struct call_control *call)
+{
+    uint8_t *bytes = image->pixels;
+    size_t count = pixels_of(image);
+    unsigned all = 255;
+    for (size_t i = 0; i < count; i++)
+        all &= bytes[4 * i + 3];
+    if (all != 255)
+        return;
+    for (size_t i = 0; i < count; i++)
+        memmove(bytes + 3 * i, bytes + 4 * i, 3);
+    void *smaller = realloc(bytes, 3 * count);
+    image->pixels = smaller ? smaller : bytes;
+    image->format = LAM_RGB8;
+    if (call)
+        call_refund(call, count);
+}
+
+// The numbers that a texel of a picture needs; 0: one of them is not finite.
+static int count_channels(const lam_image *image, const char *name, lam_error *error)
+{
+    const float *pixel = image->pixels;
+    bool ones = true;
+    if (image->format != LAM_RGBA32F)
+        return image->format == LAM_RGB8 ? 3 : 4;
+    for (size_t i = 0; i < 4 * pixels_of(image); i++) {
+        if (!(pixel[i] - pixel[i] == 0)) {
+            fail(error, LAM_BAD_ARGUMENT, "%s: pixel %zu, %zu holds a number that is not finite",
+                 name ? name : "texture", i / 4 % (size_t)image->width, i / 4 / (size_t)image->width);
+            return 0;
+        }
+        ones &= i % 4 != 3 || pixel[i] == 1;
+    }
+    return ones ? 3 : 4;
+}
+
 static void take_bytes(struct lam_texture *texture, lam_image *image)
 {
     float *decode = (float *)(uintptr_t)texture->decode;
@@ -95,55 +135,46 @@ static void take_bytes(struct lam_texture *texture, lam_image *image)
     }
     texture->bytes = image->pixels;
     texture->storage = image->pixels;
+    texture->opaque = texture->channels == 3;
     *image = (lam_image){0};
-    size_t count = (size_t)texture->levels[0].width * (size_t)texture->levels[0].height;
-    unsigned all = 255;
-    for (size_t i = 0; i < count; i++)
-        all &= texture->bytes[4 * i + 3];
-    texture->opaque = all == 255;
 }
 
-// False: a number that is not finite.
-static bool take_floats(struct lam_texture *texture, const lam_image *image, const char *name, lam_error *error)
+static void take_floats(struct lam_texture *texture, const lam_image *image)
 {
     float *to = (float *)(uintptr_t)texture->levels[0].floats;
-    size_t count = (size_t)image->width * (size_t)image->height;
-    memcpy(to, image->pixels, count * 4 * sizeof *to);
+    const float *from = image->pixels;
+    size_t channels = (size_t)texture->channels;
     texture->opaque = true;
-    for (size_t i = 0; i < count * 4; i++) {
-        if (!(to[i] - to[i] == 0))
-            return fail(error, LAM_BAD_ARGUMENT, "%s: pixel %zu, %zu holds a number that is not finite",
-                        name ? name : "texture", i / 4 % (size_t)image->width, i / 4 / (size_t)image->width);
-        if (i % 4 == 3)
-            texture->opaque &= to[i] >= 1;
+    for (size_t i = 0; i < pixels_of(image); i++, from += 4, to += channels) {
+        memcpy(to, from, channels * sizeof *to);
+        texture->opaque &= from[3] >= 1;
     }
-    return true;
 }
 
 struct lam_texture *texture_of_image(lam_image *image, lam_texture_values values, const char *name,
                                      struct call_control *call, lam_error *error)
 {
     struct lam_texture *texture = NULL;
+    if (image->format == LAM_RGBA8)
+        drop_opaque_alpha(image, call);
+    int channels = 0;
     if (image->width > TEXTURE_SIDE_MAX || image->height > TEXTURE_SIDE_MAX)
         fail(error, LAM_LIMIT, "%s: %d×%d pixels, expected at most %d on a side", name ? name : "texture", image->width,
              image->height, TEXTURE_SIDE_MAX);
     else
-        texture = allocate(image, name, call, error);
-    bool ok = texture != NULL;
-    if (ok) {
+        channels = count_channels(image, name, error);
+    if (channels)
+        texture = allocate(image, channels, name, call, error);
+    if (texture) {
         texture->values = values;
-        if (image->format == LAM_RGBA8)
-            take_bytes(texture, image);
+        if (image->format == LAM_RGBA32F)
+            take_floats(texture, image);
         else
-            ok = take_floats(texture, image, name, error);
+            take_bytes(texture, image);
+        mipmaps_make(texture);
     }
     if (image->pixels)
         picture_free(call, image);
-    if (!ok) {
-        lam_texture_free(texture);
-        return NULL;
-    }
-    mipmaps_make(texture);
     return texture;
 }
 
@@ -256,7 +287,7 @@ uint64_t lam_texture_memory(const lam_texture *texture)
     uint64_t bytes = 0;
     for (int i = 0; texture && i < texture->level_count; i++)
         bytes += (uint64_t)texture->levels[i].width * (uint64_t)texture->levels[i].height *
-                 (texture->levels[i].floats ? 4 * sizeof(float) : 4);
+                 (uint64_t)texture->channels * (texture->levels[i].floats ? sizeof(float) : 1);
     return bytes;
 }
 

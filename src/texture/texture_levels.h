@@ -17,17 +17,19 @@ typedef float texel_memory __attribute__((vector_size(16), aligned(4), may_alias
 
 struct texture_level {
     int width, height;
-    const float *floats; // RGBA, rows from the top; NULL: `bytes`
+    const float *floats; // rows from the top; NULL: `bytes`
 };
 
 struct lam_texture {
     int references; // accessed atomically
     int level_count;
     lam_texture_values values;
+    // Numbers of a texel: 3 where no alpha differs from 1. A number at least can be read behind the last texel of floats.
+    int channels;
     // No texel has an alpha below 1.
     bool opaque;
     const char *name; // NULL: none
-    // Of level 0, where the picture has 8 bits: RGBA.
+    // Of level 0, where the picture has 8 bits.
     const uint8_t *bytes;
     const float *decode; // 256 values of a byte of red, green and blue; alpha is byte ÷ 255
     struct texture_level levels[TEXTURE_LEVELS_MAX];
@@ -36,20 +38,31 @@ struct lam_texture {
     size_t held;  // of those pages
 };
 
+// Texels of `channels` numbers: four channels.
+static inline texel texel_of_floats(const float *at, int channels)
+{
+    texel t = *(const texel_memory *)at;
+    if (channels == 3)
+        t[3] = 1;
+    return t;
+}
+
+static inline texel texel_of_bytes(const uint8_t *at, const float *decode, int channels)
+{
+    return (texel){decode[at[0]], decode[at[1]], decode[at[2]], channels == 3 ? 1 : decode[256 + at[3]]};
+}
+
 // A texel; x and y are inside.
 static inline texel texel_at(const struct lam_texture *texture, int level, int x, int y)
 {
     const struct texture_level *l = &texture->levels[level];
-    size_t at = ((size_t)y * (size_t)l->width + (size_t)x) * 4;
-    if (l->floats)
-        return *(const texel_memory *)(l->floats + at);
-    const uint8_t *byte = texture->bytes + at;
-    return (texel){texture->decode[byte[0]], texture->decode[byte[1]], texture->decode[byte[2]],
-                   texture->decode[256 + byte[3]]};
+    size_t at = ((size_t)y * (size_t)l->width + (size_t)x) * (size_t)texture->channels;
+    return l->floats ? texel_of_floats(l->floats + at, texture->channels)
+                     : texel_of_bytes(texture->bytes + at, texture->decode, texture->channels);
 }
 
-// Makes a texture of a decoded picture (LAM_RGBA8, or LAM_RGBA32F whose numbers are linear and not premultiplied), whose
-// pixels it takes over where they are bytes. Its memory is charged to `call`, which may be NULL. NULL: LAM_LIMIT,
+// Makes a texture of a decoded picture (LAM_RGB8, LAM_RGBA8, or LAM_RGBA32F whose numbers are linear and not
+// premultiplied), whose pixels it takes over where they are bytes. Its memory is charged to `call`, which may be NULL. NULL: LAM_LIMIT,
 // LAM_BAD_ARGUMENT; the picture is freed in any case.
 struct lam_texture *texture_of_image(lam_image *image, lam_texture_values values, const char *name,
                                      struct call_control *call, lam_error *error);

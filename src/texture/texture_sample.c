@@ -18,54 +18,59 @@ static texel mix_four(const texel four[4], float right, float lower)
     return mix(mix(four[0], four[1], right), mix(four[2], four[3], right), lower);
 }
 
-static inline texel texel_of_floats(const float *at) { return *(const texel_memory *)at; }
-
-static inline texel texel_of_bytes(const uint8_t *at, const float *decode)
+// A level's texels at a tap, mixed. `channels` is a constant where this is inlined.
+static inline __attribute__((always_inline)) texel fetch_tap(const struct lam_texture *texture, int channels, int level,
+                                                             int32_t first, int32_t across, int32_t down, float right,
+                                                             float lower)
 {
-    return (texel){decode[at[0]], decode[at[1]], decode[at[2]], decode[256 + at[3]]};
-}
-
-// A level's texels at a tap, mixed.
-static inline texel fetch_tap(const struct lam_texture *texture, int level, int32_t first, int32_t across, int32_t down,
-                              float right, float lower)
-{
-    const float *floats = texture->levels[level].floats;
-    ptrdiff_t at = 4 * (ptrdiff_t)first, to_right = 4 * (ptrdiff_t)across, to_lower = 4 * (ptrdiff_t)down;
+    const float *floats = texture->levels[level].floats, *decode = texture->decode;
+    ptrdiff_t at = channels * (ptrdiff_t)first, to_right = channels * (ptrdiff_t)across,
+              to_lower = channels * (ptrdiff_t)down;
     if (floats) {
         const float *upper = floats + at, *below = upper + to_lower;
-        return mix_four((texel[4]){texel_of_floats(upper), texel_of_floats(upper + to_right), texel_of_floats(below),
-                                   texel_of_floats(below + to_right)},
+        return mix_four((texel[4]){texel_of_floats(upper, channels), texel_of_floats(upper + to_right, channels),
+                                   texel_of_floats(below, channels), texel_of_floats(below + to_right, channels)},
                         right, lower);
     }
     const uint8_t *upper = texture->bytes + at, *below = upper + to_lower;
-    const float *decode = texture->decode;
-    return mix_four((texel[4]){texel_of_bytes(upper, decode), texel_of_bytes(upper + to_right, decode),
-                               texel_of_bytes(below, decode), texel_of_bytes(below + to_right, decode)},
-                    right, lower);
+    return mix_four(
+        (texel[4]){texel_of_bytes(upper, decode, channels), texel_of_bytes(upper + to_right, decode, channels),
+                   texel_of_bytes(below, decode, channels), texel_of_bytes(below + to_right, decode, channels)},
+        right, lower);
 }
 
-static inline texel fetch_row(const struct lam_texture *texture, int level, const struct tap_rows *rows, int i)
+static inline __attribute__((always_inline)) void fetch_rows(const struct lam_texture *texture, int channels,
+                                                             const struct texture_taps *taps, int count,
+                                                             float *const out[4])
 {
-    return fetch_tap(texture, level, rows->first[i], rows->across[i], rows->down[i], rows->right[i], rows->lower[i]);
+    const struct tap_rows *one = &taps->at[0], *two = &taps->at[1];
+    for (int i = 0; i < count; i++) {
+        int level = taps->level[i];
+        texel value = fetch_tap(texture, channels, level, one->first[i], one->across[i], one->down[i], one->right[i],
+                                one->lower[i]);
+        if (taps->next[i] != 0)
+            value = mix(value,
+                        fetch_tap(texture, channels, level + 1, two->first[i], two->across[i], two->down[i],
+                                  two->right[i], two->lower[i]),
+                        taps->next[i]);
+        for (int channel = 0; channel < 4; channel++)
+            out[channel][i] = value[channel];
+    }
 }
 
 void texture_fetch(const struct lam_texture *texture, const struct texture_taps *taps, int count, float *const out[4])
 {
-    for (int i = 0; i < count; i++) {
-        int level = taps->level[i];
-        texel value = fetch_row(texture, level, &taps->at[0], i);
-        if (taps->next[i] != 0)
-            value = mix(value, fetch_row(texture, level + 1, &taps->at[1], i), taps->next[i]);
-        for (int channel = 0; channel < 4; channel++)
-            out[channel][i] = value[channel];
-    }
+    if (texture->channels == 3)
+        fetch_rows(texture, 3, taps, count, out);
+    else
+        fetch_rows(texture, 4, taps, count, out);
 }
 
 // --- one point
 
 static texel fetch_one(const struct lam_texture *texture, int level, const struct tap_lanes *tap)
 {
-    return fetch_tap(texture, level, tap->first, tap->across, tap->down, tap->right, tap->lower);
+    return fetch_tap(texture, texture->channels, level, tap->first, tap->across, tap->down, tap->right, tap->lower);
 }
 
 // A picture's place at a level of detail.

@@ -1,5 +1,6 @@
 // test_png_read.c: pictures read at once (png_whole.c) have libspng's pixels, and files that libspng refuses are refused.
 #include "dynamic_library.h"
+#include "pixels.h"
 #include "png_whole.h"
 
 #include <setjmp.h>
@@ -153,6 +154,28 @@ static void test_files(void **state)
         }
 }
 
+// Without alpha, three bytes a pixel where the caller takes them: the same numbers.
+static void test_opaque(void **state)
+{
+    (void)state;
+    static uint8_t expected[WIDTH * HEIGHT * 4];
+    for (int kind = 0; kind < KINDS; kind++)
+        for (enum fault fault = NOTHING; fault <= LAST_SOUND; fault++) {
+            struct file file = make_file(kinds[kind].color_type, kinds[kind].channels, fault);
+            lam_image image;
+            struct picture_file picture = {file.bytes, file.size, "a.png", NULL};
+            bool wide;
+            assert_true(picture_decode_wide(&picture, &wide, &image, NULL));
+            assert_true(reference(&file, expected));
+            int bytes = kinds[kind].channels == 4 ? 4 : 3;
+            assert_int_equal(image.format, bytes == 4 ? LAM_RGBA8 : LAM_RGB8);
+            for (int i = 0; i < WIDTH * HEIGHT; i++)
+                assert_memory_equal((uint8_t *)image.pixels + i * bytes, expected + 4 * i, (size_t)bytes);
+            lam_image_free(&image);
+            free(file.bytes);
+        }
+}
+
 // What is read at once: no file in which anything is wrong, and none behind whose pixels something comes.
 static void test_at_once(void **state)
 {
@@ -170,7 +193,8 @@ static void test_at_once(void **state)
             call_start(&call, &(lam_control){.memory_limit_bytes = FILE_BYTES});
             struct picture_file picture = {file.bytes, file.size, "a.png", &call};
             lam_image image;
-            assert_true(lam_image_make(&image, WIDTH, HEIGHT, LAM_RGBA8, NULL));
+            size_t extra = png_whole_extra(WIDTH, HEIGHT, LAM_RGBA8, kinds[kind].channels);
+            assert_true(image_make_larger(&image, WIDTH, HEIGHT, LAM_RGBA8, extra, NULL));
             bool expected = fault <= TEXT_CRC || fault == JUNK_BEHIND_END;
             if (png_read_whole(&picture, kinds[kind].channels, &image) != expected)
                 fail_msg("kind %d, fault %d: %s", kind, (int)fault, expected ? "not read" : "read");
@@ -185,6 +209,7 @@ static void test_at_once(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_files), cmocka_unit_test(test_at_once)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_files), cmocka_unit_test(test_opaque),
+                                       cmocka_unit_test(test_at_once)};
     return cmocka_run_group_tests_name("png-read", tests, NULL, NULL);
 }

@@ -115,22 +115,33 @@ static double expected(const struct pyramid *p, const lam_texture_map *m, double
            in_level(p, m, m->minify, level + 1, s, t, c) * share;
 }
 
-// Every wrap, filter and mip, sizes that are not powers of two, places far outside: no texel is off. Near the border
-// between two texels the nearest one may be either.
+// Every wrap, filter and mip, sizes that are not powers of two, places far outside: no texel is off, of bytes and of floats, with
+// alpha and without, which takes three numbers a texel. Near the border between two texels the nearest one may be either.
 static void test_texels(void **state)
 {
     static const int sizes[][2] = {{16, 16}, {13, 7}, {1, 9}, {32, 5}, {1, 1}};
     (void)state;
-    for (int n = 0; n < 5 * 2; n++) {
-        int w = sizes[n / 2][0], h = sizes[n / 2][1];
+    for (int n = 0; n < 5 * 2 * 3; n++) {
+        int w = sizes[n / 2 % 5][0], h = sizes[n / 2 % 5][1];
+        bool opaque = n >= 10, floats = n >= 20;
         uint8_t bytes[32 * 16 * 4];
+        float numbers[32 * 16 * 4]; // of floats
+        struct pyramid p;
         for (int i = 0; i < w * h * 4; i++)
-            bytes[i] = (uint8_t)(random_unit() * 256);
+            bytes[i] = opaque && i % 4 == 3 ? 255 : (uint8_t)(random_unit() * 256);
+        p = pyramid_of(bytes, w, h, n % 2 == 0);
+        for (int i = 0; i < w * h * 4; i++)
+            numbers[i] = (float)p.texels[0][i];
         lam_image image = {.width = w, .height = h, .format = LAM_RGBA8, .pixels = bytes};
+        if (floats)
+            image = (lam_image){.width = w, .height = h, .format = LAM_RGBA32F, .pixels = numbers};
         lam_error error;
         lam_texture *texture = lam_texture_make(&image, n % 2 ? LAM_TEXTURE_NUMBERS : LAM_TEXTURE_COLOR, NULL, &error);
         assert_non_null(texture);
-        struct pyramid p = pyramid_of(bytes, w, h, n % 2 == 0);
+        uint64_t memory = 0;
+        for (int level = 0; level < p.levels; level++)
+            memory += (uint64_t)(p.width[level] * p.height[level]) * (opaque ? 3 : 4) * (level || floats ? 4 : 1);
+        assert_int_equal(lam_texture_memory(texture), memory);
         assert_int_equal(lam_texture_levels(texture), p.levels);
         for (int level = 0; level < p.levels; level++)
             assert_true(lam_texture_width(texture, level) == p.width[level] &&

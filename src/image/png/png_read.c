@@ -1,6 +1,7 @@
 // png_read.c: PNG's row in the table of formats; reading through libspng, the pixels of usual files by png_whole.c.
 #include "codec.h"
 #include "fail.h"
+#include "pixels.h"
 #include "png_whole.h"
 
 #include <spng.h>
@@ -56,31 +57,38 @@ static void widen(lam_image *image)
     }
 }
 
-// The channels of a picture that png_read_whole reads; 0: it does not.
-static int whole_channels(spng_ctx *spng, const struct spng_ihdr *header)
+// Whether pixels can have an alpha below 1.
+static bool has_alpha(spng_ctx *spng, const struct spng_ihdr *header)
 {
-    static const int channels[7] = {
-        [SPNG_COLOR_TYPE_GRAYSCALE] = 1, [SPNG_COLOR_TYPE_TRUECOLOR] = 3, [SPNG_COLOR_TYPE_TRUECOLOR_ALPHA] = 4};
     struct spng_trns transparent;
-    bool plain = header->bit_depth == 8 && header->interlace_method == SPNG_INTERLACE_NONE &&
-                 spng_get_trns(spng, &transparent) == SPNG_ECHUNKAVAIL;
-    return plain ? channels[header->color_type] : 0;
+    return header->color_type == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA ||
+           header->color_type == SPNG_COLOR_TYPE_TRUECOLOR_ALPHA ||
+           spng_get_trns(spng, &transparent) != SPNG_ECHUNKAVAIL;
+}
+
+// The channels of a picture that png_read_whole reads; 0: it does not.
+static int whole_channels(const struct spng_ihdr *header, bool alpha)
+{
+    if (header->bit_depth != 8 || header->interlace_method != SPNG_INTERLACE_NONE)
+        return 0;
+    return header->color_type == SPNG_COLOR_TYPE_TRUECOLOR_ALPHA       ? 4
+           : header->color_type == SPNG_COLOR_TYPE_TRUECOLOR && !alpha ? 3
+           : header->color_type == SPNG_COLOR_TYPE_GRAYSCALE && !alpha ? 1
+                                                                       : 0;
 }
 
 // Decodes row by row, in the order of the file: an interlaced one has seven passes over the picture.
-static bool decode_rows(spng_ctx *spng, const struct picture_file *file, const struct spng_ihdr *header, bool keep,
-                        lam_image *image, lam_error *error)
+static bool decode_rows(spng_ctx *spng, const struct picture_file *file, bool keep, lam_image *image, lam_error *error)
 {
     struct spng_row_info row = {0};
-    size_t row_bytes = (keep ? 8 : 4) * (size_t)header->width;
-    char *pixels = (char *)image->pixels + (keep ? row_bytes * header->height : 0);
-    int code = spng_decode_chunks(spng); // those before the pixels
-    int channels = code ? 0 : whole_channels(spng, header);
-    if (channels && png_read_whole(file, channels, image))
-        return true;
-    if (!code)
-        code = spng_decode_image(spng, NULL, 0, keep ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8,
-                                 SPNG_DECODE_TRNS | SPNG_DECODE_PROGRESSIVE);
+    size_t row_bytes = (keep ? 8 : pixel_bytes(image->format)) * (size_t)image->width;
+    char *pixels = (char *)image->pixels + (keep ? row_bytes * (size_t)image->height : 0);
+    bool rgb = image->format == LAM_RGB8;
+    int code = spng_decode_image(spng, NULL, 0,
+                                 keep  ? SPNG_FMT_RGBA16
+                                 : rgb ? SPNG_FMT_RGB8
+                                       : SPNG_FMT_RGBA8,
+                                 (rgb ? 0 : SPNG_DECODE_TRNS) | SPNG_DECODE_PROGRESSIVE);
     for (int64_t count = 0; !code; count++) {
         code = spng_get_row_info(spng, &row);
         if (!code && !picture_continues(file, count, error))
@@ -95,7 +103,7 @@ static bool decode_rows(spng_ctx *spng, const struct picture_file *file, const s
     return !code || fail(error, LAM_CANNOT_READ, "%s: PNG pixels: %s", file->name, spng_strerror(code));
 }
 
-// `wide`: set to whether the file has 16 bits, which then are kept; NULL: they are cut to 8.
+// `wide`: set to whether the file has 16 bits, which then are kept; NULL: they are cut to 8, and there is always an alpha.
 static bool decode(spng_ctx *spng, const struct picture_file *file, lam_image *image, bool *wide, lam_error *error)
 {
     struct spng_ihdr header;
@@ -115,14 +123,25 @@ static bool decode(spng_ctx *spng, const struct picture_file *file, lam_image *i
         return fail(error, LAM_CANNOT_READ, "%s: PNG of %u×%u pixels, which cannot be in a file of %zu bytes",
                     file->name, header.width, header.height, file->size);
     bool keep = wide && header.bit_depth == 16;
-    if (!picture_make(file, header.width, header.height, keep ? LAM_RGBA32F : LAM_RGBA8, image, error))
+    if (wide)
+        *wide = keep;
+    code = spng_decode_chunks(spng); // those before the pixels
+    if (code == SPNG_EMEM)
+        return fail_memory(error, file->size);
+    if (code)
+        return fail(error, LAM_CANNOT_READ, "%s: PNG pixels: %s", file->name, spng_strerror(code));
+    bool alpha = has_alpha(spng, &header);
+    lam_pixel_format format = keep ? LAM_RGBA32F : wide && !alpha ? LAM_RGB8 : LAM_RGBA8;
+    int channels = whole_channels(&header, alpha);
+    size_t extra = channels ? png_whole_extra(header.width, header.height, format, channels) : 0;
+    if (!picture_make_larger(file, header.width, header.height, format, extra, image, error))
         return false;
-    if (!decode_rows(spng, file, &header, keep, image, error))
+    if (channels && png_read_whole(file, channels, image))
+        return true;
+    if (!decode_rows(spng, file, keep, image, error))
         return false;
     if (keep)
         widen(image);
-    if (wide)
-        *wide = keep;
     return true;
 }
 

@@ -8,6 +8,7 @@
 #ifdef HAVE_LIBDEFLATE
 #include "dynamic_library.h"
 #include "pages.h"
+#include "pixels.h"
 
 #include <libdeflate.h>
 #include <string.h>
@@ -112,12 +113,13 @@ static inline wide8 paeth(wide8 a, wide8 b, wide8 c)
     return (takes_a & a) | (~takes_a & ((takes_b & b) | (~takes_b & c)));
 }
 
-// `filter` and `channels` are constants where this is inlined.
+// To pixels of `size` bytes, 3 or 4. The fourth byte is written in any case: behind a row too. `filter` and `channels` are
+// constants where this is inlined.
 static inline __attribute__((always_inline)) void unfilter(uint8_t *row, const uint8_t *above, const uint8_t *from,
-                                                           size_t width, int filter, int channels)
+                                                           size_t width, size_t size, int filter, int channels)
 {
     wide8 a = {0}, c = {0};
-    for (size_t i = 0; i < width; i++, row += 4, above += 4, from += channels) {
+    for (size_t i = 0; i < width; i++, row += size, above += size, from += channels) {
         wide8 v = wide_of(filtered_at(from, channels)), b = wide_of(pixel_at(above));
         v += filter == 1 ? a : filter == 2 ? b : filter == 3 ? (a + b) >> 1 : filter == 4 ? paeth(a, b, c) : (wide8){0};
         a = v & 255;
@@ -130,23 +132,24 @@ static inline __attribute__((always_inline)) void unfilter(uint8_t *row, const u
 
 #define UNFILTER_CASES(channels)                                                                                       \
     case 8 * channels:                                                                                                 \
-        unfilter(row, above, from, width, 0, channels);                                                                \
+        unfilter(row, above, from, width, size, 0, channels);                                                          \
         break;                                                                                                         \
     case 8 * channels + 1:                                                                                             \
-        unfilter(row, above, from, width, 1, channels);                                                                \
+        unfilter(row, above, from, width, size, 1, channels);                                                          \
         break;                                                                                                         \
     case 8 * channels + 2:                                                                                             \
-        unfilter(row, above, from, width, 2, channels);                                                                \
+        unfilter(row, above, from, width, size, 2, channels);                                                          \
         break;                                                                                                         \
     case 8 * channels + 3:                                                                                             \
-        unfilter(row, above, from, width, 3, channels);                                                                \
+        unfilter(row, above, from, width, size, 3, channels);                                                          \
         break;                                                                                                         \
     case 8 * channels + 4:                                                                                             \
-        unfilter(row, above, from, width, 4, channels);                                                                \
+        unfilter(row, above, from, width, size, 4, channels);                                                          \
         break;
 
 // A row of the file: its filter, then its pixels. False: an unknown filter.
-static bool unfilter_row(uint8_t *row, const uint8_t *above, const uint8_t *from, size_t width, int channels)
+static bool unfilter_row(uint8_t *row, const uint8_t *above, const uint8_t *from, size_t width, size_t size,
+                         int channels)
 {
     int filter = *from++;
     if (filter > 4)
@@ -173,34 +176,62 @@ static bool decompress(const struct inflater *d, const uint8_t *compressed, size
     return ok;
 }
 
+// Unfilters rows in place: those of the file end where the picture's memory does, so that no pixel is written before it is read.
+static bool unfilter_rows(const lam_image *image, const uint8_t *rows, const uint8_t *zeros, int channels)
+{
+    size_t width = (size_t)image->width, height = (size_t)image->height, size = pixel_bytes(image->format);
+    const uint8_t *above = zeros;
+    bool ok = true;
+    for (size_t y = 0; ok && y < height; y++, rows += 1 + width * (size_t)channels) {
+        uint8_t *row = (uint8_t *)image->pixels + size * width * y;
+        ok = unfilter_row(row, above, rows, width, size, channels);
+        above = row;
+    }
+    return ok;
+}
+
+static size_t filtered_bytes(size_t width, size_t height, int channels)
+{
+    return (1 + width * (size_t)channels) * height;
+}
+
+size_t png_whole_extra(uint32_t width, uint32_t height, lam_pixel_format format, int channels)
+{
+    size_t filtered = filtered_bytes(width, height, channels), pixels = (size_t)width * height * pixel_bytes(format);
+    return (filtered > pixels ? filtered - pixels : 0) + 1;
+}
+
 bool png_read_whole(const struct picture_file *file, int channels, lam_image *image)
 {
     struct inflater d;
-    size_t width = (size_t)image->width, height = (size_t)image->height, row_bytes = 1 + width * (size_t)channels;
-    size_t first = find_pixels(file), filtered = row_bytes * height, zeros = 4 * width, held;
-    if (!first || width * height < PIXELS_MIN || filtered > BYTES_MAX || !open_inflater(&d))
+    uint32_t width = (uint32_t)image->width, height = (uint32_t)image->height;
+    size_t first = find_pixels(file), filtered = filtered_bytes(width, height, channels), zeros = 4 * (size_t)width + 1;
+    if (!first || (size_t)width * height < PIXELS_MIN || filtered > BYTES_MAX || !open_inflater(&d))
         return false;
-    size_t bytes = filtered + zeros + (file->size - first);
+    size_t bytes = zeros + (file->size - first), held;
     if (file->call && !call_charge_spare(file->call, bytes))
         return false;
-    uint8_t *rows = pages_get(bytes, &held);
+    uint8_t *compressed = pages_get(bytes, &held);
     bool ok = false;
-    if (rows) {
-        const uint8_t *above = rows + filtered; // zeros, above the first row
-        uint8_t *compressed = rows + filtered + zeros;
-        ok = decompress(&d, compressed, join_pixels(&d, file, first, compressed), rows, filtered);
-        for (size_t y = 0; ok && y < height; y++) {
-            uint8_t *row = (uint8_t *)image->pixels + 4 * width * y;
-            ok = unfilter_row(row, above, rows + row_bytes * y, width, channels);
-            above = row;
-        }
-        pages_free(rows, held);
+    if (compressed) {
+        size_t last = (size_t)width * height * pixel_bytes(image->format) +
+                      png_whole_extra(width, height, image->format, channels) - 1;
+        uint8_t *rows = (uint8_t *)image->pixels + (last - filtered);
+        ok = decompress(&d, compressed + zeros, join_pixels(&d, file, first, compressed + zeros), rows, filtered) &&
+             unfilter_rows(image, rows, compressed, channels);
+        pages_free(compressed, held);
     }
     if (file->call)
         call_refund(file->call, bytes);
     return ok;
 }
 #else
+size_t png_whole_extra(uint32_t width, uint32_t height, lam_pixel_format format, int channels)
+{
+    (void)width, (void)height, (void)format, (void)channels;
+    return 0;
+}
+
 bool png_read_whole(const struct picture_file *file, int channels, lam_image *image)
 {
     (void)file, (void)channels, (void)image;

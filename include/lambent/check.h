@@ -93,7 +93,7 @@ typedef lam_check_draw_status lam_check_draw_fn(void *user, const lam_bytes *req
 // painter of the caller: a page draws with WebGL 2 (web/check/painter.js). What is drawn, with which inputs, and what the
 // pictures prove is the check's alone, so that every painter gets the same verdict.
 
-// What compiles a pair of shaders.
+// The compiler of a pair of shaders.
 typedef enum lam_check_language {
     LAM_CHECK_LANGUAGE_CORE = 0, // OpenGL 3.3 core
     LAM_CHECK_LANGUAGE_ES,       // OpenGL ES 3.0, which is WebGL 2

@@ -130,7 +130,7 @@ typedef enum lam_output {
     // How far each channel of the picture leaves 0…1, negative below. 8 bits: red where a channel is above, blue where
     // one is below, else the picture in dark grey.
     LAM_OUTPUT_CLIPPED,
-    // What the material is at the point, whatever the shading method: the base colour of a physical material or the diffuse
+    // The material at the point, whatever the shading method: the base colour of a physical material or the diffuse
     // colour of a classic one, times maps and vertex colours. A classic reflection model does not turn physical materials into
     // its own kind here, LAM_REFLECTION_GGX turns classic ones. 8 bits: sRGB-encoded.
     LAM_OUTPUT_BASE_COLOR,
@@ -227,7 +227,7 @@ typedef enum lam_edges {
     LAM_EDGES_ALL = 7, // all of them
 } lam_edges;
 
-// What becomes of the parts of edges that lie behind surfaces.
+// How the parts of edges that lie behind surfaces are drawn.
 typedef enum lam_hidden_lines {
     LAM_HIDDEN_LINES_REMOVE = 0, // left out
     LAM_HIDDEN_LINES_DASH,       // dashed

@@ -133,7 +133,7 @@ typedef struct lam_explained_map {
     LAM_RESERVED(4);
 } lam_explained_map;
 
-// What the material is at a fragment that is lit by itself (Phong shading).
+// The material at a fragment that is lit by itself (Phong shading).
 typedef struct lam_explained_values {
     // The diffuse colour, or the base colour of a physical material: its own times maps and vertex colours.
     lam_rgb base_color;
@@ -195,7 +195,7 @@ typedef struct lam_explained_fragment {
     int corners;
     // The maps that were read, in the order of reading.
     const lam_explained_map *maps;
-    // What they make of the material; NULL: Gouraud and flat shading.
+    // The material after its maps; NULL: Gouraud and flat shading.
     const lam_explained_values *values;
     int map_count; // elements of `maps`
     // The kind of the ground where the triangle belongs to it; NONE: the triangle is the scene's.
@@ -232,7 +232,7 @@ typedef struct lam_explanation {
     double stops;        // lam_draw_params.exposure
     float exposure;      // 2^stops
     lam_rgba background; // not premultiplied
-    // What LAM_RGBA32F holds: exposure · sum over the background, premultiplied.
+    // The value in an LAM_RGBA32F picture: exposure · sum over the background, premultiplied.
     lam_rgba result;
     lam_rgb straight; // result / alpha
     lam_rgb encoded;  // `straight` sRGB-encoded, or clamped with LAM_COLOR_RAW

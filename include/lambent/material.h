@@ -94,7 +94,7 @@ typedef enum lam_map {
 // The word of a map in reports and messages: "diffuse", "normal". NULL: no such map.
 LAM_API const char *lam_map_name(lam_map map);
 
-// What becomes of a point whose opacity (diffuse alpha × map × vertex colour) is below 1.
+// How a point is drawn whose opacity (diffuse alpha × map × vertex colour) is below 1.
 typedef enum lam_alpha_mode {
     LAM_ALPHA_BLEND = 0, // it covers what is behind it by that share
     // It is left out where the opacity is below lam_material.alpha_cutoff, and opaque elsewhere.

@@ -35,7 +35,7 @@ typedef struct lam_part {
 // A mesh of triangles, of lines or of points. Its arrays are borrowed: lam_scene_add_mesh copies them, and the scene owns its
 // copies.
 //
-// At most one of triangle_count, line_count and point_count is not 0. What is said of triangles here holds for lines, which
+// At most one of triangle_count, line_count and point_count is not 0. Statements about triangles hold for lines too, which
 // have two corners, and for points, which have one: corner c of line l has the number 2l + c, point p the number p; index
 // arrays have as many elements, and parts count lines or points. Lines are drawn lam_draw_params.line_width pixels wide and
 // points as squares of point_size; both face the eye, and are seen from all sides. They are lit by their normals if they have

@@ -213,7 +213,7 @@ LAM_API uint64_t lam_scene_vertex_count(const lam_scene *scene);
 // The name of the format that the scene was loaded from; "" for a scene made by hand.
 LAM_API const char *lam_scene_format(const lam_scene *scene);
 
-// What a load does about an extension that a glTF file names.
+// How a load treats an extension that a glTF file names.
 typedef enum lam_extension_support {
     LAM_EXTENSION_READ = 0,  // all of it counts
     LAM_EXTENSION_NO_EFFECT, // known, and it says nothing about the picture
@@ -251,7 +251,7 @@ typedef struct lam_file_image {
     LAM_RESERVED(4);
 } lam_file_image;
 
-// What a glTF file says beside the scene that was made of it. Other formats leave all of it zero. Names that the file does
+// What a glTF file holds beside the scene that was made from it. Other formats leave all of it zero. Names that the file does
 // not give are NULL.
 typedef struct lam_file_info {
     const char *version;                  // of the format: "2.0"
@@ -272,7 +272,7 @@ typedef struct lam_file_info {
     LAM_RESERVED(16);
 } lam_file_info;
 
-// What the file of a loaded scene says. It is valid until the scene is freed; all zero for scenes made by hand and for scene
+// Describes the file of a loaded scene. Valid until the scene is freed; all zero for scenes made by hand and for scene
 // files. NULL for a scene that is NULL.
 LAM_API const lam_file_info *lam_scene_file_info(const lam_scene *scene);
 

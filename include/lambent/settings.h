@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-// What a setting holds, and how a scene file writes it.
+// The type of a setting's value, and how a scene file writes it.
 typedef enum lam_setting_type {
     LAM_SETTING_WORD, // an enumeration; lam_setting.word has its words
     LAM_SETTING_FLAG, // a bool

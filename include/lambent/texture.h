@@ -15,7 +15,7 @@ struct lam_image;
 // are the average of the texels above that they cover, in linear light and not rounded.
 typedef struct lam_texture lam_texture;
 
-// What the numbers of a picture are. Pictures of floats are linear in any case.
+// The meaning of a picture's numbers. Pictures of floats are linear in any case.
 typedef enum lam_texture_values {
     // Red, green and blue are sRGB-encoded colours, decoded before anything is averaged.
     LAM_TEXTURE_COLOR = 0,
@@ -45,7 +45,7 @@ LAM_API const char *lam_texture_name(const lam_texture *texture); // NULL: none
 // Bytes of memory of all levels.
 LAM_API uint64_t lam_texture_memory(const lam_texture *texture);
 
-// What lies beyond the picture's edges.
+// The texels beyond the picture's edges.
 typedef enum lam_wrap {
     LAM_WRAP_REPEAT = 0, // the picture again
     LAM_WRAP_CLAMP,      // the texels of the edge

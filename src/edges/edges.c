@@ -14,7 +14,7 @@ edge_rays *edge_rays_for(int lanes) { return CPU_WIDEST(lanes, edge_rays_scalar,
 
 // --- the list of edges
 
-// What a draw's edges depend on: equal pointers mean equal contents, since a scene never modifies its arrays.
+// Everything that a draw's edges depend on: equal pointers mean equal contents, since a scene never modifies its arrays.
 struct source {
     const float *positions;
     const uint32_t *indices;

@@ -255,7 +255,7 @@ static inline bool output_is_picture(lam_output output)
     return output == LAM_OUTPUT_PICTURE || output == LAM_OUTPUT_CLIPPED;
 }
 
-// What a material is at a point: no light, whatever the shading method.
+// Numbers of the material at a point: no light, whatever the shading method.
 static inline bool output_is_material(lam_output output)
 {
     return output >= LAM_OUTPUT_BASE_COLOR && output <= LAM_OUTPUT_LOD;

@@ -12,7 +12,7 @@
 #define DROP 0x1p-14
 // The side of a square without a pattern, in shares of the ground's radius.
 #define PLAIN_SQUARE 0.0625
-// What the dark squares of a checker are to the bright ones.
+// The brightness of a checker's dark squares relative to its bright ones.
 #define DARK_SQUARE 0.45f
 
 // The largest of 1, 2 and 5 times a power of ten that is at most x.

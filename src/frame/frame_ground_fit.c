@@ -29,7 +29,7 @@ enum { LIGHT_POINTS = 5, RIM_POINTS = 8 };
 // The most shadows of points, 72 bytes each. A scene file can have any number of lights.
 #define FALLS_MAX ((size_t)1 << 20)
 
-// What falls on the ground: for each point of the hull its foot on the ground, and where a shadow of it ends, relative to that.
+// A shadow on the ground: the foot of a point of the hull, and where the point's shadow ends, relative to that.
 struct fall {
     lam_vec3 foot, shadow;
 };
@@ -115,7 +115,7 @@ static void add_shadows(struct falls *falls, const struct frame_light *light, co
     }
 }
 
-// What falls of one point of the hull.
+// Adds the shadows of one point of the hull.
 static void add_point(struct falls *falls, const struct frame *frame, lam_vec3 foot, double height)
 {
     const struct frame_ground *ground = &frame->ground;

@@ -11,8 +11,8 @@ bool frame_lights_build(struct frame *frame, const lam_scene *scene, lam_rig rig
 // Whether shadows are asked for: by themselves, or with the ground that catches them.
 static inline bool wants_shadows(const lam_draw_params *params) { return params->shadows || params->ground; }
 
-// Where the environment lights all that is lit, and shadows are asked for, takes its brightest lamp as a light of its own. In a picture
-// of one light it is none.
+// Makes the environment's brightest lamp a light of its own, where the environment lights all surfaces that are lit and the picture
+// has shadows. Does nothing for a picture of one light.
 bool frame_lights_add_lamp(struct frame *frame, const lam_scene *scene, const lam_draw_params *params,
                            const lam_mat4 *view, struct call_control *call, lam_error *error);
 

@@ -125,7 +125,7 @@ LANE_FN void pass_light(const struct side *side, const struct frame_light *l, co
     light->specular = mul3(light->specular, tint);
 }
 
-// What a light sends to the surface, before what it meets on its way. The ambient light that the rules of OpenGL 1 attenuate
+// The light that a source sends to the surface, before shadows. The ambient light that the rules of OpenGL 1 attenuate
 // with it is added to *sum.
 LANE_FN light_sample sample_of(const struct side *side, const struct frame_light *l, surface s, light_source *light,
                                terms *sum)

@@ -7,7 +7,7 @@
 
 #include <lambent/animation.h>
 
-// What holds for all frames.
+// Settings of all frames.
 struct animation_settings {
     int width, height;
     double frames_per_second;

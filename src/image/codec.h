@@ -20,7 +20,7 @@ struct codec {
     const char *title; // for messages: "PNG"
     const char *alias; // another file-name ending; NULL: none
     lam_pixel_format pixels;
-    // Its files begin with no mark of their own: it is asked after all others, and the ending of a file's name counts.
+    // Its files begin with no signature: it is tried after all others, and by the ending of a file's name.
     bool unmarked;
 
     // NULL: this format is only read. Encodes a picture of valid size and pixel format into memory from malloc.

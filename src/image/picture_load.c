@@ -16,7 +16,7 @@ static bool blame_memory(lam_error *error)
     enum { SOME = 1 << 20 }; // more than the small requests of such a library
     if (error->code != LAM_CANNOT_READ && error->code != LAM_UNSUPPORTED)
         return false;
-    void *volatile some = malloc(SOME); // volatile: it is asked for, though nobody uses it
+    void *volatile some = malloc(SOME); // volatile: allocated, though nobody uses it
     if (!some)
         return fail_memory(error, SOME);
     free(some);

@@ -76,11 +76,12 @@ static bool decode(const struct webp_library *webp, const struct picture_file *f
     return runs && (status == VP8_STATUS_OK || fail_status(file, status, error));
 }
 
-// libwebp 1.2 may follow a null pointer where it finds no memory. All that it takes, and its tables, is asked for first.
+// libwebp 1.2 may dereference a null pointer where an allocation fails: as much as it will take, tables included, is allocated and
+// freed first.
 static bool has_memory(size_t own, lam_error *error)
 {
     const size_t bytes = own + (4 << 20);
-    void *volatile memory = malloc(bytes); // volatile: it is asked for, though nobody uses it
+    void *volatile memory = malloc(bytes); // volatile: allocated, though nobody uses it
     if (!memory)
         return fail_memory(error, bytes);
     free(memory);

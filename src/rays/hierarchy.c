@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-// What a hierarchy depends on: equal pointers mean equal contents, since a scene never modifies its arrays.
+// Everything that a hierarchy depends on: equal pointers mean equal contents, since a scene never modifies its arrays.
 struct source {
     const float *positions;
     const uint32_t *indices;
@@ -26,7 +26,7 @@ static bool same_sources(const struct hierarchy_memory *memory, const struct fra
             s->triangle_count != draw->mesh->triangle_count || s->first_id != draw->first_id ||
             s->casts != frame_draw_casts(draw))
             return false;
-        // What casts no shadows may change from frame to frame, and is left out.
+        // Objects that cast no shadows may change from frame to frame, and are left out.
         if (s->casts && memcmp(s->world, draw->world, sizeof s->world) != 0)
             return false;
     }

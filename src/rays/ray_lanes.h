@@ -138,7 +138,7 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
 
 // --- boxes
 
-// What the test of boxes takes of a ray, in floats.
+// The floats of a ray that the test of boxes reads.
 //
 // Coordinates of triangles lie within −1…1. Rounding origin, direction, its inverse and the box moves the crossing with a
 // plane of a box by less than 2⁻²¹ (1 + |origin|) altogether; each plane is taken that much farther out.

@@ -24,7 +24,7 @@ static struct view_axes axes_of(const lam_scene *scene, const lam_view *view, la
     };
 }
 
-// What the camera is to show, and how.
+// The view that the camera is to have.
 struct fitting {
     struct view_axes axes;
     double aspect, fill, fovy, zoom;

@@ -9,7 +9,7 @@ static float mixed(double from, double to, double share) { return (float)(from +
 
 static double within(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
 
-// What the dielectric of a material of specular and glossiness reflects along the normal; of others the usual 0.04.
+// The reflectance along the normal of the dielectric of a material of specular and glossiness; of others the usual 0.04.
 static void dielectric_f0_of(const lam_material *m, double f0[3])
 {
     const float *color = &m->f0_color.r;

@@ -195,7 +195,7 @@ static void search(const struct view_points *points, struct view_extents *extent
         if (points->ball_radius > 0)
             find_ball(points->ball_radius, extents, d);
     }
-    // What one pair of axes has found excludes most vertices for the next.
+    // The extents found with one pair of axes exclude most vertices for the next.
     for (int a = 0; a < points->axes_count && !(points->ball_radius > 0); a++)
         for (int i = 0; i < points->scene->objects.count; i++)
             search_object(points->scene, scene_object(points->scene, i), &points->axes[a], extents, first, end);

@@ -222,7 +222,7 @@ static bool check_stage(struct scene_reader *r)
     return true;
 }
 
-// What stands at the top of the file, with the settings of the table.
+// The keys at the top of the file, with the settings of the table.
 static bool read_settings(struct scene_reader *r, const json_t *root)
 {
     int up = LAM_UP_Y;

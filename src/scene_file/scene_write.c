@@ -276,7 +276,7 @@ static bool is_identity(const lam_mat4 *m)
     return true;
 }
 
-// What the program has changed of an object since it was read.
+// The changes of an object since it was read.
 struct change {
     lam_mat4 transform;          // on top of the file's own
     int material, back_material; // −1: unchanged

@@ -69,7 +69,7 @@ static size_t name_length(const char *at, const char *end)
     return length;
 }
 
-// What stands at a place: "'sin'", "the end".
+// The text at a place, for messages: "'sin'", "the end".
 static const char *found_at(const struct parser *p, const char *at, char out[SHOWN_NAME_SIZE + 2])
 {
     if (at >= p->end)

@@ -30,7 +30,7 @@ static double grace_ms(double limit_s) { return limit_s > 5 ? 5000 : limit_s > 0
 
 // --- the process
 
-// What a process sends: this, for each picture a `sent_picture`, its line of the journal and its file, then both texts.
+// The message of a process: this, for each picture a `sent_picture`, its line of the journal and its file, then both texts.
 struct sent {
     int code, warnings;
     bool interrupted;

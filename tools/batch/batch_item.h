@@ -31,7 +31,7 @@ struct batch_artist {
     struct environment_cache *environments; // NULL: each model reads its own
     FILE *out;                              // for reports
     bool has_bar;                           // a progress bar on the terminal
-    bool is_talkative;                      // lines for each picture and warnings; errors are always told
+    bool is_talkative;                      // lines for each picture and warnings; errors are always printed
 };
 
 struct batch_outcome {

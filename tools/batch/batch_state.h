@@ -9,7 +9,7 @@
 #include "batch_tell.h"
 #include "journal.h"
 
-// What has become of a picture.
+// The state of a picture.
 enum picture_outcome {
     PICTURE_OPEN, // nothing yet
     PICTURE_WRITTEN,
@@ -28,7 +28,7 @@ struct batch_picture {
 struct batch_job;
 struct batch_jobs;
 
-// What a worker draws: a model of the batch's plan, or that of a job, which has a plan of its own.
+// The task of a worker: a model of the batch's plan, or that of a job, which has a plan of its own.
 struct batch_task {
     const struct batch_plan *plan; // the options, the views and the names
     size_t model;                  // of the plan

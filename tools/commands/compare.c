@@ -358,7 +358,7 @@ static const char *title_of(const struct compare *c, char title[256])
     return title;
 }
 
-// What an SVG says of itself: the title, and what each picture is.
+// The description in an SVG: its title, and the meaning of each picture.
 static bool describe(struct compare *c, const char *title, lam_error *error)
 {
     char *text = NULL;

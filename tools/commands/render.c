@@ -56,7 +56,7 @@ static bool check_together(int count, char **models, const struct options *o, la
     return true;
 }
 
-// A journal is written where one is asked for; nothing is done that it could tell of with --dry-run.
+// Whether --journal asks for one; --dry-run does nothing that it could record.
 static bool journal_named(const struct options *o)
 {
     return o->journal && strcmp(o->journal, "none") != 0 && !o->dry_run;

@@ -109,7 +109,7 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
     return NULL;
 }
 
-// What may have been meant by the name of a model that cannot be read, as the end of a sentence; "": nothing is known.
+// The name that may have been meant for a model that cannot be read, as the end of a sentence; "": nothing is known.
 static void guess(const struct job *job, const lam_error *error, char *text, size_t size)
 {
     const char *model = job->model;

@@ -21,7 +21,7 @@ struct model_counts {
     int meshes, objects, materials, lights;
 };
 
-// What it consists of: "1 triangle, 4 lines". Returns `out`.
+// Its contents in words: "1 triangle, 4 lines". Returns `out`.
 enum { MODEL_COUNTS_SIZE = 100 };
 const char *model_counts_text(const struct model_counts *counts, char out[MODEL_COUNTS_SIZE]);
 

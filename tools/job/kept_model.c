@@ -15,7 +15,7 @@ void kept_model_forget(struct kept_model *model)
 }
 
 // Whether a scene that is loaded serves other values of the option: those of the picture, the view, lights and materials.
-// What is not known to be such an option counts as one that does not.
+// An option that is not listed here is taken for one that changes the scene.
 static bool changes_drawing_only(const struct option *option)
 {
     static const char *const shading[] = {"shading", "stage",  "viewer",           "single-scattering", "reflectivity",

@@ -119,7 +119,7 @@ static bool is_known_option(const char *word)
     return word[0] == '-' && word[1] == '-' && word[2] && find_long(word + 2, strcspn(word + 2, "="));
 }
 
-// The option that is meant where a name has been given to another option since, and the value is a word of the old one.
+// The option that was meant, where its name has since become another option's and the value is a word of the old one.
 static const struct option *meant_by(const struct option *option, const char *value)
 {
     const struct option *former = option->former ? option_find(option->former) : NULL;

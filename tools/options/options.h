@@ -209,7 +209,7 @@ enum exposure_kind { EXPOSURE_BY_FILE, EXPOSURE_AUTO, EXPOSURE_LITERAL };
 // --rig none: only the ambient light. A value besides those of lam_rig.
 enum { RIG_DARK = 100 };
 
-// What the lights of a turntable stand still with.
+// What the lights of a turntable are fixed to.
 enum turntable_light { TURNTABLE_LIGHT_CAMERA, TURNTABLE_LIGHT_MODEL };
 
 enum texture_filter { TEXTURE_FILTER_EXACT, TEXTURE_FILTER_HARDWARE };
@@ -256,7 +256,7 @@ struct word {
     const char *summary; // NULL: the name says enough, or is another name of the word before
 };
 
-// What a value is made of, where it is not one of a list of words.
+// The form of a value that is not one of a list of words.
 enum value_kind {
     VALUE_ANY,
     VALUE_FILE,

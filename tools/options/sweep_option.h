@@ -4,7 +4,7 @@
 
 #include "options.h"
 
-// What a sweep changes.
+// The kind of number that a sweep changes.
 enum sweep_kind {
     SWEEP_OPTION,   // an option of the table
     SWEEP_MATERIAL, // a key of --material

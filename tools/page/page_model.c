@@ -136,7 +136,7 @@ void page_model_free(struct page_model *model)
     *model = (struct page_model){0};
 }
 
-// What a file may hold that the page's module has no decoder for.
+// Contents of files for which the page's module has no decoder.
 static const struct {
     const char *ending, *extension; // NULL: not by it
     const char *sentence;

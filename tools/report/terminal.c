@@ -36,7 +36,7 @@ static const char *word_of(enum term_kind kind)
     return word->name;
 }
 
-// What --term KIND needs of the command line and of the terminal.
+// The requirements of --term KIND on the command line and the terminal.
 static bool check_asked(const struct options *o, bool alone, lam_error *error)
 {
     const char *word = word_of((enum term_kind)o->term);

@@ -32,7 +32,7 @@ struct sandbox_paths {
 void sandbox_add(struct sandbox_paths *paths, const char *path, int access);
 void sandbox_paths_free(struct sandbox_paths *paths);
 
-// What holds, or what this machine has.
+// The protections in force, or those that this machine offers.
 struct sandbox_state {
     int landlock;          // the kernel's version of Landlock; 0: none
     bool filter;           // the seccomp filter
@@ -40,7 +40,7 @@ struct sandbox_state {
     const char *reason;    // why one of them is missing; NULL: both are there
 };
 
-// What the kernel offers. Changes nothing.
+// The protections that the kernel offers. Changes nothing.
 struct sandbox_state sandbox_offered(void);
 
 // Enters the sandbox: this thread and those that it starts from now on, and the filter for all threads; call it before
@@ -51,7 +51,7 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
 enum { SANDBOX_TEXT_SIZE = 160 };
 const char *sandbox_text(const struct sandbox_state *state, char out[SANDBOX_TEXT_SIZE]);
 
-// What the seccomp filter lets a process do.
+// What the seccomp filter permits a process.
 enum sandbox_filter {
     SANDBOX_DRAWS, // read, draw and write: no other process, no socket
     SANDBOX_SERVES, // also: accept connections on sockets that listen already, watch files, make processes of its own program, which may

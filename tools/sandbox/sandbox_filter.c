@@ -169,7 +169,7 @@ static const unsigned allowed[] = {
 #endif
 };
 
-// Those of SANDBOX_SERVES besides.
+// The further calls of SANDBOX_SERVES.
 static const unsigned served[] = {
     SYS_accept4,    SYS_recvfrom,   SYS_sendto,    SYS_sendmsg,     SYS_sendfile,          SYS_shutdown,
     SYS_setsockopt, SYS_getsockopt, SYS_epoll_ctl, SYS_epoll_pwait, SYS_inotify_add_watch, SYS_wait4,

@@ -112,7 +112,7 @@ static void add_list(struct sandbox_paths *paths, const char *list, char separat
     }
 }
 
-// What the program itself opens: libraries when they are needed, fonts, the number of processors, and the seed of tables of
+// Files that the program itself opens: libraries when they are needed, fonts, the number of processors, and the seed of tables of
 // keys (Jansson).
 static void add_system(struct sandbox_paths *paths)
 {

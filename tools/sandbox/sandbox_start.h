@@ -24,7 +24,7 @@ void sandbox_add_output(struct sandbox_paths *paths, const char *path);
 // --sandbox require cannot be had, LAM_LIMIT.
 bool sandbox_start(const struct options *options, struct sandbox_paths *paths, lam_error *error);
 
-// What holds in this process. Before sandbox_start: nothing.
+// The protections in force in this process; none before sandbox_start.
 const struct sandbox_state *sandbox_active(void);
 
 // What to add to the error about a file that the sandbox may have kept from being read; "": nothing.

@@ -5,7 +5,7 @@
 
 #include "sheet.h"
 
-// What the model brings.
+// What the model's own file provides.
 struct sheet_model {
     const char *shape;      // the built-in shape's name; NULL: a file
     bool materials, lights; // of its own

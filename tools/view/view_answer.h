@@ -20,7 +20,7 @@ enum MHD_Result view_answer_text(const struct view *view, struct MHD_Connection 
 // The contents of a file, whose handle it takes over.
 enum MHD_Result view_answer_file(const struct view *view, struct MHD_Connection *connection, int file);
 
-// What has become of a task of a connection.
+// Answers a connection with the result of its task.
 enum MHD_Result view_answer_result(struct view_connection *connection);
 
 // Headers of every answer, on a response of the caller's.

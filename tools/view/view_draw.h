@@ -6,7 +6,7 @@
 #include "options.h"
 #include "view_files.h"
 
-// What is asked for.
+// The kind of a request.
 enum view_kind {
     VIEW_MODEL,   // the files that the model reads, and whether the page can draw it: JSON
     VIEW_PIXELS,  // JSON about the picture (picture_json.h), and its pixels, RGBA

@@ -9,7 +9,7 @@ enum { VIEW_THUMBNAIL = 256 }; // pixels of a side
 // Lists the models of the folder and below it as they are now. `text`: the page, from malloc. Errors: LAM_CANNOT_READ, LAM_LIMIT.
 bool view_gallery_make(const struct view *view, char **text, size_t *size, lam_error *error);
 
-// What stands in place of a picture that cannot be drawn: its sentence, as SVG, from malloc. NULL: out of memory.
+// The placeholder of a picture that cannot be drawn: its sentence, as SVG, from malloc. NULL: out of memory.
 char *view_gallery_failed(const char *sentence, size_t *size);
 
 extern const char view_gallery_style[]; // "gallery.css"

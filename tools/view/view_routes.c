@@ -43,7 +43,7 @@ static bool is_own_host(const struct view *view, const char *host)
     return false;
 }
 
-// What a browser says about the page that has sent the request.
+// Whether the page that sent the request is one of ours, by the browser's headers.
 static bool is_own_page(const struct view_connection *c)
 {
     const char *origin = header(c, "Origin"), *site = header(c, "Sec-Fetch-Site");

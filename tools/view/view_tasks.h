@@ -7,7 +7,7 @@
 
 enum { VIEW_PROCESSES_MAX = 64 };
 
-// What has become of a task.
+// The state of a task.
 struct view_result {
     int status;  // of HTTP
     char *bytes; // the reply, its notes and its data, from malloc; NULL: there are none

@@ -73,7 +73,7 @@ static void hold_signals(sigset_t *before)
 
 // --- writing
 
-// What is written, and where to.
+// The bytes to write, and their destination.
 struct writing {
     const char *target;
     const struct stat *existing; // NULL: the target does not exist

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// What became of a name.
+// The outcome of reading a library's name.
 enum attempt { READ, MISSING, MISSING_BEFORE, LEFT_OUT };
 
 static bool no_memory(const struct obj *obj, size_t bytes, lam_error *error)

@@ -22,7 +22,7 @@ struct batch_job {
     bool cancelled;         // it was
 };
 
-// What holds for every job.
+// Settings of all jobs.
 struct batch_job_rules {
     const struct options *options; // the worker's
     int threads, in_flight;        // of each job; jobs that are drawn at once
@@ -30,7 +30,7 @@ struct batch_job_rules {
     bool has_keys;                 // there is a journal
 };
 
-// What a line is. REFUSED: nothing that can be done; `error` says why.
+// The kind of a line. REFUSED: it is not valid; `error` has the reason.
 enum batch_line { LINE_JOB, LINE_CANCEL, LINE_REFUSED };
 
 // Reads a line of JSON. *id: of the job, or of the one to be cancelled, also of a job that is refused; NULL: it has none. The

@@ -15,7 +15,7 @@ void batch_jobs_close(struct batch_jobs *jobs); // NULL is fine
 // interrupt, or when the batch or the answers have failed, gives up all jobs. The main thread alone.
 void batch_jobs_step(struct batch_jobs *jobs, int wait_ms);
 
-// What to poll() for the next line; −1: none is wanted at the moment.
+// The file to poll() for the next line; −1: none is wanted at the moment.
 int batch_jobs_wanted(const struct batch_jobs *jobs);
 
 // Whether batch_jobs_step has something to do without anything being read.

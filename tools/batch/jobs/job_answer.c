@@ -132,7 +132,7 @@ static bool add_data(json_t *picture, const lam_bytes *bytes)
     return text || !bytes->data;
 }
 
-// What became of the job as a whole.
+// The outcome of the job as a whole.
 static const char *outcome_of(const struct batch_unit *u)
 {
     bool same = true;

@@ -11,7 +11,7 @@ char *batch_options_text(const struct options *options, lam_error *error);
 // The options of both texts that differ first, as "--size 512 … --size 256": for a sentence. The texts differ.
 void batch_options_difference(const char *then, const char *now, char text[300]);
 
-// What the key of one picture is made of.
+// The inputs of one picture's key.
 struct batch_key_parts {
     const char *options;          // batch_options_text
     const struct options *parsed; // the same, for scene files: which options were given

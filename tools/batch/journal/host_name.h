@@ -7,7 +7,7 @@
 
 enum { HOST_SIZE = 65 }; // HOST_NAME_MAX of Linux, and the closing zero
 
-// "" where it cannot be told.
+// "" where it is unknown.
 static inline const char *host_name(char name[HOST_SIZE])
 {
     memset(name, 0, HOST_SIZE);

@@ -16,7 +16,7 @@ struct journal;
 // added to it; for RESUME its options must be these.
 enum journal_way { JOURNAL_START, JOURNAL_RESUME, JOURNAL_SAME };
 
-// What the line says that begins a run.
+// The contents of the line that begins a run.
 struct journal_run {
     const char *options; // batch_options_text, and the names of the pictures
     const char *shard;   // "2/3"; NULL: there are no shards

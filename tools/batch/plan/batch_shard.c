@@ -1,7 +1,7 @@
 // batch_shard.c: which models are this process's, where several share the work.
 //
 // A model's shard follows from its name alone, so that shards need not speak to each other, and a model that is added moves no
-// other one. What an environment says is taken only where it is asked for, and only where it leaves no doubt: a wrong guess
+// other one. The environment's variables are read only with --shard auto, and only where they leave no doubt: a wrong guess
 // would leave models out, and nobody would notice.
 #include "batch_shard.h"
 

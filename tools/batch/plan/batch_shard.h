@@ -9,7 +9,7 @@ struct batch_shard {
     int number, count;
 };
 
-// What --shard says: "K/N", or "auto" and "auto/N", which take K from the environment of Slurm, Kubernetes or Open MPI. Error:
+// The value of --shard: "K/N", or "auto" and "auto/N", which take K from the environment of Slurm, Kubernetes or Open MPI. Error:
 // LAM_BAD_ARGUMENT: no such shard, or the environment does not say which.
 bool batch_shard_of(const char *text, struct batch_shard *shard, lam_error *error);
 

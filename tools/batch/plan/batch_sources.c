@@ -56,7 +56,7 @@ static bool leads_out(const struct batch_plan *plan, const char *path, const cha
     return out;
 }
 
-// Whatever a model's name stands for is added: that it is a pipe or a link that leads nowhere is said when it is read.
+// Adds a name whatever it stands for: pipes and links that lead nowhere are reported when they are read.
 static bool add_file(struct batch_plan *plan, const char *path, const char *root, bool is_link, lam_error *error)
 {
     struct stat target;

@@ -20,7 +20,7 @@ static const struct {
                     {"r", "mirrored light", 0xb0558a},
                     {"h", "between l and v", 0xd55e00}};
 
-// What the figure is about: the nearest surface of the pixel, the point of it that is lit, and the light that adds most there.
+// The subject of the figure: the nearest surface of the pixel, the point of it that is lit, and the light that adds most there.
 struct subject {
     const lam_explained_fragment *fragment; // NULL: the background alone
     const lam_explained_point *point;
@@ -372,7 +372,7 @@ static bool put_terms(const lam_explanation *e, const struct subject *s, struct 
     return true;
 }
 
-// What the panel begins with: the surface, the methods, and which light the arrows are those of.
+// The head of the panel: the surface, the methods, and which light the arrows are those of.
 static void put_words(const struct explain_figure *f, const struct subject *s, struct drawing *d,
                       struct sheet_layout *at)
 {

@@ -117,7 +117,7 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
     number(4, "S", (double)l->S, remark);
 }
 
-// What is in the way of the light.
+// Prints which surfaces are in the way of the light.
 static void print_shadow(const lam_explained_light *l)
 {
     char remark[200] = "nothing is in the way";
@@ -373,7 +373,7 @@ static void print_map(const lam_explained_map *m)
     printf("\n");
 }
 
-// What the maps make of the material.
+// Prints the material after its maps.
 static void print_values(const lam_explained_fragment *f)
 {
     const lam_explained_values *v = f->values;

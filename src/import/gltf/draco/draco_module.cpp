@@ -15,7 +15,7 @@ namespace
 
 // --- counting what Draco takes
 
-// What a thread's decoding has taken so far, and may. Where another library of the process has operators new and delete that come
+// The memory that a thread's decoding has taken so far, and its limit. Where another library of the process has operators new and delete that come
 // before these (a program in C++ that links Lambent, a sanitizer), nothing is counted, and the estimate from the header is all there is.
 struct account {
     draco_memory *memory;

@@ -181,7 +181,7 @@ static bool charge_claim(const struct decoding *d, const struct gltf_view *view,
     return true;
 }
 
-// What decoding may take beyond the claim's. It is asked for a megabyte at a time, which is when a long decoding can be ended.
+// Memory that decoding may take beyond what the file claims. It is granted a megabyte at a time, which is when a long decoding can be ended.
 struct grants {
     struct call_control *call;
     size_t refused;

@@ -16,21 +16,30 @@ struct cube_place {
     num s, t;
 };
 
-// The same on a face from −1 to 1; NaN for the zero vector.
-LANE_FN struct cube_place cube_point(num x, num y, num z)
+// A direction seen from its face: the place is across ÷ major, down ÷ major.
+struct cube_side {
+    inum face;
+    num across, down, major;
+};
+
+LANE_FN struct cube_side cube_side(num x, num y, num z)
 {
     num ax = absolute(x), ay = absolute(y), az = absolute(z);
     mask on_x = both(ax >= ay, ax >= az), on_y = both(negate(on_x), ay >= az);
-    mask minus = pick(on_x, x, pick(on_y, y, z)) < 0.0f;
-    num major = pick(on_x, ax, pick(on_y, ay, az));
-    num across = pick(on_x, pick(minus, z, -z), pick(on_y, x, pick(minus, -x, x)));
-    num down = pick(on_y, pick(minus, -z, z), -y);
+    inum sign = bits_of(pick(on_x, x, pick(on_y, y, z))) & INT32_MIN, minus = inum_of(INT32_MIN);
+    struct cube_side side = {.major = pick(on_x, ax, pick(on_y, ay, az))};
+    side.across = num_of_bits(bits_of(pick(on_x, num_of_bits(bits_of(z) ^ minus), x)) ^ ipick(on_y, inum_of(0), sign));
+    side.down = num_of_bits(ipick(on_y, bits_of(z) ^ sign, bits_of(y) ^ minus));
     inum axis = ipick(on_x, inum_of(LAM_FACE_PX), ipick(on_y, inum_of(LAM_FACE_PY), inum_of(LAM_FACE_PZ)));
-    struct cube_place place;
-    place.face = wrap_add(axis, ipick(minus, inum_of(1), inum_of(0)));
-    place.s = across / major;
-    place.t = down / major;
-    return place;
+    side.face = axis + (shift_right(sign, 31) & 1);
+    return side;
+}
+
+// The place on a face from −1 to 1; NaN for the zero vector.
+LANE_FN struct cube_place cube_point(num x, num y, num z)
+{
+    struct cube_side side = cube_side(x, y, z);
+    return (struct cube_place){side.face, side.across / side.major, side.down / side.major};
 }
 
 // OpenGL's table (4.6, 8.13): the axis with the largest magnitude selects the face. Of equal magnitudes either serves,

@@ -2,58 +2,110 @@
 #include "environment_kernels.h"
 
 #include "cube_lookup.h"
-#include "linear.h"
 
 enum { ROW_MAX = 64 }; // texels on a side of cubes by cube_sums_row, a multiple of 16
 
 // --- lobes as cells
 
-// Red, green, blue and one number more of a place, and of two places: the compiler's vectors round each of them as plain C does.
-typedef float channels __attribute__((vector_size(16)));
-typedef float channels_memory __attribute__((vector_size(16), aligned(4), may_alias));
-typedef float two_places __attribute__((vector_size(32)));
+// Two neighbouring texels of a row, red, green and blue each, and two numbers more, of PLACES places: the compiler's vectors round
+// each number as plain C does.
+#define PLACES (LANES == 16 ? 2 : 1)
+typedef float texel_pair __attribute__((vector_size(32)));
+typedef float texel_pair_memory __attribute__((vector_size(32), aligned(4), may_alias));
+typedef float texel_pairs __attribute__((vector_size(32 * PLACES)));
 
-LANE_FN two_places texels_at(const float *first, const float *second)
+// Lane i of `left` beside the first texel, of `right` beside the second.
+#if LANES == 16
+#define BESIDE(left, right, i)                                                                                         \
+    __builtin_shufflevector(left, right, i, i, i, LANES + i, LANES + i, LANES + i, i, i, i + 1, i + 1, i + 1,          \
+                            LANES + i + 1, LANES + i + 1, LANES + i + 1, i + 1, i + 1)
+#else
+#define BESIDE(left, right, i) __builtin_shufflevector(left, right, i, i, i, LANES + i, LANES + i, LANES + i, i, i)
+#endif
+
+LANE_FN texel_pairs texels_at(const float *texels, const int32_t *first)
 {
-    channels a = (channels) * (const channels_memory *)first, b = (channels) * (const channels_memory *)second;
-    return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+    texel_pair one = (texel_pair) * (const texel_pair_memory *)(texels + first[0]);
+#if LANES == 16
+    texel_pair two = (texel_pair) * (const texel_pair_memory *)(texels + first[1]);
+    return __builtin_shufflevector(one, two, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+#else
+    return one;
+#endif
 }
 
-LANE_FN two_places shares_of(const float part[2])
-{
-    channels a = (channels){0} + part[0], b = (channels){0} + part[1];
-    return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-
-// Adds the light of LANES places times a weight, as cube_look has it, all channels of a place side by side.
-LANE_FN void add_light(two_places sum[LANES / 2], const struct lam_environment *cube, const struct cube_place *place,
+// Adds the light of LANES directions times a weight, bilinear: the two texels of the rows side by side, to be added at the end.
+LANE_FN void add_light(texel_pairs sum[LANES / PLACES], const struct lam_environment *cube, num x, num y, num z,
                        float weight)
 {
     int side = cube->size + 2;
+    float half = 0.5f * (float)cube->size, middle = half + 0.5f;
+    num min = num_of(0.5f), max = num_of((float)cube->size + 0.5f);
+    struct cube_side at = cube_side(x, y, z);
+    num scale = half / at.major; // the same as cube_place but for rounding
+    num across = min_of(max_of(at.across * scale + middle, min), max);
+    num down = min_of(max_of(at.down * scale + middle, min), max);
+    inum column = int_of(across), row = int_of(down);
     int32_t first[LANES];
-    float s[LANES], t[LANES];
-    inum column = int_of(place->s), row = int_of(place->t);
-    num_store(s, place->s - num_of_int(column));
-    num_store(t, place->t - num_of_int(row));
-    inum_store(first, wrap_add(wrap_mul(wrap_add(wrap_mul(place->face, inum_of(side)), row), inum_of(side)), column));
-    for (int i = 0; i < LANES; i += 2) {
-        const float *one = cube->texels + 3 * (ptrdiff_t)first[i], *two = cube->texels + 3 * (ptrdiff_t)first[i + 1];
-        two_places a = texels_at(one, two), b = texels_at(one + 3, two + 3), across = shares_of(s + i);
-        one += 3 * side;
-        two += 3 * side;
-        two_places c = texels_at(one, two), e = texels_at(one + 3, two + 3);
-        two_places upper = a + (b - a) * across, lower = c + (e - c) * across;
-        sum[i / 2] += (upper + (lower - upper) * shares_of(t + i)) * weight;
+    inum_store(first,
+               wrap_mul(wrap_add(wrap_mul(wrap_add(wrap_mul(at.face, inum_of(side)), row), inum_of(side)), column),
+                        inum_of(3)));
+    num lower = down - num_of_int(row), right = (across - num_of_int(column)) * weight, left = weight - right;
+    const float *upper_row = cube->texels, *lower_row = cube->texels + cube_row(cube);
+#define ADD(i)                                                                                                         \
+    if (i < LANES) {                                                                                                   \
+        texel_pairs u = texels_at(upper_row, first + (i)), l = texels_at(lower_row, first + (i));                      \
+        sum[(i) / PLACES] += (u + (l - u) * BESIDE(lower, lower, i)) * BESIDE(left, right, i);                         \
     }
+#if LANES == 16
+    ADD(0) ADD(2) ADD(4) ADD(6) ADD(8) ADD(10) ADD(12) ADD(14)
+#else
+    ADD(0)
+    ADD(1)
+    ADD(2)
+    ADD(3)
+#if LANES == 8
+    ADD(4) ADD(5) ADD(6) ADD(7)
+#endif
+#endif
+#undef ADD
 }
 
-// Two directions that make a frame with the unit vector n.
-static void frame_around(lam_vec3 n, lam_vec3 *x, lam_vec3 *y)
+struct frames {
+    num x[3], y[3], z[3]; // z: the direction of a texel; the others unit and perpendicular to it
+};
+
+LANE_FN void make_unit(num v[3])
 {
-    double a = n.x * n.x, b = n.y * n.y, c = n.z * n.z;
-    lam_vec3 far = a <= b && a <= c ? v3(1, 0, 0) : b <= c ? v3(0, 1, 0) : v3(0, 0, 1);
-    *x = v3_unit(v3_cross(far, n));
-    *y = v3_cross(n, *x);
+    num scale = 1.0f / square_root(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (int i = 0; i < 3; i++)
+        v[i] = v[i] * scale;
+}
+
+LANE_FN void cross(const num a[3], const num b[3], num out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+// The frames of texels s … s + LANES − 1 of a row.
+LANE_FN struct frames frames_of(int size, int face, int s, int t)
+{
+    double start[3], step[3];
+    cube_direction(face, size, 2 * s + 1 - size, 2 * t + 1 - size, start);
+    cube_direction(face, 0, 2, 0, step);
+    struct frames f;
+    for (int i = 0; i < 3; i++)
+        f.z[i] = (float)start[i] + (float)step[i] * num_of_int(lane_numbers());
+    make_unit(f.z);
+    // x is perpendicular to the axis from which the direction is farthest.
+    num a = f.z[0] * f.z[0], b = f.z[1] * f.z[1], c = f.z[2] * f.z[2], one = num_of(1), none = num_of(0);
+    mask by_x = both(a <= b, a <= c), by_y = both(negate(by_x), b <= c);
+    const num far[3] = {pick(by_x, one, none), pick(by_y, one, none), pick(either(by_x, by_y), none, one)};
+    cross(far, f.z, f.x);
+    make_unit(f.x);
+    cross(f.z, f.x, f.y);
+    return f;
 }
 
 // A row of sums of the cells from `first` to `end`, and of a cube that holds the sums of others; NULL: none.
@@ -61,37 +113,21 @@ static void prefilter_row(const struct lobe_cells *cells, int first, int end, co
                           struct lam_environment *out, int face, int t)
 {
     for (int s = 0; s < out->size; s += LANES) {
-        float frame[9][LANES];
-        for (int i = 0; i < LANES; i++) {
-            double d[3];
-            cube_direction(face, out->size, 2 * (s + i) + 1 - out->size, 2 * t + 1 - out->size, d);
-            lam_vec3 axis[3];
-            axis[2] = v3_unit(v3(d[0], d[1], d[2]));
-            frame_around(axis[2], &axis[0], &axis[1]);
-            for (int k = 0; k < 3; k++) {
-                frame[k][i] = (float)axis[k].x;
-                frame[3 + k][i] = (float)axis[k].y;
-                frame[6 + k][i] = (float)axis[k].z;
-            }
-        }
-        num m[9];
-        for (int k = 0; k < 9; k++)
-            m[k] = num_load(frame[k]);
-        two_places sum[LANES / 2] = {{0}};
-        if (others) {
-            struct cube_place place = cube_place(m[2], m[5], m[8], others->size);
-            add_light(sum, others, &place, 1);
-        }
+        struct frames f = frames_of(out->size, face, s, t);
+        texel_pairs sum[LANES / PLACES] = {{0}};
+        if (others)
+            add_light(sum, others, f.z[0], f.z[1], f.z[2], 1);
         for (int c = first; c < end; c++) {
             const struct cell *cell = &cells->cell[c];
-            struct cube_place place = cube_place(m[0] * cell->x + m[1] * cell->y + m[2] * cell->z,
-                                                 m[3] * cell->x + m[4] * cell->y + m[5] * cell->z,
-                                                 m[6] * cell->x + m[7] * cell->y + m[8] * cell->z, cell->cube->size);
-            add_light(sum, cell->cube, &place, cell->weight);
+            num d[3];
+            for (int i = 0; i < 3; i++)
+                d[i] = f.x[i] * cell->x + f.y[i] * cell->y + f.z[i] * cell->z;
+            add_light(sum, cell->cube, d[0], d[1], d[2], cell->weight);
         }
         for (int i = 0; i < LANES && s + i < out->size; i++)
             for (int c = 0; c < 3; c++)
-                cube_texel(out, face, s + i, t)[c] = sum[i / 2][4 * (i % 2) + c];
+                cube_texel(out, face, s + i, t)[c] =
+                    sum[i / PLACES][8 * (i % PLACES) + c] + sum[i / PLACES][8 * (i % PLACES) + 3 + c];
     }
 }
 

@@ -259,10 +259,13 @@ static struct environment_light *start(const struct lam_environment *cube, lam_e
     return light;
 }
 
-unsigned environment_light_parts(float level)
+// The lower one of the two levels that are mixed, as prefiltered_look has it.
+static int lower_level(float level) { return level < ENVIRONMENT_LEVELS - 2 ? (int)level : ENVIRONMENT_LEVELS - 2; }
+
+unsigned environment_light_parts(float first, float last)
 {
-    int first = level < ENVIRONMENT_LEVELS - 2 ? (int)level : ENVIRONMENT_LEVELS - 2;
-    return 3u << first | 1u << ENVIRONMENT_LEVELS;
+    unsigned from = 1u << lower_level(first), end = 4u << lower_level(last);
+    return (end - from) | 1u << ENVIRONMENT_LEVELS;
 }
 
 static bool is_made(const struct environment_light *light, unsigned needed)

@@ -29,8 +29,8 @@ struct environment_light {
 };
 enum { ENVIRONMENT_LIGHT_ALL = (2 << ENVIRONMENT_LEVELS) - 1 };
 
-// What a roughness reads: the irradiance and two neighbouring levels.
-unsigned environment_light_parts(float level);
+// What roughnesses between two levels read: the irradiance, these levels and those between and next to them.
+unsigned environment_light_parts(float first, float last);
 
 int prefiltered_size(int level); // texels on a side of levels 1 and up
 // Levels 1 and up and the irradiance, each six faces with their borders (cube_map.h), lie one after the other in `texels`:

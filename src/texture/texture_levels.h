@@ -28,6 +28,8 @@ struct lam_texture {
     int channels;
     // No texel has an alpha below 1.
     bool opaque;
+    // The smallest and the largest byte of level 0 for each channel (texture_range.c); 0: not looked for. Accessed atomically.
+    uint64_t ranges;
     const char *name; // NULL: none
     // Of level 0, where the picture has 8 bits.
     const uint8_t *bytes;

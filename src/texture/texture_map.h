@@ -16,6 +16,10 @@ static inline bool texture_map_translucent(const lam_texture_map *map)
     return map && map->texture && !map->texture->opaque;
 }
 
+// Bounds of a map's numbers, as its channel, scale and offset give them, but for rounding; −1e30 and 1e30 where the texture was
+// not made of bytes. Found once for a texture, by any number of threads.
+void texture_map_range(const lam_texture_map *map, float out[2]);
+
 // `count` points: texture coordinates of the mesh, and their derivatives by the pixel's x and y.
 struct texture_points {
     const float *s, *t, *ds_dx, *dt_dx, *ds_dy, *dt_dy;

@@ -17,6 +17,7 @@
 #include "environment_light.h"
 #include "environment_scene.h"
 #include "share.h"
+#include "texture_map.h"
 
 // --- the split sum in double
 
@@ -239,11 +240,13 @@ static void test_parts(void **state)
     lam_error error;
     lam_environment *whole = make_environment(), *parts = make_environment();
     const struct environment_light *all = environment_light(whole, ENVIRONMENT_LIGHT_ALL, NULL, NULL, &error);
-    assert_int_equal(environment_light_parts(0), 3 | 1 << ENVIRONMENT_LEVELS);
-    assert_int_equal(environment_light_parts(11), 3 << 10 | 1 << ENVIRONMENT_LEVELS);
+    assert_int_equal(environment_light_parts(0, 0), 3 | 1 << ENVIRONMENT_LEVELS);
+    assert_int_equal(environment_light_parts(11, 11), 3 << 10 | 1 << ENVIRONMENT_LEVELS);
+    assert_int_equal(environment_light_parts(2.9f, 5.1f), 0x7c | 1 << ENVIRONMENT_LEVELS);
+    assert_int_equal(environment_light_parts(0, 11), ENVIRONMENT_LIGHT_ALL);
     static const float asked[] = {10.5f, 3, 0, 7.9f, 5, 1, 9};
     for (size_t i = 0; i < sizeof asked / sizeof *asked; i++) {
-        unsigned needed = environment_light_parts(asked[i]);
+        unsigned needed = environment_light_parts(asked[i], asked[i]);
         const struct environment_light *some = environment_light(parts, needed, NULL, NULL, &error);
         assert_true(some && (some->made & needed) == needed);
         assert_true(i > 0 || (some->made & 1 << 5) == 0);
@@ -258,10 +261,91 @@ static void test_parts(void **state)
     lam_environment_free(parts);
 }
 
+// Bounds of a map's numbers: of each channel, of pictures with and without alpha, of any size.
+static void test_map_ranges(void **state)
+{
+    (void)state;
+    enum { SIDE = 23 };
+    lam_error error;
+    static uint8_t pixels[SIDE * SIDE][4];
+    for (int i = 0; i < SIDE * SIDE; i++)
+        for (int c = 0; c < 4; c++)
+            pixels[i][c] = (uint8_t)(60 + 30 * c + i * 7 % 20); // the last texels have neither bound
+    for (int opaque = 0; opaque < 2; opaque++) {
+        for (int i = 0; i < SIDE * SIDE && opaque; i++)
+            pixels[i][3] = 255;
+        lam_image image = {.width = SIDE, .height = SIDE, .format = LAM_RGBA8, .pixels = pixels};
+        lam_texture *texture = lam_texture_make(&image, LAM_TEXTURE_NUMBERS, NULL, &error);
+        assert_non_null(texture);
+        for (int c = 0; c < 4; c++) {
+            lam_texture_map map = {.texture = texture, .channel = c};
+            float range[2];
+            texture_map_range(&map, range);
+            assert_true(fabsf(range[0] * 255 - (c == 3 && opaque ? 255.0f : 60.0f + 30.0f * (float)c)) < 1e-4f);
+            assert_true(fabsf(range[1] * 255 - (c == 3 && opaque ? 255.0f : 79.0f + 30.0f * (float)c)) < 1e-4f);
+            map.scale = -1;
+            map.offset = 1;
+            float turned[2];
+            texture_map_range(&map, turned);
+            assert_true(turned[0] == 1 - range[1] && turned[1] == 1 - range[0]);
+        }
+        lam_texture_free(texture);
+    }
+    float number[4] = {0.5f, 0.5f, 0.5f, 1}, range[2];
+    lam_image image = {.width = 1, .height = 1, .format = LAM_RGBA32F, .pixels = number};
+    lam_texture *texture = lam_texture_make(&image, LAM_TEXTURE_NUMBERS, NULL, &error);
+    texture_map_range(&(lam_texture_map){.texture = texture}, range);
+    assert_true(range[0] <= 0.5f && range[1] >= 0.5f);
+    lam_texture_free(texture);
+}
+
+// Only those levels are made that a map's roughnesses read, and the picture is that of all levels.
+static void test_levels_of_maps(void **state)
+{
+    (void)state;
+    lam_error error;
+    lam_environment *whole = make_environment(), *parts = make_environment();
+    static uint8_t pixels[64][4];
+    for (int i = 0; i < 64; i++)
+        memcpy(pixels[i], (uint8_t[]){(uint8_t)(120 + i), (uint8_t)(140 + i), 0, 255}, 4);
+    lam_image image = {.width = 8, .height = 8, .format = LAM_RGBA8, .pixels = pixels};
+    lam_texture *texture = lam_texture_make(&image, LAM_TEXTURE_NUMBERS, NULL, &error);
+    const lam_texture_map rough = {.texture = texture, .channel = 1}, coat = {.texture = texture};
+    lam_image pictures[2];
+    assert_non_null(environment_light(whole, ENVIRONMENT_LIGHT_ALL, NULL, NULL, &error));
+    for (int i = 0; i < 2; i++) {
+        lam_scene *scene = lam_scene_make(&error);
+        lam_material material = lam_material_default();
+        material.physical = true;
+        material.roughness = 0.9f;
+        material.clearcoat = 1;
+        material.clearcoat_roughness = 0.25f;
+        material.maps[LAM_MAP_ROUGHNESS] = &rough;
+        material.maps[LAM_MAP_CLEARCOAT_ROUGHNESS] = &coat;
+        lam_object object = lam_object_default();
+        object.mesh = lam_scene_add_shape(scene, "sphere", NULL, &error);
+        object.material = lam_scene_add_material(scene, &material, &error);
+        assert_true(object.material >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);
+        assert_true(lam_scene_set_environment(scene, i ? parts : whole, 0, &error));
+        pictures[i] = draw_spheres(scene, (lam_draw_params){0}, 2, LAM_ISA_AUTO);
+        lam_scene_free(scene);
+    }
+    assert_memory_equal(pictures[0].pixels, pictures[1].pixels,
+                        (size_t)pictures[0].width * (size_t)pictures[0].height * 16);
+    // The coat is read from 0.25 · 120 / 255 to 0.25, levels 2.3 to 5.01; the base from 0.49 to 0.9, levels 7.7 to 10.5.
+    assert_int_equal(parts->light->made, 1 | 0x7c | 0xf80 | 1 << ENVIRONMENT_LEVELS);
+    for (int i = 0; i < 2; i++)
+        lam_image_free(&pictures[i]);
+    lam_texture_free(texture);
+    lam_environment_free(whole);
+    lam_environment_free(parts);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_split_sum), cmocka_unit_test(test_white_furnace),
-                                       cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_any_size),
-                                       cmocka_unit_test(test_parts)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_split_sum),     cmocka_unit_test(test_white_furnace),
+                                       cmocka_unit_test(test_same_bytes),    cmocka_unit_test(test_any_size),
+                                       cmocka_unit_test(test_parts),         cmocka_unit_test(test_map_ranges),
+                                       cmocka_unit_test(test_levels_of_maps)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

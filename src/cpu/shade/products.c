@@ -9,6 +9,7 @@
 #include "fail.h"
 #include "fields.h"
 #include "linear.h"
+#include "texture_map.h"
 
 #include <string.h>
 
@@ -91,16 +92,31 @@ struct material_products *products_make(struct buffer *storage, const struct fra
     return products;
 }
 
+// What a roughness reads that is the material's number alone, or times a map's. A mesh without texture coordinates reads no map.
+static unsigned parts_of_number(const struct material_products *m, lam_map slot, float factor, bool stretched)
+{
+    const float margin = 1e-4f; // for the rounding of filtered texels
+    float low = factor, high = factor;
+    if (m->maps >> slot & 1) {
+        float range[2];
+        texture_map_range(m->given->maps[slot], range);
+        low = factor * range[0] < low ? factor * range[0] : low;
+        high = factor * range[1] > high ? factor * range[1] : high;
+    }
+    return environment_light_parts(prefilter_level(low - margin), prefilter_level(stretched ? 1 : high + margin));
+}
+
 unsigned environment_parts_of(const struct shade_frame *shade)
 {
     unsigned parts = 0;
     for (int i = 0; i < shade->frame->material_count; i++) {
         const struct material_products *m = &shade->materials[i];
-        if (!m->given->physical)
+        const lam_material *given = m->given;
+        if (!given->physical)
             continue;
-        if (m->layers || (m->maps >> LAM_MAP_ROUGHNESS & 1))
-            return ENVIRONMENT_LIGHT_ALL;
-        parts |= environment_light_parts(prefilter_level(m->given->roughness));
+        parts |= parts_of_number(m, LAM_MAP_ROUGHNESS, given->roughness, m->layers & LAYER_ANISOTROPY);
+        if (m->layers & LAYER_CLEARCOAT)
+            parts |= parts_of_number(m, LAM_MAP_CLEARCOAT_ROUGHNESS, given->clearcoat_roughness, false);
     }
     return parts;
 }

@@ -48,7 +48,7 @@ struct shade_frame {
     struct recorder *recorder; // of the pixel that is explained (recorder.h); else NULL
 };
 
-// The parts of an environment's light that the frame's materials read (environment_light.h): all of them where a roughness varies.
+// The parts of an environment's light that the frame's materials read (environment_light.h).
 unsigned environment_parts_of(const struct shade_frame *shade);
 
 #endif

@@ -202,8 +202,9 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     bool ok = true;
     if (frame->makes_normals || cpu.shade.occlusion)
         ok = cover_in_advance(&cpu, &device->visible, error) && step_done(&cpu, error);
-    if (frame->makes_normals || cpu.shade.occlusion)
-        base->report.normals_ms = milliseconds_since(&clock) - device->visible.search_ms;
+    double advance_ms = milliseconds_since(&clock);
+    if (frame->makes_normals)
+        base->report.normals_ms = advance_ms - device->visible.search_ms;
     if (ok && cpu.shade.occlusion) {
         screen_occlusion_find(&cpu.occlusion, cpu.kernels->occlusion, device->pool, call);
         base->report.occlusion_ms = milliseconds_since(&clock);

@@ -9,6 +9,7 @@
 #include "frame_lights.h"
 #include "frame_strokes.h"
 #include "linear.h"
+#include "normals.h"
 #include "up_axis.h"
 #include "view_extents.h"
 
@@ -285,6 +286,20 @@ static bool build_environment(struct frame *frame, const lam_scene *scene, lam_r
     return true;
 }
 
+// Normals of facets need not be made before the picture is lit, where each is only read for the points of its own triangle.
+static void leave_facets(struct frame *frame)
+{
+    if (!frame->makes_normals || frame->shading != LAM_SHADING_PHONG || frame_has_rays(frame))
+        return;
+    frame->makes_normals = false;
+    for (int i = 0; i < frame->draw_count; i++) {
+        struct frame_draw *draw = &frame->draws[i];
+        draw->facets = draw->crease_rad > 0 && draw->crease_rad <= FACET_CREASE_RAD;
+        draw->crease_rad = draw->facets ? 0 : draw->crease_rad;
+        frame->makes_normals |= draw->crease_rad > 0;
+    }
+}
+
 // Decides about ambient occlusion, once the lights are known.
 static void set_occlusion(struct frame *frame, const lam_scene *scene, const lam_draw_params *params, bool physical)
 {
@@ -444,6 +459,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         rounded(2 * (frame->orthographic ? camera->ortho_half_height : math_tan(0.5 * camera->fovy_rad)) / height);
     set_occlusion(frame, scene, params, physical);
     frame_edges_build(frame, params, &view, &pixel);
+    leave_facets(frame);
     if (frame_has_rays(frame) || frame->draws_edges)
         frame_rays_build(frame, scene, &view);
     return true;

@@ -33,6 +33,8 @@ struct frame_draw {
     lam_cull cull;
     // > 0: the mesh has no normals; the device computes those that it needs, with this crease angle.
     double crease_rad;
+    // The same with a crease at every edge, where each point has its facet's normal and nothing else reads it.
+    bool facets;
 };
 
 // Consecutive triangles of one draw with the same materials.

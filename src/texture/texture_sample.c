@@ -7,7 +7,7 @@
 
 #include "float_state.h"
 
-enum { PROBES_MAX = 16 };
+enum { PROBES_MAX = 16, AHEAD = 8 };
 
 // --- fetching
 
@@ -18,7 +18,7 @@ static texel mix_four(const texel four[4], float right, float lower)
     return mix(mix(four[0], four[1], right), mix(four[2], four[3], right), lower);
 }
 
-// A level's texels at a tap, mixed. `channels` is a constant where this is inlined.
+// A level's texels at a tap, mixed. `channels` is a constant where this is inlined; with 3 the fourth is any number.
 static inline __attribute__((always_inline)) texel fetch_tap(const struct lam_texture *texture, int channels, int level,
                                                              int32_t first, int32_t across, int32_t down, float right,
                                                              float lower)
@@ -28,8 +28,8 @@ static inline __attribute__((always_inline)) texel fetch_tap(const struct lam_te
               to_lower = channels * (ptrdiff_t)down;
     if (floats) {
         const float *upper = floats + at, *below = upper + to_lower;
-        return mix_four((texel[4]){texel_of_floats(upper, channels), texel_of_floats(upper + to_right, channels),
-                                   texel_of_floats(below, channels), texel_of_floats(below + to_right, channels)},
+        return mix_four((texel[4]){texel_of_floats(upper, 4), texel_of_floats(upper + to_right, 4),
+                                   texel_of_floats(below, 4), texel_of_floats(below + to_right, 4)},
                         right, lower);
     }
     const uint8_t *upper = texture->bytes + at, *below = upper + to_lower;
@@ -39,13 +39,29 @@ static inline __attribute__((always_inline)) texel fetch_tap(const struct lam_te
         right, lower);
 }
 
+// Asks for the upper and the lower texels of a point some points ahead: pictures are larger than the processor's caches.
+static inline __attribute__((always_inline)) void prefetch_tap(const struct lam_texture *texture, int channels,
+                                                               int level, int32_t first, int32_t down)
+{
+    const struct texture_level *l = &texture->levels[level];
+    ptrdiff_t step = channels * (l->floats ? (ptrdiff_t)sizeof(float) : 1);
+    const char *at = (l->floats ? (const char *)l->floats : (const char *)texture->bytes) + first * step;
+    __builtin_prefetch(at);
+    __builtin_prefetch(at + down * step);
+}
+
 static inline __attribute__((always_inline)) void fetch_rows(const struct lam_texture *texture, int channels,
                                                              const struct texture_taps *taps, int count,
                                                              float *const out[4])
 {
     const struct tap_rows *one = &taps->at[0], *two = &taps->at[1];
     for (int i = 0; i < count; i++) {
-        int level = taps->level[i];
+        int level = taps->level[i], later = i + AHEAD;
+        if (later < count) {
+            prefetch_tap(texture, channels, taps->level[later], one->first[later], one->down[later]);
+            if (taps->next[later] != 0)
+                prefetch_tap(texture, channels, taps->level[later] + 1, two->first[later], two->down[later]);
+        }
         texel value = fetch_tap(texture, channels, level, one->first[i], one->across[i], one->down[i], one->right[i],
                                 one->lower[i]);
         if (taps->next[i] != 0)
@@ -53,9 +69,11 @@ static inline __attribute__((always_inline)) void fetch_rows(const struct lam_te
                         fetch_tap(texture, channels, level + 1, two->first[i], two->across[i], two->down[i],
                                   two->right[i], two->lower[i]),
                         taps->next[i]);
-        for (int channel = 0; channel < 4; channel++)
+        for (int channel = 0; channel < channels; channel++)
             out[channel][i] = value[channel];
     }
+    for (int i = 0; channels == 3 && i < count; i++)
+        out[3][i] = 1;
 }
 
 void texture_fetch(const struct lam_texture *texture, const struct texture_taps *taps, int count, float *const out[4])
@@ -78,7 +96,11 @@ static texel at_level(const lam_texture_map *map, float s, float t, float detail
 {
     struct taps_lanes taps = taps_of(map, s, t, detail);
     texel value = fetch_one(map->texture, taps.level, &taps.at[0]);
-    return taps.next != 0 ? mix(value, fetch_one(map->texture, taps.level + 1, &taps.at[1]), taps.next) : value;
+    if (taps.next != 0)
+        value = mix(value, fetch_one(map->texture, taps.level + 1, &taps.at[1]), taps.next);
+    if (map->texture->channels == 3)
+        value[3] = 1;
+    return value;
 }
 
 // The mean of several probes along the longer axis of a footprint that is minified (convention 22).

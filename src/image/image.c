@@ -20,8 +20,9 @@ static void *get_pixels(size_t bytes)
     size_t rounded = (bytes + huge - 1) & ~(huge - 1);
     void *pixels = aligned_alloc(huge, rounded);
 #ifdef MADV_HUGEPAGE
+    // The last one only where little of it is left over. Advice: a refusal changes nothing but speed.
     if (pixels)
-        madvise(pixels, rounded, MADV_HUGEPAGE); // advice: a refusal changes nothing but speed
+        madvise(pixels, rounded - bytes <= bytes / 16 ? rounded : rounded - huge, MADV_HUGEPAGE);
 #endif
     return pixels;
 }

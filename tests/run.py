@@ -130,7 +130,7 @@ def run_test(test):
     return test, output, counts, used.ru_utime + used.ru_stime, time.time() - start
 
 
-def tell(test, output, counts, processor, told):
+def tell(test, output, counts, processor, printed):
     """Prints a test's row, and what it says of failures."""
     passed, failed, skipped, failures = counts
     print("  %-15s %-24s %4d passed%s%s  %5.1f s" % (test["variant"]["name"], test["name"], passed, ", %d failed" % failed if failed else "",
@@ -139,15 +139,15 @@ def tell(test, output, counts, processor, told):
         print("    " + "\n    ".join(failures[:20]))
         print("    " + "\n    ".join(output.splitlines()[-40:]))
     for line in output.splitlines():
-        if re.match(test["variant"].get("tell", "$."), line) and line not in told:
-            told.add(line)
+        if re.match(test["variant"].get("tell", "$."), line) and line not in printed:
+            printed.add(line)
             print("    " + line)
     sys.stdout.flush()
 
 
 def run_tests(tests):
-    """Runs tests, those first whose row in tests/meson.build says so; returns (test, counts, processor time, time) of each, and what was told."""
-    done, told = [], set()
+    """Runs tests, those first whose row in tests/meson.build says so; returns (test, counts, processor time, time) of each, and the lines that were printed."""
+    done, printed = [], set()
     for folder in {os.path.join(OUT, test["variant"]["name"], "tests") for test in tests}:
         os.makedirs(folder, exist_ok=True)
     for processes, chosen in ((max(2, len(os.sched_getaffinity(0))), [test for test in tests if test["is_parallel"]]),
@@ -157,14 +157,14 @@ def run_tests(tests):
             try:
                 for job in concurrent.futures.as_completed(jobs):
                     test, output, counts, processor, wall = job.result()
-                    tell(test, output, counts, processor, told)
+                    tell(test, output, counts, processor, printed)
                     done.append((test, counts, processor, wall))
             except KeyboardInterrupt:
                 pool.shutdown(wait=False, cancel_futures=True)
                 for group in list(RUNNING):
                     os.killpg(group, signal.SIGTERM)
                 sys.exit("run.py: interrupted")
-    return done, told
+    return done, printed
 
 
 def minutes(seconds):
@@ -191,7 +191,7 @@ def main():
         print("%s: built in %.0f s" % (variant["name"], time.time() - start), flush=True)
         tests += tests_of(variant)
     start = time.time()
-    done, told = run_tests(tests)
+    done, printed = run_tests(tests)
     wall = time.time() - start
     with open(os.path.join(OUT, "tests.json"), "w") as out:
         json.dump([{"variant": test["variant"]["name"], "test": test["name"], "passed": counts[0], "failed": counts[1], "skipped": counts[2],
@@ -201,7 +201,7 @@ def main():
         sums = [sum(counts[i] for counts, _ in rows) for i in range(3)]
         totals = [a + b for a, b in zip(totals, sums)]
         print("%s: %d passed, %d failed, %d skipped, %.0f s of processor time" % (variant["name"], *sums, sum(processor for _, processor in rows)))
-    if GL in variants and not told:
+    if GL in variants and not printed:
         print("OpenGL was not found: `lambent devices` says why")
     if totals[2]:
         print("%d skipped: they say why in build-test/VARIANT/tests/" % totals[2])

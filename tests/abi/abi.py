@@ -95,7 +95,7 @@ def check_versions(now, folder):
     change, gone = older(now)
     layout.rewrite(HEADERS, os.path.join(folder, "older", "lambent"), change)
     layout.rewrite(HEADERS, os.path.join(folder, "newer", "lambent"), newer)
-    told, source = {}, os.path.join(HERE, "versions.c")
+    outputs, source = {}, os.path.join(HERE, "versions.c")
     for version, include in (("today's", os.path.dirname(HEADERS)), ("older", os.path.join(folder, "older")),
                              ("newer", os.path.join(folder, "newer"))):
         program = os.path.join(folder, "with-" + version[:5] + "-headers")
@@ -103,15 +103,15 @@ def check_versions(now, folder):
         if not check("a program compiled against %s headers" % version, built.returncode == 0, built.stdout):
             continue
         ran = run([program, os.path.join(ROOT, "tests", "models", "cube.obj")])
-        told[version] = ran.stdout
+        outputs[version] = ran.stdout
         check("it runs with today's library", ran.returncode == 0, ran.stdout)
     check("older headers lack fields: %d of them, lam_image.stride among them" % len(gone), "lam_image.stride" in gone, " ".join(gone))
-    check("the older program gets the same picture, explanation and report", told.get("older") == told.get("today's") != None,
-          "older:\n%s\ntoday's:\n%s" % (told.get("older"), told.get("today's")))
-    refused = told.get("newer", "").split("refused:\n")
-    check("so does the newer one, its new fields being zero", refused[0] == told.get("today's"), told.get("newer", ""))
+    check("the older program gets the same picture, explanation and report", outputs.get("older") == outputs.get("today's") != None,
+          "older:\n%s\ntoday's:\n%s" % (outputs.get("older"), outputs.get("today's")))
+    refused = outputs.get("newer", "").split("refused:\n")
+    check("so does the newer one, its new fields being zero", refused[0] == outputs.get("today's"), outputs.get("newer", ""))
     check("a field that the library does not know is refused by every call", len(refused) == 2 and refused[1].count(": yes") >= 18 and
-          ": no" not in refused[1], told.get("newer", ""))
+          ": no" not in refused[1], outputs.get("newer", ""))
 
 
 def check_render(folder):

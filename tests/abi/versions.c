@@ -44,21 +44,21 @@ static bool draw(lam_device *device, const lam_scene *scene, lam_error *error)
     printf("report %llu %llu %llu\n", (unsigned long long)report.triangles, (unsigned long long)report.triangles_binned,
            (unsigned long long)report.pixels_covered);
 
-    lam_explanation *told = lam_explain(device, scene, &camera, &params, 160, 120, LAM_RGBA8, 80, 62, NULL, error);
-    for (int i = 0; told && i < told->fragment_count; i++) {
-        const lam_explained_fragment *fragment = &told->fragments[i];
+    lam_explanation *explained = lam_explain(device, scene, &camera, &params, 160, 120, LAM_RGBA8, 80, 62, NULL, error);
+    for (int i = 0; explained && i < explained->fragment_count; i++) {
+        const lam_explained_fragment *fragment = &explained->fragments[i];
         printf("fragment %d %u %d\n", fragment->object, fragment->triangle, fragment->samples);
         for (int p = 0; p < fragment->point_count; p++)
             for (int k = 0; k < fragment->points[p].light_count; k++)
                 printf("light %d at %.9g: %.9g\n", fragment->points[p].lights[k].light,
                        (double)fragment->points[p].lights[k].distance, (double)fragment->points[p].lights[k].n_dot_l);
     }
-    lam_explanation_free(told);
+    lam_explanation_free(explained);
     lam_shader *shader = lam_shader_make(scene, &camera, &params, 160, 120, -1, NULL, error);
     for (int i = 0; shader && i < shader->draw_count; i++)
         printf("shader draw of object %d: %s, %s\n", shader->draws[i].object, shader->draws[i].uniforms[0].name,
                shader->draws[i].uniforms[1].name);
-    bool ok = told && shader;
+    bool ok = explained && shader;
     lam_shader_free(shader);
     return ok;
 }

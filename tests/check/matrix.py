@@ -68,7 +68,7 @@ SAME = {("clip-space-vectors", "normal-clip-space"): ["clip-space"], ("light-fro
 
 
 def matches(choices, right):
-    """Whether each of the names told is one of the right ones, in some order. A name told may stand for others with the same pictures."""
+    """Whether each of the reported names is one of the right ones, in some order. A reported name may stand for others with the same pictures."""
     if not choices or not right:
         return not choices and not right
     return any(one in choices[0] and matches(choices[1:], right[:i] + right[i + 1:]) for i, one in enumerate(right)) or any(
@@ -85,19 +85,19 @@ def judge_mistakes(program, folder, jobs, versions, only):
     failures = collections.defaultdict(list)
     for key, r in reports.items():
         _, name, contract, stage, dialect, right = key
-        told = sorted(m["id"] for m in r.get("mistakes", []))
+        reported = sorted(m["id"] for m in r.get("mistakes", []))
         choices = [{m["id"], *(m["also"] or "").split()} for m in r.get("mistakes", [])]
         certain = all(m["certain"] for m in r.get("mistakes", []))
         known = set(sum(right, ()))
         rest = [c for c in choices if not c & {"no-light", "no-specular"}]
         dark = certain and len(right[0]) > 1 and len(rest) < len(choices) and all(known & c for c in rest)
         verdict = "error" if "error" in r or r.get("verdict") in ("refused", "endless", "crashes") else "right" if any(matches(choices, list(x)) for x in right) else \
-            "not seen" if r.get("verdict") == "passes" else "hidden" if dark or (told and certain and all(known & c for c in choices)) else "part" if told and set(told) <= known else "none" if not told else "wrong"
+            "not seen" if r.get("verdict") == "passes" else "hidden" if dark or (reported and certain and all(known & c for c in choices)) else "part" if reported and set(reported) <= known else "none" if not reported else "wrong"
         by["contract"][f"{contract}, lit per {'fragment' if stage == 'f' else 'vertex'}"][verdict] += 1
         by["version"][dialect or "none"][verdict] += 1
         by["mistakes"]["one" if len(right[0]) == 1 else "two" if len(right[0]) == 2 else "three"][verdict] += 1
         if verdict != "right":
-            failures[verdict, name, contract, stage, " ".join(told), certain, r.get("error", "")[:200] or " ".join(
+            failures[verdict, name, contract, stage, " ".join(reported), certain, r.get("error", "")[:200] or " ".join(
                 n["text"] for n in r.get("notes", []) if n["kind"] == "compiler")[:200]].append(dialect)
     # hidden: the names explain every picture, the other mistakes cannot be seen in them
     columns = ("right", "hidden", "part", "none", "not seen", "wrong", "error")
@@ -105,8 +105,8 @@ def judge_mistakes(program, folder, jobs, versions, only):
         table(title, columns, [(name, [c[x] for x in columns]) for name, c in counts.items()])
     total = sum((c for c in by["mistakes"].values()), collections.Counter())
     table("all", columns, [("shaders with mistakes", [total[x] for x in columns])])
-    for (verdict, name, contract, stage, told, certain, note), where in sorted(failures.items()):
-        print(f"  {verdict}: {contract} {stage}: {name}: told [{told}]{'' if certain else ' in part'} in {len(where)} versions {note}")
+    for (verdict, name, contract, stage, reported, certain, note), where in sorted(failures.items()):
+        print(f"  {verdict}: {contract} {stage}: {name}: reported [{reported}]{'' if certain else ' in part'} in {len(where)} versions {note}")
     return total["wrong"] == 0 and total["error"] == 0
 
 

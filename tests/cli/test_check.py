@@ -306,9 +306,9 @@ class Mistakes(CheckTest):
         report = self.reports.get(f"{number:03}.frag")
         self.assertTrue(report, self.said)
         check_value(self, report, SCHEMA, "check")
-        told = report["mistakes"]
-        self.assertEqual(sorted(m["id"] for m in told), sorted(expected.split()), json.dumps(report))
-        for mistake in told:
+        reported = report["mistakes"]
+        self.assertEqual(sorted(m["id"] for m in reported), sorted(expected.split()), json.dumps(report))
+        for mistake in reported:
             self.assertEqual(mistake["certain"], 1)
             self.assertTrue(mistake["says"] and mistake["write"])
             self.assertNotIn("{", mistake["write"].replace("{ ", ""))
@@ -361,10 +361,10 @@ class LectureStyle(CheckTest):
             for report in map(json.loads, done.stdout.splitlines()):
                 with self.subTest(expected[report["fragment"]]):
                     self.assertEqual(report["verdict"], "differs")
-                    told = [(m["id"], m["certain"]) for m in report["mistakes"]]
+                    reported = [(m["id"], m["certain"]) for m in report["mistakes"]]
                     also = [(m["also"] or "").split() for m in report["mistakes"]]
                     right = expected.pop(report["fragment"])
-                    self.assertTrue(told == [(right, 1)] or right in sum(also, []), (told, also))
+                    self.assertTrue(reported == [(right, 1)] or right in sum(also, []), (reported, also))
         self.assertFalse(expected, "not checked")
 
 
@@ -376,7 +376,7 @@ class Refused(CheckTest):
         self.assertEqual(report["verdict"], "differs")
         self.assertIn("uniform 'fixed_NormalMatrix' is not in the contract lambent", json.dumps(report))
 
-    def told(self, name, edits, *hints):
+    def hints_of(self, name, edits, *hints):
         report = self.report_of(*self.shader(name, edits), code=6)
         self.assertEqual(report["verdict"], "refused")
         self.assertTrue(self.notes(report, "compiler"))
@@ -386,19 +386,19 @@ class Refused(CheckTest):
         return report
 
     def test_spelling(self):
-        self.told("pittsburgh", [("vert", "void main()", "main()")], "void main()")
-        self.told("pittsburgh", [("vert", "gl_Position", "gl_position")], "'gl_position' should be gl_Position")
-        self.told("oregon", [("frag", "in vec3 vNs, vLs, vEs;", "in vec3v Ns; in vec3v Ls; in vec3v Es;")], "did you mean `vec3 vNs`")
-        self.told("pittsburgh", [("frag", "vec3 h = normalize(l + v);", "vec3 half = normalize(l + v); vec3 h = half;")], "reserved word")
-        self.told("pittsburgh-vertex", [("vert", "max(dot(n, l), 0.0)", "max(dot(n, l), 0)")], "0.0")
-        self.told("pittsburgh", [("frag", "vec3 n = normalize(N);", "vec3 n = normalize(N)")], "';'")
-        report = self.told("pittsburgh", [("frag", "vec3 v = normalize(V);", "vec3 v = normalize(eye_point - P);\nuniform vec3 eye_position;")])
+        self.hints_of("pittsburgh", [("vert", "void main()", "main()")], "void main()")
+        self.hints_of("pittsburgh", [("vert", "gl_Position", "gl_position")], "'gl_position' should be gl_Position")
+        self.hints_of("oregon", [("frag", "in vec3 vNs, vLs, vEs;", "in vec3v Ns; in vec3v Ls; in vec3v Es;")], "did you mean `vec3 vNs`")
+        self.hints_of("pittsburgh", [("frag", "vec3 h = normalize(l + v);", "vec3 half = normalize(l + v); vec3 h = half;")], "reserved word")
+        self.hints_of("pittsburgh-vertex", [("vert", "max(dot(n, l), 0.0)", "max(dot(n, l), 0)")], "0.0")
+        self.hints_of("pittsburgh", [("frag", "vec3 n = normalize(N);", "vec3 n = normalize(N)")], "';'")
+        report = self.hints_of("pittsburgh", [("frag", "vec3 v = normalize(V);", "vec3 v = normalize(eye_point - P);\nuniform vec3 eye_position;")])
         line = [note["line"] for note in report["notes"] if note["kind"] == "compiler"][0]
         self.assertEqual((SHADERS / "pittsburgh.frag").read_text().splitlines()[line - 1].strip(), "vec3 v = normalize(V);")
 
     def test_undeclared(self):
-        self.told("oregon", [("frag", "    float s =", "    diffuse = uColor;\n    float s =")], "'diffuse' is not declared")
-        self.told("nyu", [("frag", "float attenuation =", "float weakened =")], "'attenuation' is not declared")
+        self.hints_of("oregon", [("frag", "    float s =", "    diffuse = uColor;\n    float s =")], "'diffuse' is not declared")
+        self.hints_of("nyu", [("frag", "float attenuation =", "float weakened =")], "'attenuation' is not declared")
 
     def test_global_from_uniform(self):
         """GLSL ES initialises globals with constants only."""
@@ -411,14 +411,14 @@ class Refused(CheckTest):
         self.assertIn("GLSL ES initialises globals with constants only: assign 'tint'", " ".join(self.notes(report, "hint")))
 
     def test_names_of_two(self):
-        self.told("pittsburgh", [("frag", "uniform float shininess;", "uniform float shininess; uniform vec3 eye_point;"),
+        self.hints_of("pittsburgh", [("frag", "uniform float shininess;", "uniform float shininess; uniform vec3 eye_point;"),
                                  ("frag", "normalize(V)", "normalize(eye_position)")], "but 'eye_point' is")
-        self.told("pittsburgh", [("frag", "uniform vec4 ambient_product;", "uniform mat4 ambient_product;")],
+        self.hints_of("pittsburgh", [("frag", "uniform vec4 ambient_product;", "uniform mat4 ambient_product;")],
                   "write uniform vec4 ambient_product")
 
     def test_nearest_of_what_is_declared(self):
         """A name is looked for among those that its statement can use: by spelling, sound and role, never in another function."""
-        report = self.told("pittsburgh", [("frag", "vec3 v = normalize(V);", "vec3 v = normalise(V) + eye_position + light_dir;"),
+        report = self.hints_of("pittsburgh", [("frag", "vec3 v = normalize(V);", "vec3 v = normalise(V) + eye_position + light_dir;"),
                                           ("frag", "uniform float shininess;", "uniform float shininess;\nuniform vec3 eye_point;\n"
                                            "float other(float light_dir) { return light_dir; }")],
                            "no function 'normalise'; did you mean 'normalize'", "'eye_position' is not declared, but 'eye_point' is",
@@ -427,32 +427,32 @@ class Refused(CheckTest):
 
     def test_young_functions(self):
         matrix = [("vert", "normalize(normal_matrix * vNormal.xyz)", "normalize(transpose(inverse(mat3(model_view))) * vNormal.xyz)")]
-        report = self.told("pittsburgh", matrix, "inverse() needs GLSL 140 (in WebGL 300 es), and this shader is GLSL 120: write `#version 140`")
+        report = self.hints_of("pittsburgh", matrix, "inverse() needs GLSL 140 (in WebGL 300 es), and this shader is GLSL 120: write `#version 140`")
         self.assertEqual(len(self.notes(report, "compiler")), 1)  # neither overloads nor errors that follow from it
         self.assertEqual(self.report_of(*self.shader("pittsburgh", matrix + [("vert", "#version 120", "#version 140"),
                                                                             ("frag", "#version 120", "#version 140")]))["verdict"], "passes")
 
     def test_misspelt_position(self):
         """A misspelt gl_Position does not make attributes of varyings."""
-        report = self.told("pittsburgh", [("vert", "gl_Position", "gl_position")], "'gl_position' should be gl_Position")
+        report = self.hints_of("pittsburgh", [("vert", "gl_Position", "gl_position")], "'gl_position' should be gl_Position")
         self.assertEqual(self.notes(report, "unknown"), [])
 
     def test_both_shaders(self):
         """The errors of both shaders are reported at once."""
-        report = self.told("pittsburgh", [("vert", "void main()", "main()"), ("frag", "normalize(V)", "normalize(W)")],
+        report = self.hints_of("pittsburgh", [("vert", "void main()", "main()"), ("frag", "normalize(V)", "normalize(W)")],
                            "write `void main()`", "'W' is not declared")
         self.assertEqual({note["file"] for note in report["notes"] if note["kind"] == "compiler"}, {"s.vert", "s.frag"})
-        report = self.told("lambent", [("frag", "lights[i].attenuation;", "lights[i].atenuation;")], "no member 'atenuation'; did you mean 'attenuation'")
+        report = self.hints_of("lambent", [("frag", "lights[i].attenuation;", "lights[i].atenuation;")], "no member 'atenuation'; did you mean 'attenuation'")
 
     def test_old_and_new(self):
-        self.told("oregon", [("vert", "#version 330 compatibility\n", ""), ("frag", "#version 330 compatibility\n", "")],
+        self.hints_of("oregon", [("vert", "#version 330 compatibility\n", ""), ("frag", "#version 330 compatibility\n", "")],
                   "#version 330 compatibility")
-        self.told("oregon", [("vert", "330 compatibility", "330 core")], "exists only in old GLSL")
+        self.hints_of("oregon", [("vert", "330 compatibility", "330 core")], "exists only in old GLSL")
 
     def test_link(self):
-        self.told("pittsburgh", [("vert", "varying vec3 L;", "varying vec3 LL;"), ("vert", "    L = light.w", "    LL = light.w")],
+        self.hints_of("pittsburgh", [("vert", "varying vec3 L;", "varying vec3 LL;"), ("vert", "    L = light.w", "    LL = light.w")],
                   "writes no 'L'")
-        self.told("pittsburgh", [("vert", "varying vec3 L;", "varying vec4 L;"), ("vert", "L = light.w == 0.0 ? light.xyz : light.xyz - point.xyz", "L = light")],
+        self.hints_of("pittsburgh", [("vert", "varying vec3 L;", "varying vec4 L;"), ("vert", "L = light.w == 0.0 ? light.xyz : light.xyz - point.xyz", "L = light")],
                   "is a vec3 here and a vec4")
 
 
@@ -475,13 +475,13 @@ class Unruly(CheckTest):
     def test_search_limit(self):
         """The search ends at its limit, and says so; where it is long enough, the limit changes nothing."""
         words = self.shader("oregon", [("frag", "vec4(color, 1.0)", "vec4(color.bgr * gl_FragCoord.y / 60.0, 1.0)")])
-        told = [self.report_of(*words, "--scenes", "all", "--search-limit", n, size=48, code=6) for n in (100, 20000, 10000)]
-        self.assertEqual([(r["verdict"], r["mistakes"]) for r in told], [("differs", [])] * 3)
-        self.assertEqual([r["search_stopped"] for r in told], [1, 0, 0])
-        self.assertEqual(told[1]["tried"], told[2]["tried"])
-        self.assertTrue(1 <= told[0]["tried"] <= 100 < told[1]["tried"], [r["tried"] for r in told])
+        reported = [self.report_of(*words, "--scenes", "all", "--search-limit", n, size=48, code=6) for n in (100, 20000, 10000)]
+        self.assertEqual([(r["verdict"], r["mistakes"]) for r in reported], [("differs", [])] * 3)
+        self.assertEqual([r["search_stopped"] for r in reported], [1, 0, 0])
+        self.assertEqual(reported[1]["tried"], reported[2]["tried"])
+        self.assertTrue(1 <= reported[0]["tried"] <= 100 < reported[1]["tried"], [r["tried"] for r in reported])
         text = self.run_program("check", *words, "--scenes", "all", "-s", 48, "--search-limit", 100).stdout.decode()
-        self.assertIn(f"No explanation among {told[0]['tried']} mistakes and sets of them; there the search ended, and --search-limit", text)
+        self.assertIn(f"No explanation among {reported[0]['tried']} mistakes and sets of them; there the search ended, and --search-limit", text)
         words = self.shader("oregon", [("frag", "dot(n, l) > 0.0 ?", "true ?")])
         for limit, ids in ((1, []), (10000, ["no-gate"])):
             self.assertEqual([m["id"] for m in self.report_of(*words, "--search-limit", limit, code=6)["mistakes"]], ids)

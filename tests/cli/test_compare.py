@@ -316,17 +316,17 @@ class Compare(Case):
         done = self.good("compare", "cube.obj", "--sheet", "ambient", "-s", "80x60", "-o", "s.svg", "--json", "--title", "الضوء & <b>",
                          "--caption", "环境光", "--caption", "Łódź")
         svg = xml.fromstring((self.folder / "s.svg").read_bytes())
-        told = json.loads(done.stdout)["pictures"]
-        self.assertEqual([t["caption"] for t in told], ["环境光", "Łódź", "Ambient red, diffuse red"])
+        answer = json.loads(done.stdout)["pictures"]
+        self.assertEqual([t["caption"] for t in answer], ["环境光", "Łódź", "Ambient red, diffuse red"])
         self.assertEqual((svg[0].text, svg[1].text), ("الضوء & <b>", "3 pictures: 环境光; Łódź; Ambient red, diffuse red"))
         images = list(svg.iter(SVG + "image"))
-        self.assertEqual([i.find(SVG + "title").text for i in images], [t["caption"] for t in told])
-        for image, picture in zip(images, told):
+        self.assertEqual([i.find(SVG + "title").text for i in images], [t["caption"] for t in answer])
+        for image, picture in zip(images, answer):
             png = base64.b64decode(image.get("href").split("base64,")[1], validate=True)
             self.assertTrue(png == self.good("cube.obj", "-s", "80x60", *picture["words"], "-o", "-").stdout)
         texts = [t.text for t in svg.iter(SVG + "text")]
         self.assertEqual(texts[0], "الضوء & <b>")
-        self.assertLessEqual({t["caption"] for t in told}, set(texts))
+        self.assertLessEqual({t["caption"] for t in answer}, set(texts))
         # Pictures stand beside one another, inside the page.
         left = [float(i.get("x")) for i in images]
         self.assertTrue(all(b - a >= 80 for a, b in zip(left, left[1:])) and left[-1] + 80 <= float(svg.get("width")))

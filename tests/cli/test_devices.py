@@ -13,11 +13,11 @@ class Devices(Case):
         text = self.good("devices").stdout.decode()
         self.assertRegex(text, r"^cpu   cpu \w+, \d+ thread")
         self.assertIn("\ngl", text)
-        told = json.loads(self.good("devices", "--json").stdout)
-        self.assertTrue(told["cpu"].startswith("cpu "))
+        answer = json.loads(self.good("devices", "--json").stdout)
+        self.assertTrue(answer["cpu"].startswith("cpu "))
         # Either there are devices, or the reason why there are none.
-        self.assertTrue(told["gl"] or told["gl_reason"])
-        for device in told["gl"]:
+        self.assertTrue(answer["gl"] or answer["gl_reason"])
+        for device in answer["gl"]:
             self.assertIn(device["name"] or device["place"], text)
             self.assertTrue(bool(device["versions"]) != bool(device["reason"]))
 
@@ -62,8 +62,8 @@ class Drawing(Case):
 
     def differing(self, a, b):
         """The pixels that differ by more than 1/255."""
-        told = json.loads(self.run_program("diff", a, b, "--json").stdout)
-        return round(told["share_over_1"] * told["width"] * told["height"])
+        answer = json.loads(self.run_program("diff", a, b, "--json").stdout)
+        return round(answer["share_over_1"] * answer["width"] * answer["height"])
 
     def apart(self, *words, device="gl"):
         """The pixels that differ by more than 1/255 between the two devices, and the report of OpenGL's picture."""

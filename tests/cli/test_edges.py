@@ -49,8 +49,8 @@ class Edges(Case):
             self.bad(2, "b.json", says=says, leaves=["saved.json"])
 
     def test_reported(self):
-        told = json.loads(self.good("cube", "-s", "64", "--edges", "all", "--json", "-o", "c.png").stdout)
-        self.assertGreater(told["times_ms"]["steps"]["edges"], 0)
+        answer = json.loads(self.good("cube", "-s", "64", "--edges", "all", "--json", "-o", "c.png").stdout)
+        self.assertGreater(answer["times_ms"]["steps"]["edges"], 0)
         self.assertEqual(self.good("cube", "-s", "64", "--edges", "all", "--surfaces", "off", "-o", "d.png").stderr.count(b"\n"), 1)  # no warning
 
     def test_dashes_run_along_curves(self):
@@ -79,8 +79,8 @@ class Edges(Case):
         alone = ("teapot", "-s", "64", "--edges", "all", "--surfaces", "off")
         for ground in ("shadow", "checker", "red"):
             self.assertEqual(self.png(*alone, "--ground=" + ground), self.png(*alone), ground)
-        told = json.loads(self.good(*alone, "--ground", "--json", "-o", "g.png").stdout)
-        self.assertEqual(told["image"].get("ground_height"), None)
+        answer = json.loads(self.good(*alone, "--ground", "--json", "-o", "g.png").stdout)
+        self.assertEqual(answer["image"].get("ground_height"), None)
 
     def test_mistakes(self):
         self.bad(1, "cube", "--edges", "corners", says="crease")

@@ -202,7 +202,7 @@ class Outputs(Case):
         finally:
             os.chmod(self.folder, 0o755)
 
-    def test_told_before_the_work(self):
+    def test_reported_before_the_work(self):
         # The model does not exist either: the output is checked first, before any long work.
         self.bad(5, "missing.obj", "-o", "no/x.png", says="no/x.png")
 

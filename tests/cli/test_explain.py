@@ -11,7 +11,7 @@ from harness import SHARED_MODELS, Case, covered, pixel, read_png
 
 
 class Explain(Case):
-    def told(self, *words):
+    def explained(self, *words):
         return json.loads(self.good("explain", *words, "--json").stdout)
 
     def same_as_picture(self, model, *options, count=6):
@@ -21,16 +21,16 @@ class Explain(Case):
         pick = random.Random(f"{model}{options}")
         for _ in range(count):
             x, y = pick.randrange(left, right), pick.randrange(top, bottom)
-            told = self.told(model, f"{x},{y}", *options)
-            self.assertEqual(tuple(told["bytes"]), pixel(picture, x, y), (model, options, x, y))
-            self.check_sum(told)
-        self.assertEqual(self.told(model, "0,0", *options)["triangles"], [])
+            answer = self.explained(model, f"{x},{y}", *options)
+            self.assertEqual(tuple(answer["bytes"]), pixel(picture, x, y), (model, options, x, y))
+            self.check_sum(answer)
+        self.assertEqual(self.explained(model, "0,0", *options)["triangles"], [])
 
-    def check_sum(self, told):
+    def check_sum(self, answer):
         total = [0, 0, 0, 0]
-        for triangle in told["triangles"]:
+        for triangle in answer["triangles"]:
             self.assertAlmostEqual(sum(triangle["weights"]), 1, 5)
-            self.assertEqual(triangle["weight"], triangle["samples"] / told["samples"])
+            self.assertEqual(triangle["weight"], triangle["samples"] / answer["samples"])
             alpha = triangle["color"][3] * triangle["weight"]
             for c in range(3):
                 total[c] += triangle["color"][c] * alpha
@@ -39,11 +39,11 @@ class Explain(Case):
                 for c in range(3):
                     self.assertAlmostEqual(sum(term[c] for term in point["terms"].values()), point["sum"][c], 5)
         for c in range(4):
-            self.assertAlmostEqual(total[c], told["sum"][c], 5)
+            self.assertAlmostEqual(total[c], answer["sum"][c], 5)
 
     def test_formulas_of_the_model(self):
         for model, highlight, gated in (("phong", "max(r·v, 0)", True), ("blinn-phong", "max(n·h, 0)", True), ("lambert", None, True), ("kajiya-kay-lecture", None, False)):
-            triangle = self.told("sphere", "48,48", "--size", "96", "--reflection", model)["triangles"][0]
+            triangle = self.explained("sphere", "48,48", "--size", "96", "--reflection", model)["triangles"][0]
             formulas = triangle["formulas"]
             self.assertEqual(triangle["model"], model)
             self.assertEqual((formulas["gated"], formulas["microfacet"]), (gated, False))
@@ -74,8 +74,8 @@ class Explain(Case):
         for words in (["teapot", "30,30"], ["teapot", "30,30", "--shading", "gouraud"], ["mirrored.json", "30,30"],
                       ["cube.stl", "32,24"],  # has no indices
                       ["teapot", "30,30", "--projection", "orthographic"]):
-            told = self.told(*words, "-s", "64x48", "--samples", 1)
-            for triangle in told["triangles"]:
+            answer = self.explained(*words, "-s", "64x48", "--samples", 1)
+            for triangle in answer["triangles"]:
                 *corners, point = triangle["places"]
                 for place in triangle["places"]:
                     x, y, z, w = place["clip"]
@@ -98,7 +98,7 @@ class Explain(Case):
                 self.assertEqual(triangle["winding"] > 0, (triangle["side"] == "front") != mirrored)
         (self.folder / "mirrored.json").unlink()
         (self.folder / "line.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 0.001 0\nl 1 2\nl 1 3\n")
-        line = self.told("line.obj", "32,24", "-s", "64x48", "--view", "front")["triangles"][0]
+        line = self.explained("line.obj", "32,24", "-s", "64x48", "--view", "front")["triangles"][0]
         self.assertEqual((line["places"], "line" in line), (None, True))
         (self.folder / "line.obj").unlink()
         text = self.good("explain", "teapot", "30,30", "-s", 64).stdout.decode()
@@ -113,8 +113,8 @@ class Explain(Case):
         """The reflection term follows from R, printed in both spaces, and the light of the environment from that direction."""
         scene = ("-s", 64, "--environment", "sky", "--reflectivity", "0.25/0.5/1", "--samples", 1)
         self.same_as_picture("sphere", *scene, "--environment-rotation", 70, count=3)
-        told = [self.told("sphere", "32,32", *scene, "--environment-rotation", turn) for turn in (0, 90)]
-        points = [t["triangles"][0]["points"][0] for t in told]
+        answer = [self.explained("sphere", "32,32", *scene, "--environment-rotation", turn) for turn in (0, 90)]
+        points = [t["triangles"][0]["points"][0] for t in answer]
         for point in points:
             n, v, r = point["n"], point["v"], point["environment"]["R"]
             twice = 2 * sum(a * b for a, b in zip(n, v))
@@ -125,7 +125,7 @@ class Explain(Case):
         straight, turned = (p["environment"]["direction"] for p in points)
         for got, expected in zip(turned, (-straight[2], straight[1], straight[0])):
             self.assertAlmostEqual(got, expected, 5)
-        self.assertIsNone(self.told("sphere", "32,32", "-s", 64)["triangles"][0]["points"][0]["environment"])
+        self.assertIsNone(self.explained("sphere", "32,32", "-s", 64)["triangles"][0]["points"][0]["environment"])
         text = self.good("explain", "sphere", "32,32", *scene).stdout.decode()
         for part in ("2 (n·v) n − v", "environment's own axes", "light from there", "kr ⊙ environment = (0.25 0.5 1) ⊙ ("):
             self.assertIn(part, text)
@@ -192,22 +192,22 @@ class Figure(Case):
 
     def test_picture_and_words(self):
         words = ("torus", "150,120", "-s", "320x240")
-        svg, told = self.figure(*words, "--title", "点 نقطة <&>")
+        svg, answer = self.figure(*words, "--title", "点 نقطة <&>")
         (title, x, y, png), = embedded(svg)
         self.assertTrue(png == self.good("torus", "-s", "320x240", "-o", "-").stdout)
         self.assertEqual((svg[0].tag, svg[0].text, title), (SVG + "title", "点 نقطة <&>", "点 نقطة <&>"))
         self.assertEqual(svg[1].tag, SVG + "desc")
-        n, sum_of = told["triangles"][0]["points"][0]["n"], told["bytes"]
+        n, sum_of = answer["triangles"][0]["points"][0]["n"], answer["bytes"]
         self.assertIn("normal n is (%.3g, %.3g, %.3g)" % tuple(n), svg[1].text)
         self.assertIn("the pixel is %d %d %d with alpha %d" % tuple(sum_of), svg[1].text)
         texts = [t.text for t in svg.iter(SVG + "text")]
         self.assertEqual([texts.count(name) for name in "nlvrh"], [3] * 5)  # in the picture, from the side, in the table
-        place = told["triangles"][0]["places"][3]
+        place = answer["triangles"][0]["places"][3]
         for space in ("object", "eye", "clip", "ndc", "window"):
             row = texts.index("NDC" if space == "ndc" else space)
             self.assertEqual(texts[row + 1:row + 1 + len(place[space])], ["%.5g" % x for x in place[space]], space)
-        self.assertIn("counter-clockwise, the front; 2 · area = %.5g pixels" % told["triangles"][0]["winding"], texts)
-        terms = told["triangles"][0]["points"][0]["terms"]
+        self.assertIn("counter-clockwise, the front; 2 · area = %.5g pixels" % answer["triangles"][0]["winding"], texts)
+        terms = answer["triangles"][0]["points"][0]["terms"]
         for name in ("ambient", "diffuse", "specular"):
             row = texts.index(name)
             self.assertEqual(texts[row + 1:row + 4], ["%.5g" % x for x in terms[name]], name)
@@ -216,8 +216,8 @@ class Figure(Case):
         """Without perspective the arrows are the vectors' x and y from the point's place in the picture."""
         colors = {"n": "#0072b2", "l": "#c98a00", "r": "#b0558a", "h": "#d55e00"}
         for words in (("torus", "80,130"), ("teapot", "140,150", "--shading", "gouraud"), ("cube", "160,150", "--shading", "flat", "--azimuth", "30")):
-            svg, told = self.figure(*words, "-s", "320x240", "--projection", "orthographic", "--elevation", "40", "--light", "directional:direction=1/-2/-1")
-            triangle = told["triangles"][0]
+            svg, answer = self.figure(*words, "-s", "320x240", "--projection", "orthographic", "--elevation", "40", "--light", "directional:direction=1/-2/-1")
+            triangle = answer["triangles"][0]
             (_, left, top, _), = embedded(svg)
             corner = max(range(len(triangle["points"])), key=lambda i: triangle["weights"][i]) if len(triangle["points"]) > 1 else 0
             point = triangle["points"][corner]
@@ -255,10 +255,10 @@ class Figure(Case):
 
     def test_elsewhere(self):
         """The background alone, lines, a light from nowhere."""
-        svg, told = self.figure("torus", "1,1", "-s", "96")
-        self.assertEqual(told["triangles"], [])
+        svg, answer = self.figure("torus", "1,1", "-s", "96")
+        self.assertEqual(answer["triangles"], [])
         self.assertIn("Only the background is visible here.", [t.text for t in svg.iter(SVG + "text")])
-        svg, told = self.figure("torus", "48,60", "-s", "96", "--rig", "none")
+        svg, answer = self.figure("torus", "48,60", "-s", "96", "--rig", "none")
         self.assertIn("no light adds anything here", [t.text for t in svg.iter(SVG + "text")])
         (self.folder / "line.obj").write_text("v 0 0 0\nv 1 1 0\nl 1 2\n")
         self.figure("line.obj", "48,48", "-s", "96", "--line-width", "9")

@@ -318,17 +318,17 @@ class Materials(Pictures):
         self.assertEqual(lines["brass"][6:10], ["0.992157", "0.941176", "0.807843", "27.8974"])
         self.assertEqual(len([line for line in text.splitlines() if len(line.split()) == 11]), 24)
         self.assertIn("teapots.c", text)
-        told = json.loads(self.good("materials", "--json", "--color-mode", "raw").stdout)["materials"]
-        self.assertEqual([material["name"] for material in told], list(lines)[1:25])
-        self.assertEqual(told[[material["name"] for material in told].index("brass")],
+        answer = json.loads(self.good("materials", "--json", "--color-mode", "raw").stdout)["materials"]
+        self.assertEqual([material["name"] for material in answer], list(lines)[1:25])
+        self.assertEqual(answer[[material["name"] for material in answer].index("brass")],
                          {"name": "brass", "ambient": [0.329412, 0.223529, 0.027451], "diffuse": [0.780392, 0.568627, 0.113725],
                           "specular": [0.992157, 0.941176, 0.807843], "shininess": 27.897436})
         # Without --color-mode raw: the linear numbers that --material and scene files take.
         chrome = self.good("materials").stdout.decode().split("chrome")[1].split()
         self.assertEqual(chrome[3:7], ["0.132868"] * 3 + ["0.561662"])
-        told = json.loads(self.good("materials", "--json").stdout)["materials"]
+        answer = json.loads(self.good("materials", "--json").stdout)["materials"]
         words = ["%s=%s" % (key, "/".join(map(repr, value)) if key != "shininess" else value)
-                 for key, value in told[10].items() if key != "name"]
+                 for key, value in answer[10].items() if key != "name"]
         self.same(("--material", "gold"), ("--material", ",".join(words)))
         self.good("materials", "-o", "sheet.png", "-s", "300")
         self.assertEqual(self.new_files(), {"sheet.png"})
@@ -435,8 +435,8 @@ class Methods(Pictures):
         self.assertEqual(picture("many.json", "--light-cutoff", "0.2", "--save-scene", "kept.json"), coarse)
         self.assertEqual(json.loads((self.folder / "kept.json").read_text())["light_cutoff"], 0.2)
         self.assertEqual(picture("kept.json"), coarse)
-        told = self.good("explain", "many.json", "20,30", "--light-cutoff", "0.2").stdout.decode()
-        self.assertRegex(told, r"\d+ of 300 lights contribute nothing here; \d+ more were skipped: too weak")
+        answer = self.good("explain", "many.json", "20,30", "--light-cutoff", "0.2").stdout.decode()
+        self.assertRegex(answer, r"\d+ of 300 lights contribute nothing here; \d+ more were skipped: too weak")
         self.assertEqual(self.run_program("many.json", "--light-cutoff", "1.5").returncode, 1)
 
     def test_tangents_from_texture_coordinates(self):

@@ -82,9 +82,9 @@ class Scene(Case):
                 self.assertEqual(thing["material"]["diffuse"][3] if opacity else thing["material"][key], value)
                 thing["material"] = {key: value}
                 (self.folder / "b.json").write_text(json.dumps({"lambent": 1, "objects": [thing]}))
-                told = json.loads(self.good("explain", "b.json", "4,4", "-s", 8, "--json").stdout)["triangles"][0]["material"]
+                answer = json.loads(self.good("explain", "b.json", "4,4", "-s", 8, "--json").stdout)["triangles"][0]["material"]
                 rows = {"ambient": 0, "diffuse": 1, "specular": 2}
-                self.assertEqual(told["matrix"][rows[key]] if key in rows else told[key], value)
+                self.assertEqual(answer["matrix"][rows[key]] if key in rows else answer[key], value)
         self.given |= {"a.png", "a.json", "b.json"}
 
     def test_example(self):
@@ -133,8 +133,8 @@ class Scene(Case):
         self.assertIsNone(misfit(scene, SCHEMA))
         self.write(scene, "formulas.json")
         self.given |= {"formulas.json"}
-        told = json.loads(self.good("info", "formulas.json", "--json").stdout)["counts"]
-        self.assertEqual((told["meshes"], told["objects"], told["triangles"]), (6, 8, 12 * 3 + 12 * 4 + 16))
+        answer = json.loads(self.good("info", "formulas.json", "--json").stdout)["counts"]
+        self.assertEqual((answer["meshes"], answer["objects"], answer["triangles"]), (6, 8, 12 * 3 + 12 * 4 + 16))
         for shape, says in (({"parametric": {"formula": "x=u; y=v; z=w"}}, ("objects[0].shape", "'w'")), ({"parametric": {"u": "0..1"}}, ("objects[0].shape.parametric", "'formula' is missing")),
                             ({"parametric": "x=u"}, ("objects[0].shape.parametric", "expected an object")), ({"parametrics": {}}, ("parametrics", "parametric")),
                             ({"parametric": {**flat["parametric"], "segments": [2]}}, ("segments", "two whole numbers")),
@@ -347,11 +347,11 @@ class Environment(Case):
         self.assertEqual(json.loads((self.folder / "kept.json").read_text())["image"]["exposure"], -2.25)
         self.good("kept.json", "-o", "kept.png")
         self.assertEqual((self.folder / "asked.png").read_bytes(), (self.folder / "kept.png").read_bytes())
-        told = json.loads(self.good("explain", "bright.json", "12,12", "--json").stdout)
+        answer = json.loads(self.good("explain", "bright.json", "12,12", "--json").stdout)
         self.good("bright.json", "-o", "bright.png")
-        self.assertAlmostEqual(told["exposure"], 2**1.5, 6)
-        self.assertEqual(told["exposure_stops"], 1.5)
-        self.assertEqual(tuple(told["bytes"]), pixel(read_png((self.folder / "bright.png").read_bytes()), 12, 12))
+        self.assertAlmostEqual(answer["exposure"], 2**1.5, 6)
+        self.assertEqual(answer["exposure_stops"], 1.5)
+        self.assertEqual(tuple(answer["bytes"]), pixel(read_png((self.folder / "bright.png").read_bytes()), 12, 12))
         self.given |= self.new_files()
         self.bad(1, "bright.json", "--exposure", "200", says="-100 to 100")
 

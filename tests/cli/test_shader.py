@@ -322,8 +322,8 @@ class Shader(Case):
             contract = self.contract("cube.obj", *words)
             text = contract["vertex"] + contract["fragment"]
             declared = set(re.findall(r"(?m)^uniform \w+ (\w+)", text))
-            told = {re.split(r"[.\[]", u["name"])[0] for u in uniforms_of(contract)}
-            self.assertEqual(declared, told, words)
+            documented = {re.split(r"[.\[]", u["name"])[0] for u in uniforms_of(contract)}
+            self.assertEqual(declared, documented, words)
             declared = set(re.findall(r"(?m)^(?:attribute|layout\(location = \d\) in) \w+ (\w+)", contract["vertex"]))
             self.assertEqual(declared, {a["name"] for a in contract["attributes"]}, words)
             for u in uniforms_of(contract):

@@ -47,8 +47,8 @@ class Shadows(Case):
                          self.png("teapot", "-s", "64", "--shadows", "--light", "directional:direction=-1/-1/0,shadows=no"))
 
     def test_explained(self):
-        told = json.loads(self.good("explain", self.scene(), "%d,%d" % SHADOW, "--json").stdout)
-        light = told["triangles"][0]["points"][0]["lights"][0]
+        answer = json.loads(self.good("explain", self.scene(), "%d,%d" % SHADOW, "--json").stdout)
+        light = answer["triangles"][0]["points"][0]["lights"][0]
         self.assertEqual((light["casts_shadows"], light["passed"], light["in_the_way"]["object"]), (True, [0, 0, 0], 1))
         self.assertGreater(light["in_the_way"]["distance"], 0.1)
         text = self.good("explain", self.scene(), "%d,%d" % SHADOW).stdout.decode()
@@ -78,8 +78,8 @@ class Shadows(Case):
                 objects.append({**pane, "name": "other", "transform": [["translate", 0, 1.5, 0], ["scale", 0.5, 1, 0.5]]})
             scene = self.scene("glass.json", objects=objects,
                                materials={"floor": floor or {"diffuse": [0.8, 0.8, 0.8]}, "pane": {"physical": True, "metallic": 0, "roughness": 0.4, **material}})
-            told = json.loads(self.good("explain", scene, "%d,%d" % SHADOW, "--json").stdout)
-            light = told["triangles"][-1]["points"][0]["lights"][0]
+            answer = json.loads(self.good("explain", scene, "%d,%d" % SHADOW, "--json").stdout)
+            light = answer["triangles"][-1]["points"][0]["lights"][0]
             for a, b in zip(light["diffuse_term"], light["passed"]):
                 self.assertAlmostEqual(a, light["diffuse_term"][0] * b / light["passed"][0] if light["passed"][0] else 0, 6)
             self.assertEqual(self.png(scene, "--isa", "scalar", "--threads", "1"), self.png(scene, "--threads", "3"))
@@ -131,9 +131,9 @@ class Shadows(Case):
         text = self.good("explain", "cube", "2,60", "--ground", "-s", "64").stdout.decode()
         self.assertIn("the ground (shadow), its triangle", text)
         self.assertIn("taken away", text)
-        told = json.loads(self.good("explain", "cube", "2,60", "--ground", "-s", "64", "--json").stdout)["triangles"][0]
-        self.assertEqual((told["ground"], told["object"], told["mesh"]), ("shadow", None, None))
-        self.assertGreaterEqual(told["unobstructed"], told["received"])
+        answer = json.loads(self.good("explain", "cube", "2,60", "--ground", "-s", "64", "--json").stdout)["triangles"][0]
+        self.assertEqual((answer["ground"], answer["object"], answer["mesh"]), ("shadow", None, None))
+        self.assertGreaterEqual(answer["unobstructed"], answer["received"])
         self.bad(1, "cube", "--ground", "--shading", "flat", says="Phong")
         self.bad(1, "cube", "--ground=chequer", says="expected off, shadow, checker or a colour")
         self.bad(2, self.scene("bad.json", ground="chequer"), says="ground")
@@ -146,8 +146,8 @@ class Shadows(Case):
                                                 ("torus-knot", "even.pfm", 0, 0)):
             for words, to in (((), "a.png"), (("--shadows",), "b.png")):
                 self.good(shape, *look, "--environment", environment, *words, "-o", to)
-            told = json.loads(self.run_program("diff", "a.png", "b.png", "--json").stdout)
-            self.assertTrue(least <= round(255 * told["maximum"]) <= most, (shape, environment, told["maximum"]))
+            answer = json.loads(self.run_program("diff", "a.png", "b.png", "--json").stdout)
+            self.assertTrue(least <= round(255 * answer["maximum"]) <= most, (shape, environment, answer["maximum"]))
         text = self.good("explain", "torus-knot", "32,20", *look[:-1], "--shadows").stdout
         self.assertIn(b"the environment's lamp", text)
 

@@ -298,7 +298,7 @@ static void test_watertight(void **state)
     free(soup.corners);
 }
 
-// Front and back are told by the winding, y up; each culling leaves the other.
+// The winding, y up, decides between front and back; each culling mode leaves the other side.
 static void test_culling(void **state)
 {
     (void)state;

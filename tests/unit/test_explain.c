@@ -39,7 +39,10 @@ static void add(float sum[3], lam_rgb x)
     sum[2] += x.b;
 }
 
-static void assert_rgb(lam_rgb told, const float expected[3]) { assert_memory_equal(&told, expected, sizeof told); }
+static void assert_rgb(lam_rgb reported, const float expected[3])
+{
+    assert_memory_equal(&reported, expected, sizeof reported);
+}
 
 static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
@@ -233,8 +236,8 @@ static void check_pixel(lam_device *device, const struct demo *demo, const lam_i
         fail_msg("%s: %s", name, error.text);
     size_t size = image->format == LAM_RGBA8 ? 4 : 16;
     const char *pixel = (const char *)image->pixels + ((size_t)y * (size_t)image->width + (size_t)x) * size;
-    const void *told = image->format == LAM_RGBA8 ? (const void *)e->bytes : (const void *)&e->result;
-    if (memcmp(pixel, told, size) != 0)
+    const void *reported = image->format == LAM_RGBA8 ? (const void *)e->bytes : (const void *)&e->result;
+    if (memcmp(pixel, reported, size) != 0)
         fail_msg("%s: pixel %d,%d is not the one explained", name, x, y);
     check_numbers(e, lam_scene_environment(demo->scene));
     lam_explanation_free(e);
@@ -332,7 +335,7 @@ static void test_models(void **state)
     }
 }
 
-// gl1, matched highlights, an infinite viewer: each changes a number, and the number is told.
+// gl1, matched highlights, an infinite viewer: each changes a number, and the explanation has it.
 static void test_ways(void **state)
 {
     (void)state;

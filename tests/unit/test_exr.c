@@ -1,4 +1,4 @@
-// test_exr.c: EXR pictures written, read back, and told from what is none.
+// test_exr.c: EXR pictures written, read back, and recognised.
 #include <lambent/image.h>
 
 #include <setjmp.h>

@@ -390,7 +390,7 @@ static void refusals_say_why(void **state)
     expect_error(lam_image_load(&image, folder, NULL, &error), &error, LAM_CANNOT_READ, "directory");
     expect_error(lam_image_load(&image, NULL, NULL, &error), &error, LAM_BAD_ARGUMENT, "path");
 
-    // A PNG of 57 bytes that claims 60000×60000 pixels: told before memory is asked for.
+    // A PNG of 57 bytes that claims 60000×60000 pixels: refused before memory is allocated.
     static const uint8_t bomb[] = {137,  80,   78,   71,   13,   10, 26, 10,   0,    0,  0,  13,   73,   72,   68,
                                    82,   0,    0,    0xEA, 0x60, 0,  0,  0xEA, 0x60, 8,  6,  0,    0,    0,    0x1D,
                                    0x3E, 0x8E, 0x51, 0,    0,    0,  0,  73,   68,   65, 84, 0x35, 0xAF, 0x06, 0x1E};

@@ -265,7 +265,7 @@ static void test_explained(void **state)
     camera.eye = (lam_vec3){0.4, 0.9, 3.4};
     camera.target = (lam_vec3){0, 0, 0};
     lam_device *device = lam_device_cpu(NULL, &error);
-    int left_out = 0, told = 0;
+    int left_out = 0, reported = 0;
     for (int way = 0; way < 6; way++) {
         lam_scene *scene = make_many(way & 1, way == 5);
         lam_draw_params params = {.rig = LAM_RIG_NONE, .samples = way < 3 ? 1 : 4, .light_cutoff = 0.05f};
@@ -288,14 +288,14 @@ static void test_explained(void **state)
                         sum += point->lights[i].skipped ? 0 : point->lights[i].diffuse_term.b;
                     }
                     assert_true(fabsf(sum * point->color.b - point->diffuse.b) < 1e-5f);
-                    told++;
+                    reported++;
                 }
             lam_explanation_free(e);
         }
         lam_image_free(&picture);
         lam_scene_free(scene);
     }
-    assert_true(told > 20 && left_out > 100);
+    assert_true(reported > 20 && left_out > 100);
     lam_device_free(device);
 }
 

@@ -376,7 +376,7 @@ static void test_smoothing_groups(void **state)
     (void)state;
     struct arena arena;
     arena_start(&arena, NULL);
-    // A strip of three triangles in a plane; what may be shared is told by the groups alone.
+    // A strip of three triangles in a plane; the groups alone decide which normals may be shared.
     static const float strip[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
     static const uint32_t indices[] = {0, 1, 2, 2, 1, 3, 2, 3, 4};
     static const struct {

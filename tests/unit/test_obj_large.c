@@ -290,7 +290,7 @@ static void edges(void **state)
     free(copy);
 }
 
-static void what_is_wrong_is_told_as_ever(void **state)
+static void errors_are_those_of_small_files(void **state)
 {
     (void)state;
     static const char *const wrong[] = {"f 1 2 44101\n", "f 0 1 2\n",      "f 1 2\n",          "v 1 2\n",
@@ -377,7 +377,7 @@ int main(void)
         cmocka_unit_test(statements),
         cmocka_unit_test(unusual_files),
         cmocka_unit_test(edges),
-        cmocka_unit_test(what_is_wrong_is_told_as_ever),
+        cmocka_unit_test(errors_are_those_of_small_files),
         cmocka_unit_test(can_be_stopped),
         cmocka_unit_test(memory),
     };

@@ -177,7 +177,7 @@ static void files_with_more_in_them(void **state)
     assert_true(load_both());
 }
 
-static void what_is_wrong_is_told_as_ever(void **state)
+static void errors_are_those_of_whole_files(void **state)
 {
     (void)state;
     static const float nan_bits = __builtin_nanf("");
@@ -240,7 +240,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plain_files),
         cmocka_unit_test(files_with_more_in_them),
-        cmocka_unit_test(what_is_wrong_is_told_as_ever),
+        cmocka_unit_test(errors_are_those_of_whole_files),
         cmocka_unit_test(can_be_stopped),
     };
     return cmocka_run_group_tests_name("parts", tests, start, stop);

@@ -239,7 +239,7 @@ static void twins_of_a_fan(void **state)
 }
 
 // So many vertices that some of different numbers have the same hash of 32 bits; the second half repeats the first.
-static void equal_hashes_are_told_apart(void **state)
+static void equal_hashes_are_distinguished(void **state)
 {
     (void)state;
     enum { VERTICES = 300000, ALL = 2 * VERTICES };
@@ -422,7 +422,7 @@ int main(void)
         cmocka_unit_test(directions_that_cancel),
         cmocka_unit_test(same_bytes),
         cmocka_unit_test(twins_of_a_fan),
-        cmocka_unit_test(equal_hashes_are_told_apart),
+        cmocka_unit_test(equal_hashes_are_distinguished),
         cmocka_unit_test(tangents_of_a_normal_map),
         cmocka_unit_test(tangents_of_mikkelsens_code),
     };

@@ -5,6 +5,8 @@
 #include "fail.h"
 #include "float_state.h"
 
+#include <string.h>
+
 // The first map that reads tangents.
 static const lam_texture_map *normal_map_at(const struct lam_scene *scene, int material)
 {
@@ -31,9 +33,13 @@ static const lam_texture_map *normal_map_of(const struct lam_scene *scene, int m
     return map;
 }
 
-// Whether the second texture coordinate grows downwards in the picture of a map.
-static bool t_is_down(const lam_texture_map *map)
+// Whether the second texture coordinate grows downwards in the picture of a map. glTF's does, and the transform of a map is none
+// of its tangents' concern there (section 3.7.2.1: "the texture coordinates associated with the normal texture"): computed
+// tangents are what the file would have. Elsewhere the transform says it, as OBJ's, whose t points up.
+static bool t_is_down(const struct lam_scene *scene, const lam_texture_map *map)
 {
+    if (strcmp(scene->format, "gltf") == 0)
+        return true;
     const float(*m)[3] = map->transform;
     bool given = false;
     for (int i = 0; i < 6; i++)
@@ -54,7 +60,7 @@ static bool make_tangents(struct lam_scene *scene, lam_mesh *mesh, const lam_tex
     }
     if (mesh->tangents || !seen.texcoords || !mesh->normals || !mesh->triangle_count)
         return true;
-    if (!mikktspace(&made, &seen, map && t_is_down(map), &scene->arena, call, error))
+    if (!mikktspace(&made, &seen, map && t_is_down(scene, map), &scene->arena, call, error))
         return false;
     mesh->tangents = made.tangents;
     mesh->tangent_count = made.count;

@@ -111,11 +111,12 @@ static bool open_file(struct scene_reader *r, const struct model_wanted *wanted,
     return false;
 }
 
-// Makes normals and extents.
+// Makes normals, tangents, whose sense depends on the model's format, and extents.
 static bool complete(struct scene_reader *r, const struct model_wanted *wanted, struct model *model)
 {
     struct lam_scene *inner = &model->inner;
     return scene_prepare(inner, wanted->normals, model->crease_angle_rad, r->source->pool, r->source->call, r->error) &&
+           scene_make_tangents(inner, false, r->source->call, r->error) &&
            scene_measure(inner, r->source->pool, r->error);
 }
 

@@ -139,6 +139,32 @@ class Textures(Case):
         cosine = 1 / (0.2 ** 2 + 0.3 ** 2 + 1) ** 0.5
         self.assertAlmostEqual(linear(matt[0][2]) - linear(black[0][2]), 0.7 * cosine * 0.5 * 0.5, delta=0.01)
 
+    def test_gltf_tangents(self):
+        """Made tangents are those that the file would have, whatever the transform of the normal map, in a scene file too."""
+        bent = write_png(1, 1, bytes((200, 90, 220, 255)))
+        for scale in ([1, 1], [-1, 1], [1, -1], [2, -3]):
+            def file(**attributes):
+                given = {"images": [{"uri": "data:image/png;base64," + base64.b64encode(bent).decode()}],
+                         "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.4}, "normalTexture": {
+                             "index": 0, "extensions": {"KHR_texture_transform": {"scale": scale, "rotation": 0.7}}}}]}
+                self.gltf(**given)
+                found = json.loads((self.folder / "m.gltf").read_text())
+                data = base64.b64decode(found["buffers"][0]["uri"].split(",")[1])
+                start = len(data)
+                data += struct.pack("<12f", *[0, 0, 1] * 4) + struct.pack("<16f", *[1, 0, 0, 1] * 4)
+                found["buffers"] = [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}]
+                found["bufferViews"][0]["byteLength"] = len(data)
+                found["accessors"] += [{"bufferView": 0, "byteOffset": start, "componentType": 5126, "count": 4, "type": "VEC3"},
+                                       {"bufferView": 0, "byteOffset": start + 48, "componentType": 5126, "count": 4, "type": "VEC4"}]
+                found["meshes"][0]["primitives"][0]["attributes"].update(attributes)
+                return self.give("m.gltf", json.dumps(found))
+            light = ("--light", "directional:direction=-0.6/0.5/-1,intensity=1.5")
+            want = self.drawn(file(NORMAL=4, TANGENT=5), *light)
+            self.assertNotEqual(want, self.drawn(file(NORMAL=4), *light, "--shading", "flat"))
+            self.assertEqual(self.drawn(file(NORMAL=4), *light), want, scale)
+            self.give("s.json", json.dumps({"lambent": 1, "objects": [{"file": "m.gltf"}]}))
+            self.assertEqual(self.drawn("s.json", *light), want, scale)
+
     def test_gltf_pictures(self):
         self.give("t.png", QUARTERS)
         self.assertEqual(self.drawn(self.gltf(images=[{"uri": "t.png"}]))[0], self.drawn(self.gltf())[0])

@@ -212,7 +212,7 @@ bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_er
         occlusion_pattern_fill(memory->occlusion.data, frame->occlusion_samples);
         cpu->shade.occlusion_pattern = memory->occlusion.data;
     } else if (frame->occlusion == LAM_OCCLUSION_SCREEN) {
-        if (!screen_occlusion_start(&cpu->occlusion, frame, &memory->occlusion, cpu->call, error))
+        if (!screen_occlusion_start(&cpu->occlusion, frame, &memory->occlusion, cpu->pool, cpu->call, error))
             return false;
         cpu->shade.occlusion = &cpu->occlusion;
     }

@@ -7,21 +7,30 @@
 enum { LANES_MAX = 16 };
 
 // Rows have LANES_MAX floats more at either end, planes of cells stand in front of those of pixels.
-// In pieces: first use of the memory of a large picture takes seconds, in which the call may be stopped.
-static bool fill(float *at, size_t count, float value, struct call_control *call, lam_error *error)
+// In pieces, by all threads: first use of the memory of a large picture takes seconds, in which the call may be stopped.
+enum { PIECE = 1 << 17 };
+struct filling {
+    float *at;
+    size_t zeros, count; // the others are SCREEN_EMPTY
+    struct call_control *call;
+};
+
+static void fill_piece(void *user, size_t index, int thread)
 {
-    enum { PIECE = 1 << 20 };
-    for (size_t i = 0; i < count; i += PIECE) {
-        if (!call_should_continue(call))
-            return call_error(call, error);
-        for (size_t k = i; k < count && k < i + PIECE; k++)
-            at[k] = value;
-    }
-    return true;
+    (void)thread;
+    const struct filling *filling = user;
+    size_t first = index * PIECE, end = first + PIECE < filling->count ? first + PIECE : filling->count;
+    size_t zeros = filling->zeros < end ? filling->zeros : end;
+    if (!call_should_continue(filling->call))
+        return;
+    for (size_t i = first; i < zeros; i++)
+        filling->at[i] = 0;
+    for (size_t i = first > zeros ? first : zeros; i < end; i++)
+        filling->at[i] = SCREEN_EMPTY;
 }
 
 bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct buffer *storage,
-                            struct call_control *call, lam_error *error)
+                            struct pool *pool, struct call_control *call, lam_error *error)
 {
     int step = (int64_t)frame->width * frame->height > SCREEN_FINE ? 2 : 1;
     int across = (frame->width + step - 1) / step, down = (frame->height + step - 1) / step;
@@ -30,9 +39,11 @@ bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct fra
     if (!buffer_reserve(storage, (4 * plane + cells + 2 * pixels) * sizeof(float), call, error))
         return false;
     float *at = storage->data, *depth = at + 4 * plane;
-    if (!fill(at, 4 * plane, 0, call, error) || // beside the cells a filter reads numbers, which do not count
-        !fill(depth, cells + pixels, SCREEN_EMPTY, call, error))
-        return false;
+    // Beside the cells a filter reads numbers, which do not count.
+    struct filling filling = {at, 4 * plane, 4 * plane + cells + pixels, call};
+    pool_run(pool, (filling.count + PIECE - 1) / PIECE, fill_piece, &filling);
+    if (!call_should_continue(call))
+        return call_error(call, error);
     at += LANES_MAX;
     depth += LANES_MAX;
     *occlusion = (struct screen_occlusion){.width = frame->width,

@@ -75,9 +75,9 @@ static inline float screen_ground_depth(const struct frame *frame, int x, int y)
     return seen && (dx * dx + dy * dy) + dz * dz < end * end ? depth : SCREEN_EMPTY;
 }
 
-// Sets up a picture's rows in `storage`, without any surface.
+// Sets up a picture's rows in `storage`, without any surface, by several threads (`pool` NULL: one).
 bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct buffer *storage,
-                            struct call_control *call, lam_error *error);
+                            struct pool *pool, struct call_control *call, lam_error *error);
 
 // The steps (screen_occlusion.inc, compiled for each instruction set), for rows of cells from `first` to before `end`: the
 // depth of each cell (with step 2), its occlusion, the two passes of its filter, and its pixels. Each step takes all rows

@@ -83,7 +83,7 @@ bool file_copy(const void *bytes, size_t size, struct call_control *call, struct
 }
 
 // One piece of a parallel read.
-enum { PIECE = 4 << 20 };
+enum { PIECE = 1 << 20 };
 struct reading {
     int file;
     uint8_t *to;

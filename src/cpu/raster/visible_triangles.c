@@ -55,9 +55,9 @@ static void add_triangles(struct rank_bitset *set, const struct fragments *fragm
     }
     *lowest = UINT32_MAX;
     *highest = 0;
+    for (int i = 0; set && i < count; i++)
+        rank_bitset_add(set, ids[i]);
     for (int i = 0; i < count; i++) {
-        if (set)
-            rank_bitset_add(set, ids[i]);
         *lowest = ids[i] < *lowest ? ids[i] : *lowest;
         *highest = ids[i] > *highest ? ids[i] : *highest;
     }

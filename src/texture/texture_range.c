@@ -45,9 +45,9 @@ static uint64_t ranges_of(const struct lam_texture *texture)
     uint64_t ranges = __atomic_load_n(kept, __ATOMIC_RELAXED);
     if (ranges)
         return ranges;
-    uint8_t low[CHANNELS] = {255, 255, 255, 255}, high[CHANNELS] = {0};
+    uint8_t low[CHANNELS] = {255, 255, 255, 255}, high[CHANNELS] = {0, 0, 0, texture->channels == 3 ? 255 : 0};
     const struct texture_level *l = &texture->levels[0];
-    ranges_of_bytes(texture->bytes, (size_t)l->width * (size_t)l->height, CHANNELS, low, high);
+    ranges_of_bytes(texture->bytes, (size_t)l->width * (size_t)l->height, (size_t)texture->channels, low, high);
     for (int c = 0; c < CHANNELS; c++)
         ranges |= (uint64_t)low[c] << 8 * c | (uint64_t)high[c] << (8 * (c + CHANNELS));
     __atomic_store_n(kept, ranges, __ATOMIC_RELAXED);

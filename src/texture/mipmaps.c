@@ -26,17 +26,47 @@ static struct cover cover_of(int from, int to, int i)
 // The fourth number of three belongs to the next texel, which is stored later.
 static void store_texel(float *out, texel t) { *(texel_memory *)out = t; }
 
+// Level 1 of bytes, number by number. `channels` is a constant where this is inlined.
+static inline __attribute__((always_inline)) void halve_bytes(const struct lam_texture *texture, int channels)
+{
+    const struct texture_level *to = &texture->levels[1];
+    float *out = (float *)(uintptr_t)to->floats;
+    for (int y = 0; y < to->height; y++) {
+        const size_t row = (size_t)texture->levels[0].width * (size_t)channels;
+        const uint8_t *upper = texture->bytes + 2 * (size_t)y * row, *lower = upper + row;
+        for (int x = 0; x < to->width; x++, out += channels, upper += 2 * channels, lower += 2 * channels)
+            for (int c = 0; c < channels; c++) {
+                const float *decode = texture->decode + (c < 3 ? 0 : 256);
+                out[c] = ((decode[upper[c]] + decode[upper[channels + c]]) +
+                          (decode[lower[c]] + decode[lower[channels + c]])) *
+                         0.25f;
+            }
+    }
+}
+
+static void halve_floats(const struct lam_texture *texture, int level)
+{
+    const struct texture_level *from = &texture->levels[level - 1], *to = &texture->levels[level];
+    const size_t channels = (size_t)texture->channels, row = (size_t)from->width * channels;
+    float *out = (float *)(uintptr_t)to->floats;
+    for (int y = 0; y < to->height; y++) {
+        const float *upper = from->floats + 2 * (size_t)y * row, *lower = upper + row;
+        for (int x = 0; x < to->width; x++, out += channels, upper += 2 * channels, lower += 2 * channels) {
+            texel above = texel_of_floats(upper, 4) + texel_of_floats(upper + channels, 4);
+            texel below = texel_of_floats(lower, 4) + texel_of_floats(lower + channels, 4);
+            store_texel(out, (above + below) * 0.25f);
+        }
+    }
+}
+
 static void halve_even(const struct lam_texture *texture, int level)
 {
-    const struct texture_level *to = &texture->levels[level];
-    float *out = (float *)(uintptr_t)to->floats;
-    for (int y = 0; y < to->height; y++)
-        for (int x = 0; x < to->width; x++, out += texture->channels) {
-            texel upper = texel_at(texture, level - 1, 2 * x, 2 * y) + texel_at(texture, level - 1, 2 * x + 1, 2 * y);
-            texel lower =
-                texel_at(texture, level - 1, 2 * x, 2 * y + 1) + texel_at(texture, level - 1, 2 * x + 1, 2 * y + 1);
-            store_texel(out, (upper + lower) * 0.25f);
-        }
+    if (texture->levels[level - 1].floats)
+        halve_floats(texture, level);
+    else if (texture->channels == 3)
+        halve_bytes(texture, 3);
+    else
+        halve_bytes(texture, 4);
 }
 
 static void halve_any(const struct lam_texture *texture, int level)

@@ -80,53 +80,80 @@ static size_t join_pixels(const struct inflater *d, const struct picture_file *f
 
 // --- filters
 
-// A pixel's channels in the lower four of eight lanes.
+// A pixel's channels in the lower four of eight lanes; the fourth is any number where the file has three or one.
 typedef uint8_t bytes8 __attribute__((vector_size(8)));
+typedef uint8_t bytes16 __attribute__((vector_size(16)));
+typedef uint32_t words4 __attribute__((vector_size(16)));
 typedef int16_t wide8 __attribute__((vector_size(16)));
 
-static inline wide8 wide_of(uint32_t pixel) { return __builtin_convertvector((bytes8)(uint64_t)pixel, wide8); }
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+#define WIDE(i) 16 + (i), i
+#else
+#define WIDE(i) i, 16 + (i)
+#endif
 
-static inline uint32_t pixel_of(wide8 v) { return (uint32_t)(uint64_t)__builtin_convertvector(v, bytes8); }
+static inline wide8 wide_of(uint32_t pixel)
+{
+    const bytes16 bytes = (bytes16)(words4){pixel}, zero = {0};
+    return (wide8)__builtin_shufflevector(bytes, zero, WIDE(0), WIDE(1), WIDE(2), WIDE(3), WIDE(4), WIDE(5), WIDE(6),
+                                          WIDE(7));
+}
 
+// Four bytes, in the order of memory.
 static inline uint32_t pixel_at(const uint8_t *at)
 {
-    return at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
+    uint32_t pixel;
+    memcpy(&pixel, at, sizeof pixel);
+    return pixel;
 }
 
-// A pixel of the file; grey is the same in three channels.
-static inline uint32_t filtered_at(const uint8_t *at, int channels)
+static inline void store_pixel(uint8_t *at, wide8 v)
 {
-    return channels == 1   ? at[0] * 0x010101u
-           : channels == 3 ? at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16
-                           : pixel_at(at);
+    const bytes8 bytes = __builtin_convertvector(v, bytes8);
+    memcpy(at, &bytes, 4);
 }
 
-static inline wide8 magnitude(wide8 v) { return (v ^ (v >> 15)) - (v >> 15); }
+// Written so that compilers find the instructions for them.
+static inline wide8 min8(wide8 x, wide8 y)
+{
+    for (int i = 0; i < 8; i++)
+        x[i] = x[i] < y[i] ? x[i] : y[i];
+    return x;
+}
 
-// Of the pixels to the left, above, and above to the left, per channel the one that is nearest to a + b − c.
+static inline wide8 max8(wide8 x, wide8 y)
+{
+    for (int i = 0; i < 8; i++)
+        x[i] = x[i] > y[i] ? x[i] : y[i];
+    return x;
+}
+
+// Of the pixels to the left, above, and above to the left, per channel the one that is nearest to a + b − c, of equals the
+// first. For c between a and b the lower of them is at the distance high − c, the higher at c − low, and c at |low + high − 2c|: the
+// lower is nearest where 3c − a − b ≥ high, and the higher where it is ≤ low; which also holds for c outside. Few steps depend
+// on a, the pixel that was made last.
 static inline wide8 paeth(wide8 a, wide8 b, wide8 c)
 {
-    wide8 to_a = b - c, to_b = a - c, to_c = magnitude(to_a + to_b);
-    to_a = magnitude(to_a);
-    to_b = magnitude(to_b);
-    wide8 takes_a = (to_a <= to_b) & (to_a <= to_c), takes_b = to_b <= to_c;
-    return (takes_a & a) | (~takes_a & ((takes_b & b) | (~takes_b & c)));
+    const wide8 low = min8(a, b), high = max8(a, b), middle = (c + c + c - b) - a;
+    const wide8 takes_low = high <= middle, takes_high = middle <= low;
+    const wide8 other = (takes_low & low) | (~takes_low & c);
+    return (takes_high & high) | (~takes_high & other);
 }
 
-// To pixels of `size` bytes, 3 or 4. The fourth byte is written in any case: behind a row too. `filter` and `channels` are
-// constants where this is inlined.
+// To pixels of `size` bytes, 3 or 4. The fourth byte is read and written in any case: behind a row too. `filter` and
+// `channels` are constants where this is inlined.
 static inline __attribute__((always_inline)) void unfilter(uint8_t *row, const uint8_t *above, const uint8_t *from,
                                                            size_t width, size_t size, int filter, int channels)
 {
+    const wide8 alpha = channels < 4 ? (wide8){0, 0, 0, 255} : (wide8){0};
     wide8 a = {0}, c = {0};
     for (size_t i = 0; i < width; i++, row += size, above += size, from += channels) {
-        wide8 v = wide_of(filtered_at(from, channels)), b = wide_of(pixel_at(above));
+        // Grey is the same in three channels.
+        wide8 v = wide_of(channels == 1 ? from[0] * 0x01010101u : pixel_at(from)), b = wide_of(pixel_at(above));
         v += filter == 1 ? a : filter == 2 ? b : filter == 3 ? (a + b) >> 1 : filter == 4 ? paeth(a, b, c) : (wide8){0};
         a = v & 255;
         c = b;
-        uint32_t pixel = pixel_of(a) | (channels < 4 ? 0xff000000u : 0);
-        for (int k = 0; k < 4; k++)
-            row[k] = (uint8_t)(pixel >> 8 * k);
+        store_pixel(row, a | alpha);
     }
 }
 

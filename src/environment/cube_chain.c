@@ -35,10 +35,14 @@ struct shrinking {
 static void shrink_texel(const struct lam_environment *from, int face, int s, int t, int size, float out[3])
 {
     int n = from->size, s0 = (int)((int64_t)s * n / size), t0 = (int)((int64_t)t * n / size);
-    float weight[4][4], total = 0;
+    float across[4], down[4], weight[4][4], total = 0;
+    for (int i = 0; i < 4; i++) {
+        across[i] = s0 + i < n ? overlap(s0 + i, n, s, size) : 0;
+        down[i] = t0 + i < n ? overlap(t0 + i, n, t, size) : 0;
+    }
     for (int j = 0; j < 4; j++)
         for (int i = 0; i < 4; i++) {
-            float w = s0 + i < n && t0 + j < n ? overlap(s0 + i, n, s, size) * overlap(t0 + j, n, t, size) : 0;
+            float w = across[i] * down[j];
             weight[j][i] = w > 0 && n < WEIGHTED_BELOW ? w * texel_weight(n, s0 + i, t0 + j) : w;
             total += weight[j][i];
         }

@@ -96,63 +96,79 @@ static struct lam_environment *cube_of_faces(const lam_image *faces, const char 
 
 // --- an equirectangular picture
 
-// The pixel at column x, row y: columns wrap around, rows are clamped.
-static const float *pixel_at(const lam_image *image, int x, int y)
+typedef float pixel __attribute__((vector_size(16)));
+typedef float pixel_memory __attribute__((vector_size(16), aligned(4), may_alias));
+
+// Where longitudes and latitudes lie in the picture, in pixels from the centre of the first. Longitude 0 is −z, latitude 0 +y.
+static double column_of(const lam_image *image, double longitude)
 {
-    x = x < 0 ? x + image->width : x >= image->width ? x - image->width : x;
-    y = y < 0 ? 0 : y >= image->height ? image->height - 1 : y;
-    return (const float *)image->pixels + ((size_t)y * (size_t)image->width + (size_t)x) * 4;
+    return (0.5 + longitude / (2 * PI)) * image->width - 0.5;
 }
 
-// Where directions meet the picture, in pixels from the centre of the first.
-static double column_of(const lam_image *image, double x, double z)
-{
-    return (0.5 + math_atan2(x, -z) / (2 * PI)) * image->width - 0.5;
-}
+static double row_of(const lam_image *image, double latitude) { return latitude / PI * image->height - 0.5; }
 
-static double row_of(const lam_image *image, double from_axis, double y)
+// A row of a face. Texel s lies at columns[s] and rows[s], or with `below` as far from the last row as that is from the first.
+static void sample_row(const lam_image *image, const double *columns, const double *rows, bool below,
+                       struct lam_environment *cube, int face, int t)
 {
-    return math_atan2(from_axis, y) / PI * image->height - 0.5;
-}
-
-static void sample_sphere(const lam_image *image, double x, double y, float out[3])
-{
-    int column = (int)(x + 1) - 1, row = (int)(y + 1) - 1; // both at least −½
-    double s = x - column, t = y - row;
-    const float *a = pixel_at(image, column, row), *b = pixel_at(image, column + 1, row);
-    const float *c = pixel_at(image, column, row + 1), *e = pixel_at(image, column + 1, row + 1);
-    for (int channel = 0; channel < 3; channel++) {
-        double upper = (double)a[channel] * (1 - s) + (double)b[channel] * s;
-        double lower = (double)c[channel] * (1 - s) + (double)e[channel] * s;
-        out[channel] = (float)(upper * (1 - t) + lower * t);
+    const float *pixels = image->pixels;
+    int width = image->width, last = image->height - 1;
+    for (int s = 0; s < cube->size; s++) {
+        double x = columns[s], y = below ? last - rows[s] : rows[s];
+        int left = (int)(x + 1) - 1, upper = (int)(y + 1) - 1; // both at least −½
+        float across = (float)(x - left), down = (float)(y - upper);
+        int right = left + 1 < width ? left + 1 : 0, lower = upper < last ? upper + 1 : last; // columns wrap around
+        left = left < 0 ? width - 1 : left;
+        upper = upper < 0 ? 0 : upper;
+        const float *above = pixels + (size_t)upper * (size_t)width * 4,
+                    *beneath = pixels + (size_t)lower * (size_t)width * 4;
+        pixel a = *(const pixel_memory *)(above + 4 * (size_t)left),
+              b = *(const pixel_memory *)(above + 4 * (size_t)right);
+        pixel c = *(const pixel_memory *)(beneath + 4 * (size_t)left),
+              e = *(const pixel_memory *)(beneath + 4 * (size_t)right);
+        a = a * (1 - across) + b * across;
+        c = c * (1 - across) + e * across;
+        // Its fourth number lies in the next texel, or in the border, which is filled later.
+        *(pixel_memory *)cube_texel(cube, face, s, t) = a * (1 - down) + c * down;
     }
 }
 
-// Row t of the four faces around: texels of a column have one longitude, `columns`, and the faces share their latitudes.
-static void sample_around(const lam_image *image, struct lam_environment *cube, const double *const columns[4], int t)
+// Rows t, above the middle, and size − 1 − t of the four faces around: texels of a column have one longitude, and the faces
+// share their latitudes. `rows`: for one row of a face.
+static void sample_around(const lam_image *image, struct lam_environment *cube, const double *const columns[4],
+                          double *rows, int t)
 {
     static const enum lam_cube_face around[4] = {LAM_FACE_PX, LAM_FACE_NX, LAM_FACE_PZ, LAM_FACE_NZ};
     int size = cube->size;
-    double down = 2 * t + 1 - size;
-    for (int s = 0; s < size; s++) {
+    double up = size - 1 - 2 * t;
+    for (int s = 0; 2 * s < size; s++) {
         double across = 2 * s + 1 - size;
-        double y = row_of(image, math_sqrt((double)size * size + across * across), -down);
-        for (int i = 0; i < 4; i++)
-            sample_sphere(image, columns[i][s], y, cube_texel(cube, around[i], s, t));
+        rows[s] = rows[size - 1 - s] = row_of(image, math_atan2(math_sqrt((double)size * size + across * across), up));
+    }
+    for (int i = 0; i < 4; i++) {
+        sample_row(image, columns[i], rows, false, cube, around[i], t);
+        sample_row(image, columns[i], rows, true, cube, around[i], size - 1 - t);
     }
 }
 
-// Row t of the upper face, and the row of the lower one that lies below it: they share their longitudes.
-static void sample_ends(const lam_image *image, struct lam_environment *cube, int t)
+// The same rows of the upper and the lower face. Their halves mirror each other: longitudes change their sign, and are taken from
+// a half turn. `memory`: for three rows.
+static void sample_ends(const lam_image *image, struct lam_environment *cube, double *memory, int t)
 {
     int size = cube->size;
-    double down = 2 * t + 1 - size;
-    for (int s = 0; s < size; s++) {
-        double across = 2 * s + 1 - size, from_axis = math_sqrt(across * across + down * down);
-        double x = column_of(image, across, down);
-        sample_sphere(image, x, row_of(image, from_axis, size), cube_texel(cube, LAM_FACE_PY, s, t));
-        sample_sphere(image, x, row_of(image, from_axis, -size), cube_texel(cube, LAM_FACE_NY, s, size - 1 - t));
+    double back = size - 1 - 2 * t, *rows = memory, *behind = memory + size, *ahead = memory + 2 * size;
+    for (int s = 0; 2 * s < size; s++) {
+        double left = size - 1 - 2 * s, longitude = math_atan2(left, back);
+        rows[s] = rows[size - 1 - s] = row_of(image, math_atan2(math_sqrt(left * left + back * back), size));
+        behind[s] = column_of(image, -longitude);
+        behind[size - 1 - s] = column_of(image, longitude);
+        ahead[s] = column_of(image, longitude - PI);
+        ahead[size - 1 - s] = column_of(image, PI - longitude);
     }
+    sample_row(image, behind, rows, false, cube, LAM_FACE_PY, t);
+    sample_row(image, ahead, rows, false, cube, LAM_FACE_PY, size - 1 - t);
+    sample_row(image, ahead, rows, true, cube, LAM_FACE_NY, t);
+    sample_row(image, behind, rows, true, cube, LAM_FACE_NY, size - 1 - t);
 }
 
 static bool check_light(const lam_image *image, const char *name, struct call_control *call, lam_error *error)
@@ -183,20 +199,27 @@ static struct lam_environment *cube_of_sphere(const lam_image *image, const char
     struct lam_environment *cube = check_light(image, name, call, error) ? cube_within(call, size, error) : NULL;
     if (!cube)
         return NULL;
-    double *memory = malloc(4 * (size_t)size * sizeof *memory);
-    bool ok = memory || fail_memory(error, 4 * (size_t)size * sizeof *memory);
-    const double *const columns[4] = {memory, memory + size, memory + 2 * size, memory + 3 * size};
-    for (int s = 0; ok && s < size; s++) {
-        double across = 2 * s + 1 - size;
-        memory[s] = column_of(image, size, -across);
-        memory[size + s] = column_of(image, -size, across);
-        memory[2 * size + s] = column_of(image, across, size);
-        memory[3 * size + s] = column_of(image, -across, -size);
+    const size_t bytes = 7 * (size_t)size * sizeof(double);
+    double *memory = malloc(bytes);
+    if (!memory) {
+        lam_environment_free(cube);
+        fail_memory(error, bytes);
+        return NULL;
     }
-    for (int t = 0; ok && t < size; t++) {
+    bool ok = true;
+    double *rest = memory + 4 * (size_t)size;
+    const double *const columns[4] = {memory, memory + size, memory + 2 * size, memory + 3 * size};
+    for (int s = 0; s < size; s++) {
+        double across = 2 * s + 1 - size;
+        memory[s] = column_of(image, math_atan2(size, across));
+        memory[size + s] = column_of(image, math_atan2(-size, -across));
+        memory[2 * size + s] = column_of(image, math_atan2(across, -size));
+        memory[3 * size + s] = column_of(image, math_atan2(-across, size));
+    }
+    for (int t = 0; ok && 2 * t < size; t++) {
         ok = continues(call, t, error);
-        sample_around(image, cube, columns, t);
-        sample_ends(image, cube, t);
+        sample_around(image, cube, columns, rest, t);
+        sample_ends(image, cube, rest, t);
     }
     free(memory);
     if (!ok) {

@@ -87,6 +87,10 @@ FORMS = {"masking": {"smith": "Smith's masking for GGX with correlated heights",
                      "whole": "a diffuse part of 1 − metallic"},
          "tone": {"reinhard": "Reinhard's tone curve"}, "encoding": {"gamma": "gamma-encoded, pow(x, 1/2.2)"}}
 
+MAPS = {"colors": {"linear": "their colours are linear, as a sampler gives those of a texture with an sRGB format",
+                   "gamma": "their colours are encoded, and the shader decodes them, pow(x, 2.2)"},
+        "v": {"up": "v goes up where u goes right", "down": "v goes down where u goes right, as in glTF files"}}
+
 
 def value(x):
     words = {"diffuse": "the surface's", "light": "the light's"}
@@ -120,6 +124,9 @@ def section(program, contract, meaning):
     if forms:
         yield ""
         yield "Metalness and roughness: " + "; ".join(FORMS[key][word] for key, word in forms.items() if word in FORMS[key]) + "."
+    maps = contract.get("maps")
+    if maps:
+        yield "Maps: " + "; ".join(MAPS[key][word] for key, word in maps.items()) + "."
     correct = CORRECT.get(name)
     if correct:
         yield ""

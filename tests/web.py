@@ -62,7 +62,7 @@ EXPLAINED = [["cube.obj", "--size", "96"], ["torus-knot", "--size", "96", "--ref
 # Checks: a program of tests/check, contract ("": recognised), whether its vertex shader is given, and an edit of the fragment shader.
 CHECKS = [("angel", "", True, None), ("oregon-no-gate", "", True, None), ("nyu-direction", "nyu", False, None), ("pittsburgh-vertex", "", True, None),
           ("pittsburgh", "pittsburgh", True, ("max(dot(n, h), 0.0)", "max(dot(reflect(-l, n), v), 0.0)")), ("threejs-pbr", "", True, None),
-          ("gltf", "", True, None), ("oregon", "", True, ("void main", "void mian")), ("learnopengl", "", True, ("normalize(Normal)", "Normal"))]
+          ("gltf", "", True, None), ("gltf-maps", "", True, None), ("oregon", "", True, ("void main", "void mian")), ("learnopengl", "", True, ("normalize(Normal)", "Normal"))]
 
 
 class Results:

@@ -159,6 +159,15 @@ typedef struct lam_check_mesh {
     LAM_RESERVED(4);
 } lam_check_mesh;
 
+// Values for an attribute beside positions, normals and tangents, of each vertex of the mesh: texture coordinates, tangents
+// with the sign of the bitangent, bitangents.
+typedef struct lam_check_stream {
+    int input;            // the attribute: index in `inputs`
+    int components;       // floats for each vertex: 2, 3 or 4
+    const float *numbers; // belong to the check
+    LAM_RESERVED(1);
+} lam_check_stream;
+
 // Triangles that are left out; the vertices of a front face go counter-clockwise.
 typedef enum lam_check_cull {
     LAM_CHECK_CULL_NONE = 0, // all are drawn
@@ -178,7 +187,9 @@ typedef struct lam_check_drawing {
     // For LAM_CHECK_LANGUAGE_COMPATIBILITY: gl_ModelViewMatrix and gl_ProjectionMatrix, by columns. There gl_Vertex and
     // gl_Normal are the mesh's where `position` and `normal` are -1.
     float model_view[16], projection[16];
-    LAM_RESERVED(4);
+    const lam_check_stream *streams; // for further attributes
+    uint64_t stream_count;           // of `streams`
+    LAM_RESERVED(2);
 } lam_check_drawing;
 
 // Draws for a check. All calls come from the thread of lam_check_run, and one place is open within another.

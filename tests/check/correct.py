@@ -5,6 +5,7 @@ lectures, tutorials, games and golfers. `python3 tests/check/correct.py FOLDER` 
 import pathlib
 import sys
 
+import maps
 from dialects import translate
 
 FOLDER = pathlib.Path(__file__).parent
@@ -381,6 +382,14 @@ add("three.js, metalness and roughness, as LearnOpenGL divides the diffuse part"
     H_FRAG, ("vec3 diffuse = color *", "vec3 diffuse = (1.0 - F) * color *")))
 add("three.js, metalness and roughness, lights with pi in them", H_VERT, edit(
     H_FRAG, ("(1.0 - metalness) * RECIPROCAL_PI", "(1.0 - metalness)"), ("F * (V * D)", "F * (V * D / RECIPROCAL_PI)")))
+# --- maps
+for name, shader, edits in maps.CORRECT:
+    texts = {ending: read(shader, ending) for ending in ("vert", "frag")}
+    for ending, old, new in edits:
+        assert texts[ending].count(old) == 1, f"{name}: {old}"
+        texts[ending] = texts[ending].replace(old, new)
+    add(name, texts["vert"], texts["frag"])
+
 
 if __name__ == "__main__":
     target = pathlib.Path(sys.argv[1])

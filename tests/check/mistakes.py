@@ -3,6 +3,8 @@
 (shader, expected ids, [(ending, old text, new text), …]). The old text must occur in the file exactly once.
 """
 
+import maps
+
 P, Q, O, N, D, M = "pittsburgh", "pittsburgh-vertex", "oregon", "nyu", "nyu-direction", "lambent"
 L, LM, LS, LL = "learnopengl", "learnopengl-materials", "learnopengl-spot", "learnopengl-lights"
 A, AV, W, T, TR = "angel", "angel-vertex", "mdn", "threejs", "threejs-raw"
@@ -309,4 +311,4 @@ MISTAKES = [
     (TP, "f0-constant", [frag("mix(vec3(0.04), color, metalness)", "vec3(0.04)")]),
     (TP, "diffuse-without-pi", [frag("(1.0 - metalness) * RECIPROCAL_PI", "(1.0 - metalness)")]),
     (TP, "normal-eye-space", [vert("transpose(inverse(mat3(modelMatrix))) * normal", "normalMatrix * normal")]),
-]
+] + maps.MISTAKES

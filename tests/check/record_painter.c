@@ -91,6 +91,12 @@ static bool draw(void *place, const lam_check_drawing *d, float *pixels, lam_err
         all = hash(all, place_of, sizeof place_of);
         all = hash(all, v->numbers, (size_t)v->count * components[d->program->inputs[v->input].type] * 4);
     }
+    for (uint64_t i = 0; i < d->stream_count; i++) {
+        const lam_check_stream *s = &d->streams[i];
+        int32_t place_of[2] = {s->input, s->components};
+        all = hash(all, place_of, sizeof place_of);
+        all = hash(all, s->numbers, vertices * (size_t)s->components * 4);
+    }
     int32_t how[4] = {d->position, d->normal, d->tangent, (int32_t)d->cull};
     all = hash(all, how, sizeof how);
     if (all == last_drawing)

@@ -130,6 +130,11 @@ static void test_errors(void **state)
     bad("{\"contract\": 1, \"nam\": \"x\"}", "my.json: nam: unknown key; did you mean 'name'?");
     bad("{\"contract\": 1, \"name\": \"x\", \"space\": \"clip\"}",
         "my.json: space: found \"clip\", expected eye or world");
+    bad(GOOD LIGHT "}, \"maps\": {\"colors\": \"gama\"}}",
+        "my.json: maps.colors: found \"gama\", expected linear or gamma; did you mean 'gamma'?");
+    bad(GOOD LIGHT "}, \"maps\": {\"v\": \"left\"}}", "my.json: maps.v: found \"left\", expected up or down");
+    bad(GOOD LIGHT ", \"bumps\": {\"role\": \"normal_map\", \"type\": \"vec3\"}}}",
+        "my.json: uniforms.bumps.type: found \"vec3\", expected a type that fits the role normal_map: sampler2D");
     bad(GOOD LIGHT "}, \"physical\": {\"masking\": \"smth\"}}",
         "my.json: physical.masking: found \"smth\", expected smith or schlick; did you mean 'smith'?");
     bad(GOOD LIGHT "}, \"highlight\": \"metallic-roughness\"}",

@@ -28,7 +28,7 @@ class Replay {
   }
 
   get imports() {
-    return Object.fromEntries(['open', 'close', 'compile', 'input_count', 'input', 'forget', 'mesh', 'value', 'draw'].map((name) => [name, (...all) => this[name](...all)]));
+    return Object.fromEntries(['open', 'close', 'compile', 'input_count', 'input', 'forget', 'mesh', 'value', 'stream', 'draw'].map((name) => [name, (...all) => this[name](...all)]));
   }
 
   // --- the file
@@ -123,6 +123,10 @@ class Replay {
   value(program, input, first, count, numbers) {
     const components = COMPONENTS[this.#inputs.get(program)[input].numbers[0]];
     this.#requested.push(new Uint8Array(Int32Array.of(input, first, count).buffer), this.memory(numbers, 4 * count * components).slice());
+  }
+
+  stream(program, input, components, vertices, numbers) {
+    this.#requested.push(new Uint8Array(Int32Array.of(input, components).buffer), this.memory(numbers, 4 * vertices * components).slice());
   }
 
   draw(place, program, mesh, indexCount, position, normal, tangent, cull, pixels) {

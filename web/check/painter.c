@@ -22,6 +22,8 @@ void painter_forget(int32_t program) IMPORT(forget);
 void painter_mesh(int32_t place, int32_t number, int32_t vertex_count, int32_t index_count, const float *positions,
                   const float *normals, const float *tangents, const uint16_t *indices) IMPORT(mesh);
 void painter_value(int32_t program, int32_t input, int32_t first, int32_t count, const float *numbers) IMPORT(value);
+void painter_stream(int32_t program, int32_t input, int32_t components, int32_t vertex_count, const float *numbers)
+    IMPORT(stream);
 // 0: drawn; -1: the browser has stopped it; else WebGL's error.
 int32_t painter_draw(int32_t place, int32_t program, int32_t mesh, int32_t index_count, int32_t position,
                      int32_t normal, int32_t tangent, int32_t cull, float *pixels) IMPORT(draw);
@@ -104,6 +106,8 @@ static bool draw(void *place, const lam_check_drawing *d, float *pixels, lam_err
     painter_mesh(at, m->number, m->vertex_count, m->index_count, m->positions, m->normals, m->tangents, m->indices);
     for (int i = 0; i < d->value_count; i++)
         painter_value(program, d->values[i].input, d->values[i].first, d->values[i].count, d->values[i].numbers);
+    for (uint64_t i = 0; i < d->stream_count; i++)
+        painter_stream(program, d->streams[i].input, d->streams[i].components, m->vertex_count, d->streams[i].numbers);
     int32_t wrong = painter_draw(at, program, m->number, m->index_count, d->position, d->normal, d->tangent,
                                  (int32_t)d->cull, pixels);
     if (wrong < 0) {

@@ -30,7 +30,7 @@ export class Painter {
   // The imports of the module.
   get imports() {
     const call = (name) => (...all) => this[name](...all);
-    return Object.fromEntries(['open', 'close', 'compile', 'input_count', 'input', 'forget', 'mesh', 'value', 'draw'].map((name) => [name, call(name)]));
+    return Object.fromEntries(['open', 'close', 'compile', 'input_count', 'input', 'forget', 'mesh', 'value', 'stream', 'draw'].map((name) => [name, call(name)]));
   }
 
   #text(at) {
@@ -150,7 +150,7 @@ export class Painter {
       blocks.push({ buffer: gl.createBuffer(), bytes: new ArrayBuffer(gl.getActiveUniformBlockParameter(program, i, gl.UNIFORM_BLOCK_DATA_SIZE)) });
       gl.uniformBlockBinding(program, i, i);
     }
-    return { program, inputs, blocks, textures: [], units: 0 };
+    return { program, inputs, blocks, textures: [], units: 0, streams: [] };
   }
 
   input_count(number) {
@@ -192,6 +192,11 @@ export class Painter {
       else if (input.type === gl.INT || input.type === gl.BOOL) gl.uniform1iv(location, Int32Array.from(v));
       else gl[`uniform${rows}fv`](location, v);
     }
+  }
+
+  // Values of an attribute for the next picture of a program.
+  stream(number, index, components, vertices, at) {
+    this.#programs.get(number).streams.push({ index, components, data: this.#floatsAt(at, vertices * components).slice() });
   }
 
   #store(block, input, first, count, v) {
@@ -255,6 +260,15 @@ export class Painter {
         gl.enableVertexAttribArray(used.at(-1));
         gl.vertexAttribPointer(used.at(-1), width, gl.FLOAT, false, 0, 0);
       }
+    const lent = own.streams.splice(0).map(({ index, components, data }) => {
+      const buffer = gl.createBuffer();
+      used.push(own.inputs[index].location);
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
+      gl.enableVertexAttribArray(used.at(-1));
+      gl.vertexAttribPointer(used.at(-1), components, gl.FLOAT, false, 0, 0);
+      return buffer;
+    });
     if (cull === NONE) gl.disable(gl.CULL_FACE);
     else gl.enable(gl.CULL_FACE);
     gl.cullFace(cull === FRONT ? gl.FRONT : gl.BACK);
@@ -264,6 +278,7 @@ export class Painter {
     const rows = this.#floats ? new Float32Array(4 * size * size) : new Uint8Array(4 * size * size);
     gl.readPixels(0, 0, size, size, gl.RGBA, this.#floats ? gl.FLOAT : gl.UNSIGNED_BYTE, rows);
     for (const location of used) gl.disableVertexAttribArray(location);
+    for (const buffer of lent) gl.deleteBuffer(buffer);
     const wrong = gl.getError();
     if (gl.isContextLost()) return -1;
     const out = this.#floatsAt(pixels, 4 * size * size), row = 4 * size; // WebGL's first row is the bottom one

@@ -97,6 +97,7 @@ bool lam_check_role_row(int row, lam_check_role *out)
 static const struct contract_name default_vertex_names[] = {
     {"lambent_position", SEMANTIC_POSITION, true, "vec3", "", NULL, LAM_FRAME_OBJECT, -1},
     {"lambent_normal", SEMANTIC_NORMAL, true, "vec3", "", NULL, LAM_FRAME_OBJECT, -1},
+    {"lambent_texture_coordinate", SEMANTIC_TEXCOORD, true, "vec2", "", NULL, LAM_FRAME_OBJECT, -1},
     {"lambent_model_view", SEMANTIC_MODEL_VIEW, false, "mat4", "", NULL, LAM_FRAME_CAMERA, -1},
     {"lambent_projection", SEMANTIC_PROJECTION, false, "mat4", "", NULL, LAM_FRAME_CAMERA, -1},
     {"lambent_normal_matrix", SEMANTIC_NORMAL_MATRIX, false, "mat3", "", NULL, LAM_FRAME_CAMERA, -1},

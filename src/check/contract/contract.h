@@ -83,6 +83,15 @@ struct physical_convention {
     enum encoding encoding;
 };
 
+// What the maps of a contract hold.
+struct map_convention {
+    // Maps of colours are encoded, pow(x, 1/2.2), and the shader decodes them; false: they are linear, as a texture with an
+    // sRGB format is for a shader.
+    bool encoded;
+    // v grows downward in the picture, as in glTF files: a patch whose u goes right and normal to the eye has its v go down.
+    bool v_down;
+};
+
 enum contract_term { TERM_AMBIENT = 1, TERM_DIFFUSE = 2, TERM_SPECULAR = 4 };
 enum { MAX_LIGHT_GROUPS = 8 };
 
@@ -104,7 +113,8 @@ struct contract {
     lam_light_frame light_frame;
     lam_reflection reflection;
     struct contract_defaults defaults;
-    struct physical_convention physical;       // of shaders with metalness and roughness
+    struct physical_convention physical; // of shaders with metalness and roughness
+    struct map_convention maps;
     const struct contract_constant *constants; // ends with NULL
     // What an engine writes before the texts of a program, which then have no version line and declare none of its names.
     // NULL: nothing.

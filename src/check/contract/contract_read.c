@@ -84,10 +84,10 @@ static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
 
 static bool read_root(struct contract_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"contract",   "name",       "title",     "glsl",      "space",
-                                       "terms",      "highlight",  "alpha",     "two_sided", "printed",
-                                       "attributes", "uniforms",   "built_ins", "varyings",  "outputs",
-                                       "constants",  "undeclared", "prefix",    "physical",  NULL};
+    static const char *const keys[] = {"contract",  "name",     "title",     "glsl",      "space",      "terms",
+                                       "highlight", "alpha",    "two_sided", "printed",   "attributes", "uniforms",
+                                       "built_ins", "varyings", "outputs",   "constants", "undeclared", "prefix",
+                                       "physical",  "maps",     NULL};
     static const struct json_choice highlights[] = {{"phong", LAM_REFLECTION_PHONG},
                                                     {"blinn-phong", LAM_REFLECTION_BLINN_PHONG},
                                                     {"metallic-roughness", LAM_REFLECTION_GGX},
@@ -128,7 +128,7 @@ static bool read_root(struct contract_reader *r, const json_t *root)
         return false;
     return read_terms(r, root) && contract_read_names(r, root) && contract_read_varyings(r, root) &&
            contract_read_defaults(r, root) && contract_read_constants(r, root) && contract_read_prefix(r, root) &&
-           contract_read_physical(r, root) && complete(r, alpha, two_sided);
+           contract_read_physical(r, root) && contract_read_maps(r, root) && complete(r, alpha, two_sided);
 }
 
 lam_check_contract *lam_check_contract_read(const char *text, size_t size, const char *file, lam_error *error)

@@ -32,5 +32,6 @@ bool contract_read_defaults(struct contract_reader *r, const json_t *root); // u
 bool contract_read_constants(struct contract_reader *r, const json_t *root);
 bool contract_read_prefix(struct contract_reader *r, const json_t *root);
 bool contract_read_physical(struct contract_reader *r, const json_t *root);
+bool contract_read_maps(struct contract_reader *r, const json_t *root);
 
 #endif

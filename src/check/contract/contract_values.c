@@ -228,3 +228,23 @@ bool contract_read_physical(struct contract_reader *r, const json_t *root)
                                                          (enum tone_curve)tone, (enum encoding)encoding};
     return true;
 }
+
+// --- what maps hold
+
+bool contract_read_maps(struct contract_reader *r, const json_t *root)
+{
+    static const char *const keys[] = {"colors", "v", NULL};
+    static const struct json_choice colors[] = {{"linear", false}, {"gamma", true}, {NULL, 0}},
+                                    ways[] = {{"up", false}, {"down", true}, {NULL, 0}};
+    const json_t *object = json_object_get(root, "maps");
+    const struct place *place = KEY_OF(NULL, "maps");
+    int encoded = false, v_down = false;
+    if (!object)
+        return true;
+    if (!json_check_keys(&r->json, place, object, keys) ||
+        !json_take_word(&r->json, place, object, "colors", colors, &encoded) ||
+        !json_take_word(&r->json, place, object, "v", ways, &v_down))
+        return false;
+    r->contract->maps = (struct map_convention){encoded != 0, v_down != 0};
+    return true;
+}

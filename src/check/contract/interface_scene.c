@@ -1,5 +1,6 @@
 // interface_scene.c: a reference scene as a pair of shaders can express it. What they have no name for takes the value
 // that the contract gives to the undeclared; a term that the contract does not have is switched off.
+#include "maps.h"
 #include "shader_interface.h"
 
 #include <string.h>
@@ -267,6 +268,19 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
         }
 }
 
+// What maps hold. The numbers of the scene stay as they are: factor and texel share them.
+static void adapt_maps(const struct shader_interface *r, struct reference_scene *s)
+{
+    s->maps = r->maps;
+    s->factors = r->factors;
+    s->encoded_maps = r->contract->maps.encoded;
+    s->tints_ambient = s->physical && r->maps & map_bit(SEMANTIC_BASE_COLOR_MAP) &&
+                       (r->contract->printed || r->defaults.ambient_color.source == COLOR_OF_DIFFUSE);
+    s->occlusion = r->contract->terms & TERM_AMBIENT ? s->ka : 0.6f;
+    if (s->mesh >= MESH_PATCH && r->contract->maps.v_down)
+        s->mesh += MESH_PATCH_DOWN - MESH_PATCH;
+}
+
 struct reference_scene shader_interface_scene(const struct shader_interface *r,
                                               const struct reference_scene *reference_scene)
 {
@@ -285,6 +299,7 @@ struct reference_scene shader_interface_scene(const struct shader_interface *r,
     s.ka = terms & TERM_AMBIENT ? s.ka : 0;
     s.kd = terms & TERM_DIFFUSE ? s.kd : 0;
     s.ks = terms & TERM_SPECULAR && !(r->supports & RULE_NO_SPECULAR) ? s.ks : 0;
+    adapt_maps(r, &s);
     s.dims_ambient = r->gl1;
     s.flat |= (r->supports & RULE_FLAT) != 0;
     if (!declares(r, SEMANTIC_SHININESS) && r->defaults.shininess.given)

@@ -12,6 +12,7 @@ enum uniform_semantic {
     SEMANTIC_NORMAL,
     SEMANTIC_TEXCOORD,
     SEMANTIC_TANGENT,
+    SEMANTIC_BITANGENT,
     // Uniforms.
     SEMANTIC_MODEL_VIEW,
     SEMANTIC_PROJECTION,
@@ -40,7 +41,18 @@ enum uniform_semantic {
     SEMANTIC_METALLIC,
     SEMANTIC_ROUGHNESS,
     SEMANTIC_ROUGHNESS_ANGLE, // Oren–Nayar's sigma
-    SEMANTIC_LIGHT_POSITION,  // w 1; for a directional light the direction to it, w 0
+    SEMANTIC_EMISSION,        // factor of the emission map; 0 without one
+    // Maps: textures with one texel, another one in each scene (maps.h).
+    SEMANTIC_BASE_COLOR_MAP,
+    SEMANTIC_METALLIC_ROUGHNESS_MAP,
+    SEMANTIC_METALLIC_MAP,
+    SEMANTIC_ROUGHNESS_MAP,
+    SEMANTIC_NORMAL_MAP,
+    SEMANTIC_OCCLUSION_MAP,
+    SEMANTIC_EMISSION_MAP,
+    SEMANTIC_MAP_ROW_U,      // of the matrix from the mesh's texture coordinates to a map's; w: factor of the texel
+    SEMANTIC_MAP_ROW_V,      // w: added to the texel
+    SEMANTIC_LIGHT_POSITION, // w 1; for a directional light the direction to it, w 0
     SEMANTIC_LIGHT_X,
     SEMANTIC_LIGHT_Y,
     SEMANTIC_LIGHT_Z,

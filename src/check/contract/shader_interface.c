@@ -6,6 +6,7 @@
 
 #include "fail.h"
 #include "lecture_style.h"
+#include "maps.h"
 #include "shader_constants.h"
 
 // Whether a declared uniform is read: a member of a struct after a dot, another name anywhere.
@@ -35,6 +36,42 @@ static void find_declared(struct shader_interface *r)
         }
 }
 
+// Maps stand for numbers of the material: what has a map is declared.
+static void find_maps(struct shader_interface *r)
+{
+    static const struct {
+        enum uniform_semantic map, number;
+    } rows[] = {{SEMANTIC_BASE_COLOR_MAP, SEMANTIC_COLOR},
+                {SEMANTIC_METALLIC_ROUGHNESS_MAP, SEMANTIC_METALLIC},
+                {SEMANTIC_METALLIC_ROUGHNESS_MAP, SEMANTIC_ROUGHNESS},
+                {SEMANTIC_METALLIC_MAP, SEMANTIC_METALLIC},
+                {SEMANTIC_ROUGHNESS_MAP, SEMANTIC_ROUGHNESS},
+                {SEMANTIC_OCCLUSION_MAP, SEMANTIC_KA},
+                {SEMANTIC_EMISSION_MAP, SEMANTIC_EMISSION}};
+    const uint64_t named = r->declared, read = r->used, diffuse = (uint64_t)1 << SEMANTIC_DIFFUSE;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        uint64_t map = (uint64_t)1 << rows[i].map, number = (uint64_t)1 << rows[i].number;
+        if (!(read & map) || (rows[i].map == SEMANTIC_OCCLUSION_MAP && !(r->contract->terms & TERM_AMBIENT)))
+            continue;
+        bool factor = (named & number) || (rows[i].map == SEMANTIC_BASE_COLOR_MAP && named & diffuse);
+        r->factors |= factor ? map_bit(rows[i].map) : 0;
+        r->declared |= factor ? 0 : number;
+        r->used |= factor ? 0 : number;
+    }
+    for (int s = SEMANTIC_BASE_COLOR_MAP; s <= SEMANTIC_EMISSION_MAP; s++)
+        r->maps |= read >> s & 1 ? map_bit((enum uniform_semantic)s) : 0;
+    for (int i = 0; i < r->vertex.count; i++) {
+        const struct declaration *d = &r->vertex.items[i];
+        const struct contract_name *n =
+            d->kind == DECLARED_INPUT ? contract_find(r->contract, d->name, true, NULL) : NULL;
+        if (!n || !declarations_uses(&r->vertex, d->name))
+            continue;
+        r->has_tangents = r->has_tangents || n->semantic == SEMANTIC_TANGENT;
+        if (n->semantic == SEMANTIC_BITANGENT || (n->semantic == SEMANTIC_TANGENT && strcmp(d->type, "vec4") == 0))
+            r->supports |= NEED_TANGENT_SIGN;
+    }
+}
+
 bool shader_interface_declares(const struct shader_interface *r, enum uniform_semantic semantic)
 {
     return r->declared >> semantic & 1;
@@ -49,7 +86,8 @@ static bool is_light(enum uniform_semantic semantic) { return (role_of(semantic)
 
 static bool is_material(enum uniform_semantic semantic)
 {
-    return semantic >= SEMANTIC_AMBIENT && semantic <= SEMANTIC_ROUGHNESS_ANGLE;
+    return (semantic >= SEMANTIC_AMBIENT && semantic <= SEMANTIC_ROUGHNESS_ANGLE) ||
+           (is_map(semantic) && semantic != SEMANTIC_BASE_COLOR_MAP);
 }
 
 // Whether a shader computes lighting: it declares a uniform of a material or light. The colour of the surface alone may
@@ -60,7 +98,7 @@ static bool is_lit(const struct shader_interface *r, const struct declarations *
     for (int i = 0; i < d->count; i++) {
         const struct contract_name *n =
             d->items[i].kind == DECLARED_UNIFORM ? contract_find(r->contract, d->items[i].name, false, NULL) : NULL;
-        if (n && n->semantic == SEMANTIC_COLOR)
+        if (n && (n->semantic == SEMANTIC_COLOR || n->semantic == SEMANTIC_BASE_COLOR_MAP))
             colored = true;
         else if (n && (is_material(n->semantic) || is_light(n->semantic)))
             return true;
@@ -194,6 +232,9 @@ static void apply_lambent_rules(struct shader_interface *r)
                                              : NEED_POINT;
     if (!lecture && !declarations_uses(&r->fragment, "gl_FrontFacing")) // a mistake in the lecture style
         r->supports &= ~(unsigned)NEED_TWO_SIDES;
+    for (int i = 0; i < r->fragment.word_count && r->maps; i++) // of an opaque material, whatever its map's alpha
+        if (words_match(&r->fragment, i, "light . a = 1.0 ;"))
+            r->supports &= ~(unsigned)NEED_ALPHA;
     r->supports |= rules;
     r->supports |= has_highlight(r->printed_model) ? 0 : RULE_NO_SPECULAR;
     r->supports |= is_flat(&r->fragment) ? RULE_FLAT : 0;
@@ -330,6 +371,7 @@ bool shader_interface_make(struct shader_interface *r, const struct complete_tex
         return false;
     }
     find_declared(r);
+    find_maps(r);
     shader_constants_find(r);
     // A printed shader declares every member of a material, whatever it reads.
     uint64_t named = contract->printed ? r->used : r->declared;
@@ -339,12 +381,16 @@ bool shader_interface_make(struct shader_interface *r, const struct complete_tex
     r->light_frame = find_light_frame(r);
     r->vertex_lit = texts->vertex && !is_lit(r, &r->fragment);
     find_lights(r);
-    r->supports = r->contract->supports;
+    r->supports = r->contract->supports | (r->supports & NEED_TANGENT_SIGN);
+    r->supports |= r->maps & map_bit(SEMANTIC_NORMAL_MAP) ? NEED_NORMAL_MAP : 0;
+    r->supports |= r->maps & map_bit(SEMANTIC_EMISSION_MAP) && r->physical ? NEED_EMISSION_MAP : 0;
     summarize_lights(r);
     r->supports |= r->vertex_lit ? NEED_VERTEX_LIT : 0;
     if (!shader_interface_declares(r, SEMANTIC_FLAT))
         r->supports &= ~(unsigned)NEED_FLAT;
     apply_lambent_rules(r);
+    if (r->vertex_lit || r->supports & RULE_FLAT)
+        r->supports &= ~(unsigned)NEED_NORMAL_MAP;
     return true;
 }
 

@@ -17,6 +17,9 @@ struct shader_interface {
     const struct contract *contract;
     uint64_t declared, used; // bit i: a shader declares a uniform of semantic i, and reads it
     uint64_t constants;      // bit i: it has a number of semantic i
+    // The maps that they read (map_bit), and of these those whose factor they declare too. A map declares its number.
+    unsigned maps, factors;
+    bool has_tangents; // as attributes: the frame of a normal map need not come from derivatives
     // The contract's, with the numbers that the shaders have instead.
     struct contract_defaults defaults;
     // The space in which the shaders light, CAMERA or WORLD, and that of their first light.

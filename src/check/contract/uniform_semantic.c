@@ -1,5 +1,5 @@
 // uniform_semantic.c: the value of each uniform in a reference scene.
-#include "contract.h"
+#include "maps.h"
 
 #include "linear.h"
 
@@ -11,6 +11,23 @@ static struct uniform_value color(lam_rgb c, float strength, float alpha)
 static struct uniform_value vector(lam_vec3 v, float w)
 {
     return (struct uniform_value){{(float)v.x, (float)v.y, (float)v.z, w}};
+}
+
+// The factor of a colour that a map multiplies.
+static struct uniform_value color_factor(const struct reference_scene *s, enum map_number number, lam_rgb c,
+                                         float alpha)
+{
+    return (struct uniform_value){
+        {map_factor(s, number, c.r), map_factor(s, number, c.g), map_factor(s, number, c.b), alpha}};
+}
+
+// A colour that the texel of the base colour map multiplies, as that of the diffuse light.
+static struct uniform_value without_texel(const struct reference_scene *s, struct uniform_value c)
+{
+    const float base[] = {s->diffuse.r, s->diffuse.g, s->diffuse.b};
+    for (int i = 0; i < 3 && s->tints_ambient; i++)
+        c.v[i] *= map_factor(s, NUMBER_BASE_COLOR, base[i]) / base[i];
+    return c;
 }
 
 static struct uniform_value number(float x) { return (struct uniform_value){{x}}; }
@@ -87,6 +104,8 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
     const float *a = light->attenuation;
     lam_mat4 to = matrix_to(space, m);
     lam_rgb one = {1, 1, 1};
+    if (is_map(semantic))
+        return map_texel(semantic, s);
     bool product_of_light = semantic >= SEMANTIC_AMBIENT_PRODUCT && semantic <= SEMANTIC_SPECULAR_PRODUCT;
     switch (semantic) {
     case SEMANTIC_MODEL_VIEW:
@@ -107,25 +126,27 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
         return normal_matrix(space, m);
     case SEMANTIC_AMBIENT:
     case SEMANTIC_AMBIENT_PRODUCT:
-        return color(product(s->ambient, product_of_light ? total_ambient(s) : one), s->ka, 1);
+        return without_texel(s, color(product(s->ambient, product_of_light ? total_ambient(s) : one), s->ka, 1));
     case SEMANTIC_DIFFUSE:
+        if (s->physical)
+            return color_factor(s, NUMBER_BASE_COLOR, s->diffuse, s->alpha);
+        return color(s->diffuse, s->kd, s->alpha);
     case SEMANTIC_DIFFUSE_PRODUCT:
         // Of a metal, no light is scattered: its product is 0 (metallic is 0 where there is no such name).
-        return color(product(s->diffuse, product_of_light ? light->color : one),
-                     product_of_light ? s->kd * (1 - s->metallic) : s->kd, s->alpha);
+        return color(product(s->diffuse, light->color), s->kd * (1 - s->metallic), s->alpha);
     case SEMANTIC_SPECULAR:
     case SEMANTIC_SPECULAR_PRODUCT:
         return color(product(s->specular, product_of_light ? light->specular : one), s->ks, 1);
     case SEMANTIC_LIGHT_AMBIENT_PRODUCT:
         return color(product(s->ambient, light->ambient), s->ka, 1);
     case SEMANTIC_KA:
-        return number(s->ka);
+        return number(map_factor(s, NUMBER_OCCLUSION, s->ka));
     case SEMANTIC_KD:
         return number(s->kd);
     case SEMANTIC_KS:
         return number(s->ks);
     case SEMANTIC_COLOR:
-        return color(s->diffuse, 1, s->alpha);
+        return s->physical ? color_factor(s, NUMBER_BASE_COLOR, s->diffuse, s->alpha) : color(s->diffuse, 1, s->alpha);
     case SEMANTIC_SPECULAR_COLOR:
         return color(s->specular, 1, 1);
     case SEMANTIC_SHININESS:
@@ -141,9 +162,9 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
     case SEMANTIC_LIGHT_TRAVEL:
         return vector(v3_scale(v3_unit(mat4_vector(&to, light->to_light)), -1), 0);
     case SEMANTIC_METALLIC:
-        return number(s->metallic);
+        return number(map_factor(s, NUMBER_METALLIC, s->metallic));
     case SEMANTIC_ROUGHNESS:
-        return number(s->roughness);
+        return number(map_factor(s, NUMBER_ROUGHNESS, s->roughness));
     case SEMANTIC_ROUGHNESS_ANGLE:
         return number(s->roughness_angle_rad);
     case SEMANTIC_LIGHT_KIND:
@@ -170,8 +191,14 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
         return number(cone(light).v[0] - (light->cutoff_deg > 0 ? 1e-6f : 0.1f));
     case SEMANTIC_SPOT_EXPONENT:
         return number(light->exponent);
+    case SEMANTIC_EMISSION:
+        return color_factor(s, NUMBER_EMISSION, s->emission, 1);
     case SEMANTIC_ONE:
-        return number(1);
+        return (struct uniform_value){{1, 1, 1, 1}};
+    case SEMANTIC_MAP_ROW_U:
+        return (struct uniform_value){{1, 0, 0, 1}};
+    case SEMANTIC_MAP_ROW_V:
+        return (struct uniform_value){{0, 1, 0, 0}};
     case SEMANTIC_LIGHT_COUNT:
         return number((float)s->light_count);
     case SEMANTIC_FLAT:

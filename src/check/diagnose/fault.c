@@ -1,5 +1,6 @@
 // fault.c: sets of faults, and which of the table can occur in a pair of shaders.
 #include "fault.h"
+#include "maps.h"
 
 #include <string.h>
 
@@ -38,6 +39,32 @@ static unsigned physical_bits(const struct physical_convention *c)
            (c->encoding == ENCODING_NONE ? WHERE_LINEAR : WHERE_ENCODED);
 }
 
+// What fault_maps has bits for.
+static unsigned map_bits(const struct shader_interface *r)
+{
+    static const struct {
+        enum uniform_semantic map;
+        unsigned read, factor;
+    } rows[] = {{SEMANTIC_BASE_COLOR_MAP, MAPS_BASE, MAPS_BASE_FACTOR},
+                {SEMANTIC_METALLIC_ROUGHNESS_MAP, MAPS_METALLIC_ROUGHNESS | MAPS_DATA, MAPS_DATA_FACTOR},
+                {SEMANTIC_METALLIC_MAP, MAPS_DATA, MAPS_DATA_FACTOR},
+                {SEMANTIC_ROUGHNESS_MAP, MAPS_DATA, MAPS_DATA_FACTOR},
+                {SEMANTIC_NORMAL_MAP, MAPS_NORMAL, 0},
+                {SEMANTIC_OCCLUSION_MAP, MAPS_OCCLUSION_READ, 0},
+                {SEMANTIC_EMISSION_MAP, MAPS_EMISSION, MAPS_EMISSION_FACTOR}};
+    unsigned bits = r->contract->maps.encoded ? MAPS_ENCODED : MAPS_LINEAR;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        bits |= r->maps & map_bit(rows[i].map) ? rows[i].read : 0;
+        bits |= r->factors & map_bit(rows[i].map) ? rows[i].factor : 0;
+    }
+    bits |= bits & MAPS_OCCLUSION_READ && r->contract->terms & TERM_AMBIENT ? MAPS_OCCLUSION : 0;
+    bits |= r->has_tangents ? MAPS_TANGENTS : 0;
+    bits |= r->supports & NEED_TANGENT_SIGN ? MAPS_SIGN : 0;
+    bits |= declarations_uses(&r->fragment, "dFdx") ? MAPS_DERIVATIVES : 0;
+    bits |= r->contract->maps.v_down ? MAPS_DOWN : MAPS_UP;
+    return bits | (bits & MAPS_BASE ? 0 : MAPS_NO_BASE) | (bits & MAPS_OCCLUSION_READ ? 0 : MAPS_NO_OCCLUSION);
+}
+
 bool fault_applies(const struct fault *fault, const struct shader_interface *interface, lam_light_frame frame,
                    lam_reflection reflection, unsigned needs)
 {
@@ -53,7 +80,8 @@ bool fault_applies(const struct fault *fault, const struct shader_interface *int
                     (interface->contract->material_strengths ? WHERE_STRENGTHS : 0) |
                     (interface->vertex_lit || hands_on_four(&interface->fragment) ? WHERE_FOUR : 0) |
                     (interface->physical ? physical_bits(&interface->contract->physical) : WHERE_CLASSIC);
-    return (fault->where & ~here) == 0 && (fault->needs & ~needs) == 0;
+    return (fault->where & ~here) == 0 && (fault->needs & ~needs) == 0 &&
+           (!fault->maps || (fault->maps & ~map_bits(interface)) == 0);
 }
 
 // Row `index` of those that are listed: no styles, and of each mistake the first form.

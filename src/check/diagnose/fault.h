@@ -32,7 +32,14 @@
     X(F0_CONSTANT) X(F0_IS_ALBEDO) X(SHARE_OF_DIELECTRIC) X(SHARE_OF_MIX) X(SHARE_WHOLE) X(METAL_KEEPS_DIFFUSE) \
     X(METAL_ROUGH_SWAPPED) X(ROUGHNESS_INVERTED) X(ALBEDO_DECODED) X(NO_N_DOT_L) X(LIT_SIDE_ALONE) X(SPECULAR_WITHOUT_N_DOT_L) \
     X(DIFFUSE_TIMES_PI) X(LIGHT_WITHOUT_PI) X(USE_NO_TONE) X(USE_REINHARD) X(USE_EXPONENTIAL) X(USE_ACES) \
-    X(USE_SRGB) X(USE_GAMMA) X(NOT_ENCODED) X(TONE_AFTER_ENCODING) X(RIM_KEPT)
+    X(USE_SRGB) X(USE_GAMMA) X(NOT_ENCODED) X(TONE_AFTER_ENCODING) X(RIM_KEPT) \
+    X(MAPS_OF_SRGB) X(BASE_NOT_DECODED) X(BASE_DECODED_TWICE) X(BASE_MAP_ALONE) X(BASE_FACTOR_ALONE) \
+    X(DATA_DECODED) X(DATA_MAP_ALONE) X(METAL_ROUGH_RED) X(METAL_FROM_RED) X(METAL_FROM_GREEN) X(METAL_FROM_ALPHA) \
+    X(ROUGH_FROM_RED) X(ROUGH_FROM_BLUE) X(ROUGH_FROM_ALPHA) X(NO_EMISSION) X(EMISSION_NOT_DECODED) \
+    X(EMISSION_DECODED_TWICE) X(EMISSION_MAP_ALONE) X(OCCLUSION_OF_ALL) X(BUMPS_MISSING) \
+    X(NORMAL_MAP_RAW) X(NORMAL_MAP_DECODED) X(NORMAL_MAP_AS_WORLD) X(BENT_NORMAL_LONG) X(FRAME_TRANSPOSED) \
+    X(FRAME_INTERPOLATED) X(FRAME_DERIVED) X(FRAME_DERIVED_SIGNED) X(FRAME_COTANGENT) X(TANGENT_LONG) X(TANGENT_BY_NORMAL_MATRIX) \
+    X(TANGENT_OBJECT) X(TANGENT_REVERSED) X(BITANGENT_REVERSED) X(BITANGENT_BY_MODEL) X(AXES_SWAPPED) X(SIGN_LOST)
 // clang-format on
 
 enum fault_bit {
@@ -81,6 +88,30 @@ enum fault_where {
     WHERE_NOT_OF_MIX = 2097152,
 };
 
+// Likewise, of maps; 0: whatever maps the shader reads.
+enum fault_maps {
+    MAPS_BASE = 1,                // reads a map of the base colour
+    MAPS_METALLIC_ROUGHNESS = 2,  // one of roughness and metalness
+    MAPS_DATA = 4,                // that, or one of metalness or roughness alone
+    MAPS_NORMAL = 8,              // one of normals
+    MAPS_OCCLUSION = 16,          // one of occlusion, which multiplies an ambient term
+    MAPS_EMISSION = 32,           // one of emission
+    MAPS_ENCODED = 64,            // maps of colours are encoded
+    MAPS_LINEAR = 128,            // or linear
+    MAPS_BASE_FACTOR = 256,       // the base colour has a factor too
+    MAPS_DATA_FACTOR = 512,       // likewise metalness and roughness
+    MAPS_EMISSION_FACTOR = 1024,  // likewise the emission
+    MAPS_TANGENTS = 2048,         // tangents come as an attribute
+    MAPS_SIGN = 4096,             // with the sign of the bitangent
+    MAPS_DERIVATIVES = 8192,      // dFdx occurs in the fragment shader
+    MAPS_UP = 16384,              // v goes up where u goes right
+    MAPS_DOWN = 32768,            // or down
+    MAPS_NO_BASE = 65536,         // reads no map of the base colour
+    MAPS_OCCLUSION_READ = 131072, // one of occlusion, whether there is an ambient term or not
+    MAPS_NO_OCCLUSION = 262144,   // or none
+    MAPS_ABSENT = MAPS_NO_BASE | MAPS_NO_OCCLUSION,
+};
+
 // What the search has to find out about a fault: the factor of the exponent, above or below 1, or the constant.
 enum fault_fit { FIT_NONE, FIT_LARGER, FIT_SMALLER, FIT_CONSTANT };
 
@@ -93,6 +124,7 @@ struct fault {
     unsigned needs;               // reference_need: one of the scenes in use must have it
     const char *explanation;      // a sentence
     const char *correction;       // one line; {place} is replaced by the shader's own name (fault_text)
+    unsigned maps;                // bits of fault_maps
     float factor;                 // of the exponent; 0: none
     enum fault_fit fit;
     bool rare;       // not mentioned beside another with the same pictures

@@ -8,6 +8,12 @@ in vec4 surface_normal, surface_light, surface_eye, early_eye, early_light[LAMPS
 in float distances[LAMPS];
 #endif
 
+#ifdef MAPS
+in vec4 surface_tangent, surface_bitangent;
+in vec3 surface_point;
+in vec2 surface_texture_coordinate;
+#endif
+
 out vec4 pixel;
 
 void main()
@@ -16,6 +22,11 @@ void main()
 #ifdef IN_VERTEX
     pixel = flat_shading && !is(SMOOTH_FOR_FLAT) ? flat_color : (back ? vertex_color_back : vertex_color);
 #else
-    pixel = shade(Surface(back ? -surface_normal : surface_normal, surface_light, surface_eye, early_eye, early_light, early_mirror, distances));
+#ifdef MAPS
+    Frame frame = Frame(surface_tangent, surface_bitangent, surface_texture_coordinate, surface_point);
+#else
+    Frame frame = Frame(vec4(0.0), vec4(0.0), vec2(0.0), vec3(0.0));
+#endif
+    pixel = shade(Surface(back ? -surface_normal : surface_normal, surface_light, surface_eye, early_eye, early_light, early_mirror, distances, frame));
 #endif
 }

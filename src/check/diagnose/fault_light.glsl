@@ -117,6 +117,7 @@ struct Surface {
     vec4 early_light[LAMPS];   // l of each light likewise
     vec4 early_mirror[LAMPS];  // the half vector, or r, of each light likewise
     float distance[LAMPS];     // of the vertices
+    Frame frame;
 };
 
 vec4 mirrored(vec4 l, vec4 n) { return 2.0 * dot(n, l) * n - l; }
@@ -190,6 +191,7 @@ bool is_left_out(int i)
 vec4 shade(Surface s)
 {
     vec4 n = is(LONG_NORMAL) ? s.normal : unit4(s.normal);
+    n = bumped(n, s.normal, s.frame);
     vec4 way_eye = is(EARLY_EYE) ? s.early_eye : to_eye(s.eye);
     vec4 v = is(LONG_EYE) ? way_eye : unit4(way_eye);
     if (is(FACE_FORWARD) && dot(n, v) < 0.0) {
@@ -236,15 +238,16 @@ vec4 shade(Surface s)
     vec3 sum = vec3(0.0);
     if (!is(NO_AMBIENT)) {
         bool by_light = ambient_by_light && !is(KA_KD_SWAPPED);
-        sum += by_light ? ambient : ambient_color * (is(AMBIENT_ATTENUATED) ? arrived : 1.0) * (is(AMBIENT_EACH_LIGHT) ? light_capacity : 1.0);
+        sum += ambient_factor() * (by_light ? ambient : ambient_color * (is(AMBIENT_ATTENUATED) ? arrived : 1.0) * (is(AMBIENT_EACH_LIGHT) ? light_capacity : 1.0));
     }
     if (!is(NO_DIFFUSE)) {
-        sum += diffuse;
+        sum += diffuse * lamp_occlusion();
     }
     if (!is(NO_SPECULAR)) {
-        sum += specular;
+        sum += specular * lamp_occlusion();
     }
     if (physical) {
+        sum += emitted();
         sum = displayed(sum);
     }
     if (is(ENCODED)) {

@@ -108,6 +108,7 @@ static const float *render_faults(struct fault_measure *t, int index, const faul
                              .size = s->size,
                              .light_capacity = s->light_capacity,
                              .supports = s->interface->supports,
+                             .factors = s->interface->factors,
                              .tone = s->interface->printed_tone,
                              .expectation = s->expectation,
                              .set = *set};

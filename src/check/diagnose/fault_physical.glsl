@@ -10,18 +10,10 @@
 #define TONE_REINHARD 1
 #define ENCODING_GAMMA 1
 
-uniform vec3 base_color;
-uniform float metallic, roughness;
-
-bool is(int bit); // fault_light.glsl
-
 const float PI = 3.14159265358979;
 
 // The cosines of a point, clamped. `cosine`: n.l of the sum over the lights, which a fault may leave unclamped.
 struct Angles { float nl, nv, nh, vh, cosine; };
-
-float metal() { return is(METAL_ROUGH_SWAPPED) ? roughness : metallic; }
-float rough() { return is(ROUGHNESS_INVERTED) ? 1.0 - roughness : (is(METAL_ROUGH_SWAPPED) ? metallic : roughness); }
 
 float distribution(Angles a)
 {
@@ -91,7 +83,7 @@ vec3 fresnel(Angles a, vec3 f0)
 void reflect_physical(Angles a, out vec3 diffuse, out vec3 specular)
 {
     float m = metal();
-    vec3 base = is(ALBEDO_DECODED) ? pow(base_color, vec3(2.2)) : base_color;
+    vec3 base = surface_color();
     vec3 f0 = is(F0_CONSTANT) ? vec3(0.04) : (is(F0_IS_ALBEDO) ? base : mix(vec3(0.04), base, m));
     vec3 F = fresnel(a, f0), share = 1.0 - fresnel(a, vec3(0.04));
     int kind = is(SHARE_WHOLE) ? DIFFUSE_WHOLE : (is(SHARE_OF_MIX) ? DIFFUSE_OF_MIX : (is(SHARE_OF_DIELECTRIC) ? 0 : diffuse_share));

@@ -1,5 +1,6 @@
 // fault_shader.c: a program that computes the lighting with faults switched on or off (fault_light.glsl, fault_physical.glsl).
 #include "fault_shader.h"
+#include "maps.h"
 #include "place.h"
 
 #include <stdio.h>
@@ -15,6 +16,8 @@
 struct specialization {
     bool in_vertex, physical, phong, products, ambient_by_light, flat, two_sided;
     int masking, diffuse_share, tone, encoding;
+    int maps; // bits of the maps (map_bit)
+    bool encoded_maps, tints_ambient;
     int lamps;
     bool vectors, terms; // switches of these groups may be on
 };
@@ -58,7 +61,8 @@ static bool is_possible(const struct specialization *made_for, int bit)
         return false;
     for (int m = 0; m < fault_count; m++)
         for (int k = 0; k < MAX_FAULT_BITS && faults[m].bits[k] != BIT_NONE; k++)
-            if (faults[m].bits[k] == bit && !(faults[m].where & (made_for->physical ? WHERE_CLASSIC : WHERE_PHYSICAL)))
+            if (faults[m].bits[k] == bit && (made_for->maps || !(faults[m].maps & ~(unsigned)MAPS_ABSENT)) &&
+                !(faults[m].where & (made_for->physical ? WHERE_CLASSIC : WHERE_PHYSICAL)))
                 return true;
     return false;
 }
@@ -68,17 +72,16 @@ static size_t write_constants(const struct specialization *s, bool es, char *out
     const struct {
         const char *name;
         bool value;
-    } flags[] = {{"physical", s->physical}, {"phong_lobe", s->phong},
-                 {"products", s->products}, {"ambient_by_light", s->ambient_by_light},
-                 {"flat_shading", s->flat}, {"two_sided", s->two_sided}};
+    } flags[] = {{"physical", s->physical},         {"phong_lobe", s->phong},
+                 {"products", s->products},         {"ambient_by_light", s->ambient_by_light},
+                 {"flat_shading", s->flat},         {"two_sided", s->two_sided},
+                 {"encoded_maps", s->encoded_maps}, {"tints_ambient", s->tints_ambient}};
     const struct {
         const char *name;
         int value;
-    } numbers[] = {{"masking", s->masking},
-                   {"diffuse_share", s->diffuse_share},
-                   {"tone", s->tone},
-                   {"encoding", s->encoding},
-                   {"lamp_count", s->lamps}};
+    } numbers[] = {{"masking", s->masking}, {"diffuse_share", s->diffuse_share},
+                   {"tone", s->tone},       {"encoding", s->encoding},
+                   {"maps", s->maps},       {"lamp_count", s->lamps}};
     size_t at =
         (size_t)snprintf(out, capacity, "#version %s\n%s#define FAULT_BITS %d\n#define LAMPS %d\n",
                          es ? "300 es\nprecision highp float;\nprecision highp int;" : "330 core",
@@ -94,17 +97,20 @@ static size_t write_constants(const struct specialization *s, bool es, char *out
 }
 
 // The text of a stage, from malloc.
-static char *write_text(const struct specialization *made_for, bool es, const char *body, lam_error *error)
+static char *write_text(const struct specialization *made_for, bool es, bool fragment, lam_error *error)
 {
-    size_t capacity =
-        strlen(text_fault_physical_glsl) + strlen(text_fault_light_glsl) + strlen(body) + 40 * FAULT_BIT_COUNT + 700;
+    const char *body = fragment ? text_fault_fragment_glsl : text_fault_vertex_glsl;
+    size_t capacity = strlen(text_fault_maps_glsl) + strlen(text_fault_physical_glsl) + strlen(text_fault_light_glsl) +
+                      strlen(body) + 40 * FAULT_BIT_COUNT + 800;
     char *text = malloc(capacity);
     if (!text) {
         fail_memory(error, capacity);
         return NULL;
     }
     size_t at = write_constants(made_for, es, text, capacity);
-    snprintf(text + at, capacity - at, "%s%s%s", text_fault_physical_glsl, text_fault_light_glsl, body);
+    snprintf(text + at, capacity - at, "%s%s%s%s%s%s", made_for->maps ? "#define MAPS\n" : "",
+             fragment ? "#define FRAGMENT\n" : "", text_fault_maps_glsl, text_fault_physical_glsl,
+             text_fault_light_glsl, body);
     return text;
 }
 
@@ -129,8 +135,9 @@ static bool is_same(const struct specialization *a, const struct specialization 
     return a->in_vertex == b->in_vertex && a->physical == b->physical && a->phong == b->phong &&
            a->products == b->products && a->ambient_by_light == b->ambient_by_light && a->flat == b->flat &&
            a->two_sided == b->two_sided && a->masking == b->masking && a->diffuse_share == b->diffuse_share &&
-           a->tone == b->tone && a->encoding == b->encoding && a->lamps == b->lamps && a->vectors == b->vectors &&
-           a->terms == b->terms;
+           a->tone == b->tone && a->encoding == b->encoding && a->maps == b->maps &&
+           a->encoded_maps == b->encoded_maps && a->tints_ambient == b->tints_ambient && a->lamps == b->lamps &&
+           a->vectors == b->vectors && a->terms == b->terms;
 }
 
 static void forget(struct fault_shader *m, lam_check_program *program)
@@ -143,8 +150,8 @@ static void forget(struct fault_shader *m, lam_check_program *program)
 static lam_check_program *make_program(struct fault_shader *m, const struct specialization *made_for, lam_error *error)
 {
     bool es = m->place.painter.es_only;
-    char *vertex = write_text(made_for, es, text_fault_vertex_glsl, error),
-         *fragment = vertex ? write_text(made_for, es, text_fault_fragment_glsl, error) : NULL;
+    char *vertex = write_text(made_for, es, false, error),
+         *fragment = vertex ? write_text(made_for, es, true, error) : NULL;
     lam_check_program *program = fragment ? calloc(1, sizeof *program) : NULL;
     if (fragment && !program)
         fail_memory(error, sizeof *program);
@@ -279,6 +286,27 @@ static void set_color(struct fault_shader *m, const char *name, lam_rgb c, float
     set(m, name, 1, 3, (float[]){c.r * k, c.g * k, c.b * k});
 }
 
+// The factors of a colour, and the texel of its map.
+static void set_map(struct fault_shader *m, const char *factor, const char *texel, enum map_number number, lam_rgb c,
+                    enum uniform_semantic map, const struct reference_scene *s)
+{
+    set(m, factor, 1, 3, (float[]){map_factor(s, number, c.r), map_factor(s, number, c.g), map_factor(s, number, c.b)});
+    set(m, texel, 1, 3, map_texel(map, s).v);
+}
+
+static void set_maps(struct fault_shader *m, const struct reference_scene *s)
+{
+    if (!s->maps)
+        return;
+    set_map(m, "base_factor", "base_texel", NUMBER_BASE_COLOR, s->diffuse, SEMANTIC_BASE_COLOR_MAP, s);
+    set_map(m, "emission_factor", "emission_texel", NUMBER_EMISSION, s->emission, SEMANTIC_EMISSION_MAP, s);
+    set(m, "normal_texel", 1, 3, map_texel(SEMANTIC_NORMAL_MAP, s).v);
+    set(m, "metallic_roughness_texel", 1, 4, map_texel(SEMANTIC_METALLIC_ROUGHNESS_MAP, s).v);
+    set_number(m, "metallic_factor", map_factor(s, NUMBER_METALLIC, s->metallic));
+    set_number(m, "roughness_factor", map_factor(s, NUMBER_ROUGHNESS, s->roughness));
+    set_number(m, "occlusion", s->occlusion);
+}
+
 bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *reference_scene,
                        const struct shader_interface *interface, int light_capacity, lam_light_frame frame,
                        lam_reflection reflection, const fault_set *set_of_faults, float *pixels, lam_error *error)
@@ -298,6 +326,9 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
                                       .diffuse_share = (int)physical->diffuse,
                                       .tone = (int)physical->tone,
                                       .encoding = (int)physical->encoding,
+                                      .maps = (int)reference_scene->maps,
+                                      .encoded_maps = reference_scene->encoded_maps,
+                                      .tints_ambient = reference_scene->tints_ambient,
                                       .lamps = reference_scene->light_count};
     float bits[FAULT_BIT_COUNT];
     for (int i = 0; i < FAULT_BIT_COUNT; i++) {
@@ -356,6 +387,7 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     set_color(m, "base_color", reference_scene->diffuse, 1);
     set_number(m, "metallic", reference_scene->metallic);
     set_number(m, "roughness", reference_scene->roughness);
+    set_maps(m, reference_scene);
     // Nothing of a closed mesh's inside is seen; upside down, its front faces turn the other way.
     bool closed = reference_scene->mesh == MESH_SPHERE || reference_scene->mesh == MESH_COARSE;
     if (m->full)
@@ -370,5 +402,7 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
                                  .cull = !closed       ? LAM_CHECK_CULL_NONE
                                          : upside_down ? LAM_CHECK_CULL_FRONT
                                                        : LAM_CHECK_CULL_BACK};
-    return place_draw(&m->place, reference_scene->mesh, &drawing, pixels, error);
+    const struct map_inputs inputs = {
+        {place_input(m->program, "texture_coordinate", true), -1}, place_input(m->program, "tangent", true), -1};
+    return place_draw(&m->place, reference_scene->mesh, &drawing, &inputs, pixels, error);
 }

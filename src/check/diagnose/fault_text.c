@@ -30,6 +30,13 @@ static const struct {
     {"occlusion", SEMANTIC_KA, "ao"},
     {"metallic", SEMANTIC_METALLIC, "metallic"},
     {"roughness", SEMANTIC_ROUGHNESS, "roughness"},
+    {"emission", SEMANTIC_EMISSION, "emission"},
+    {"tangent", SEMANTIC_TANGENT, "tangent"},
+    {"base_map", SEMANTIC_BASE_COLOR_MAP, "albedoMap"},
+    {"metallic_roughness_map", SEMANTIC_METALLIC_ROUGHNESS_MAP, "metallicRoughnessMap"},
+    {"normal_map", SEMANTIC_NORMAL_MAP, "normalMap"},
+    {"occlusion_map", SEMANTIC_OCCLUSION_MAP, "aoMap"},
+    {"emission_map", SEMANTIC_EMISSION_MAP, "emissionMap"},
 };
 
 struct line {
@@ -159,8 +166,37 @@ static const char *term_name(const struct line *line, enum uniform_semantic sema
     return name && !declared && colored ? color : name;
 }
 
+// A map of metalness or roughness: that which has both, or a map of it alone.
+static const char *data_map(const struct line *line, enum uniform_semantic alone)
+{
+    const char *name =
+        own_name(line, shader_interface_declares(line->interface, alone) ? alone : SEMANTIC_METALLIC_ROUGHNESS_MAP);
+    return name ? name : "metallicRoughnessMap";
+}
+
+// The texture coordinate in the fragment shader.
+static const char *texture_coordinate(const struct line *line)
+{
+    const struct declarations *d = &line->interface->fragment;
+    for (int i = 0; i < d->count; i++) {
+        const struct contract_varying *v = contract_varying(line->interface->contract, d->items[i].name);
+        bool known = v && v->semantic == VARYING_TEXCOORD;
+        if (d->items[i].kind == DECLARED_INPUT && (known || strcmp(d->items[i].type, "vec2") == 0))
+            return d->items[i].name;
+    }
+    return "uv";
+}
+
 static void put_place(struct line *line, const char *place)
 {
+    if (strcmp(place, "uv") == 0) {
+        put(line, "%s", texture_coordinate(line));
+        return;
+    }
+    if (strcmp(place, "metallic_map") == 0 || strcmp(place, "roughness_map") == 0) {
+        put(line, "%s", data_map(line, place[0] == 'm' ? SEMANTIC_METALLIC_MAP : SEMANTIC_ROUGHNESS_MAP));
+        return;
+    }
     if (strcmp(place, "S") == 0) {
         put(line, "pow(max(dot(%s), 0.0), ", line->reflection == LAM_REFLECTION_PHONG ? "R, V" : "N, H");
         put_shininess(line);

@@ -2,6 +2,13 @@
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
+#ifdef MAPS
+layout(location = 2) in vec4 tangent; // w: the sign of the bitangent
+layout(location = 3) in vec2 texture_coordinate;
+out vec4 surface_tangent, surface_bitangent;
+out vec3 surface_point;
+out vec2 surface_texture_coordinate;
+#endif
 
 uniform mat4 normal_matrix4; // inverse transpose of to_lighting
 uniform vec4 window;         // scale and offset that put every second pixel of a picture on the pixels of a smaller one
@@ -44,6 +51,28 @@ vec4 normal_of()
     return is(LONG_NORMAL_VERTEX) ? n : unit4(n);
 }
 
+// Tangent and bitangent in the space of the lighting, and the place on the maps.
+Frame frame_of(vec4 point)
+{
+    Frame f = Frame(vec4(0.0), vec4(0.0), vec2(0.0), point.xyz);
+#ifdef MAPS
+    mat3 turn = mat3(to_lighting);
+    if (is(TANGENT_BY_NORMAL_MATRIX)) {
+        turn = mat3(normal_matrix4);
+    } else if (is(TANGENT_OBJECT)) {
+        turn = mat3(1.0);
+    }
+    f.tangent = vec4(turn * tangent.xyz, tangent.w);
+    f.bitangent = vec4(turn * (cross(normal, tangent.xyz) * (is(SIGN_LOST) ? 1.0 : tangent.w)), 0.0);
+    if (is(FRAME_INTERPOLATED)) { // unit at the vertices, and not again between them
+        f.tangent.xyz = normalize(f.tangent.xyz);
+        f.bitangent.xyz = cross(unit4(normal_of()).xyz, f.tangent.xyz) * tangent.w;
+    }
+    f.texture_coordinate = texture_coordinate;
+#endif
+    return f;
+}
+
 void main()
 {
     vec4 at = vec4(position, 1.0), eye = to_lighting * at;
@@ -51,6 +80,7 @@ void main()
     s.light = is(LIGHT_FROM_OBJECT) ? at : (is(POINT_CLIP) ? to_clip * eye : eye);
     s.eye = is(EYE_FROM_OBJECT) ? at : (is(EYE_CLIP) ? to_clip * eye : eye);
     s.normal = normal_of();
+    s.frame = frame_of(eye);
     s.early_eye = unit4(to_eye(s.eye));
     for (int i = 0; i < LAMPS; i++) {
         s.early_light[i] = s.early_mirror[i] = vec4(0.0);
@@ -78,6 +108,12 @@ void main()
     early_light = s.early_light;
     early_mirror = s.early_mirror;
     distances = s.distance;
+#endif
+#ifdef MAPS
+    surface_tangent = s.frame.tangent;
+    surface_bitangent = s.frame.bitangent;
+    surface_point = s.frame.point;
+    surface_texture_coordinate = s.frame.texture_coordinate;
 #endif
     gl_Position = to_clip * eye;
     if (is(UPSIDE_DOWN)) {

@@ -68,6 +68,7 @@ static size_t bucket_of(const struct render_key *k)
                               (uint64_t)k->size,
                               (uint64_t)k->light_capacity,
                               k->supports,
+                              k->factors,
                               (uint64_t)k->tone,
                               k->expectation,
                               k->set.words[0],

@@ -13,6 +13,7 @@ struct render_key {
     int size; // width and height in pixels
     int light_capacity;
     unsigned supports;    // of shader_interface
+    unsigned factors;     // likewise
     int tone;             // lam_tone, likewise
     unsigned expectation; // of fault_search
     fault_set set;

@@ -68,6 +68,9 @@ char *default_vertex_shader(const struct shader_interface *r, char unknown[256],
                            "uniform mat4 lambent_model;\nuniform mat3 lambent_world_normal_matrix;\n"
                            "uniform vec4 lambent_world_light;\nuniform vec3 lambent_world_eye;\n",
                            modern ? "in" : "attribute", modern ? "in" : "attribute");
+    if (r->maps)
+        at += (size_t)snprintf(text + at, capacity - at, "%s vec2 lambent_texture_coordinate;\n",
+                               modern ? "in" : "attribute");
     for (int i = 0; i < d->count; i++)
         if (d->items[i].kind == DECLARED_INPUT)
             at += (size_t)snprintf(text + at, capacity - at, "%s%s %s %s;\n", d->items[i].flat ? "flat " : "",
@@ -87,6 +90,8 @@ char *default_vertex_shader(const struct shader_interface *r, char unknown[256],
         if (!v && declarations_uses(d, item->name) && strlen(unknown) < 150)
             snprintf(unknown + strlen(unknown), 256 - strlen(unknown), "%s%.60s", unknown[0] ? ", " : "", item->name);
         const char *w = "0.0", *from = v ? source_of(v, &w) : "vec3(0.0)";
+        if (v && v->semantic == VARYING_TEXCOORD && r->maps)
+            from = "vec3(lambent_texture_coordinate, 0.0)";
         bool four = strcmp(item->type, "vec4") == 0;
         const char *cut = strcmp(item->type, "vec2") == 0 ? ".xy" : strcmp(item->type, "float") == 0 ? ".x" : "";
         if (four)

@@ -26,7 +26,8 @@ struct shader_run {
     struct draw_request request;
     struct draw_result drawn;
     lam_check_program program;
-    int position, normal, tangent;    // inputs; -1: none
+    int position, normal, tangent; // inputs; -1: none
+    struct map_inputs maps;
     struct uniform_binding *bindings; // one for each element of each uniform
     lam_check_value *values;          // of each binding
     float (*numbers)[16];             // that they point to
@@ -52,6 +53,8 @@ static bool type_fits(lam_check_type type, const struct contract_name *name)
         return (role_of(name->semantic)->types & TYPE_SAMPLER) != 0;
     if (strncmp(contract_type, "mat", 3) == 0)
         return t.columns > 1;
+    if (strcmp(contract_type, "vec2") == 0)
+        return t.columns == 1 && t.rows == 2;
     if (strncmp(contract_type, "vec", 3) == 0)
         return t.columns == 1 && t.rows > 2;
     return t.rows == 1;
@@ -109,8 +112,14 @@ static void add_attribute(struct shader_run *run, int index)
         run->position = index;
     else if (known->semantic == SEMANTIC_NORMAL)
         run->normal = index;
+    else if (known->semantic == SEMANTIC_TANGENT && run->interface.maps)
+        run->maps.tangent = index;
     else if (known->semantic == SEMANTIC_TANGENT)
         run->tangent = index;
+    else if (known->semantic == SEMANTIC_BITANGENT)
+        run->maps.bitangent = index;
+    else if (known->semantic == SEMANTIC_TEXCOORD && run->interface.maps)
+        run->maps.texture_coordinates[run->maps.texture_coordinates[0] < 0 ? 0 : 1] = index;
 }
 
 static bool find_inputs(struct shader_run *run, lam_error *error)
@@ -124,6 +133,7 @@ static bool find_inputs(struct shader_run *run, lam_error *error)
     if (!run->bindings || !run->values || !run->numbers)
         return fail_memory(error, capacity * sizeof *run->numbers);
     run->position = run->normal = run->tangent = -1;
+    run->maps = no_map_inputs;
     for (int i = 0; i < run->program.input_count; i++)
         if (strncmp(run->program.inputs[i].name, "gl_", 3) == 0)
             continue;
@@ -164,7 +174,7 @@ static bool draw_scene(struct shader_run *run, const struct reference_scene *sce
                                  .value_count = run->binding_count};
     memcpy(drawing.model_view, matrix_value(&m.model_view).v, sizeof drawing.model_view);
     memcpy(drawing.projection, matrix_value(&m.projection).v, sizeof drawing.projection);
-    return place_draw(&run->place, scene->mesh, &drawing, pixels, error);
+    return place_draw(&run->place, scene->mesh, &drawing, &run->maps, pixels, error);
 }
 
 // --- endless shaders

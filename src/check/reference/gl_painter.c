@@ -9,7 +9,7 @@
 #include "fail.h"
 #include "place.h"
 
-enum { MAX_BLOCKS = 8, MAX_BLOCK_BYTES = 65536, MAX_TEXTURES = 16 };
+enum { MAX_BLOCKS = 8, MAX_BLOCK_BYTES = 65536, MAX_TEXTURES = 16, MAX_STREAMS = 8 };
 
 struct gl_mesh {
     GLuint positions, normals, tangents, indices; // buffers
@@ -24,6 +24,7 @@ struct gl_place {
     bool built_ins; // a compatibility context, with gl_Vertex and gl_Normal
     GLuint framebuffer, color, depth, array;
     struct gl_mesh meshes[MESH_COUNT];
+    GLuint streams[MAX_STREAMS]; // buffers of the picture that is drawn
 };
 
 // Where the values of an input go.
@@ -52,6 +53,7 @@ static void delete_objects(struct gl_place *t)
         gl->DeleteBuffers(1, &t->meshes[i].tangents);
         gl->DeleteBuffers(1, &t->meshes[i].indices);
     }
+    gl->DeleteBuffers(MAX_STREAMS, t->streams);
     gl->DeleteVertexArrays(1, &t->array);
     gl->DeleteFramebuffers(1, &t->framebuffer);
     gl->DeleteRenderbuffers(1, &t->color);
@@ -446,6 +448,15 @@ static void set_attributes(struct gl_place *t, const lam_check_drawing *d)
         point_at(gl, mesh->normals, d->normal < 0 ? -1 : p->inputs[d->normal].location, 4, true);
     if (d->tangent >= 0)
         point_at(gl, mesh->tangents, p->inputs[d->tangent].location, 3, false);
+    for (uint64_t i = 0; i < d->stream_count && i < MAX_STREAMS; i++) {
+        const lam_check_stream *stream = &d->streams[i];
+        size_t size = (size_t)d->mesh->vertex_count * (size_t)stream->components * sizeof(float);
+        if (!t->streams[i])
+            gl->GenBuffers(1, &t->streams[i]);
+        gl->BindBuffer(GL_ARRAY_BUFFER, t->streams[i]);
+        gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)size, stream->numbers, GL_STATIC_DRAW);
+        point_at(gl, t->streams[i], p->inputs[stream->input].location, stream->components, false);
+    }
     if (t->built_ins && gl->MatrixMode && gl->LoadMatrixf) {
         gl->MatrixMode(GL_MODELVIEW);
         gl->LoadMatrixf(d->model_view);

@@ -74,13 +74,27 @@ static bool make_mesh(struct place *p, enum reference_mesh mesh, lam_error *erro
     return true;
 }
 
-bool place_draw(struct place *p, enum reference_mesh mesh, const lam_check_drawing *drawing, float *pixels,
-                lam_error *error)
+const struct map_inputs no_map_inputs = {{-1, -1}, -1, -1};
+
+bool place_draw(struct place *p, enum reference_mesh mesh, const lam_check_drawing *drawing,
+                const struct map_inputs *inputs, float *pixels, lam_error *error)
 {
     if (!make_mesh(p, mesh, error))
         return false;
+    const struct reference_points *points = &p->points[mesh];
+    const lam_check_stream all[] = {
+        {.input = inputs->texture_coordinates[0], .components = 2, .numbers = points->texture_coordinates},
+        {.input = inputs->texture_coordinates[1], .components = 2, .numbers = points->texture_coordinates},
+        {.input = inputs->tangent, .components = 4, .numbers = points->surface_tangents},
+        {.input = inputs->bitangent, .components = 3, .numbers = points->bitangents}};
+    enum { STREAMS = sizeof all / sizeof *all };
+    lam_check_stream streams[STREAMS];
     lam_check_drawing whole = *drawing;
     whole.mesh = &p->meshes[mesh];
+    whole.streams = streams;
+    for (size_t i = 0; i < STREAMS; i++)
+        if (all[i].input >= 0)
+            streams[whole.stream_count++] = all[i];
     return p->painter.draw(p->place, &whole, pixels, error);
 }
 

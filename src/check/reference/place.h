@@ -4,6 +4,8 @@
 
 #include "reference_scene.h"
 
+enum { MAX_TEXTURE_COORDINATES = 2 };
+
 struct place {
     lam_check_painter painter; // a copy: the caller's may be gone while a cache keeps the place
     void *place;               // the painter's; NULL: not open
@@ -18,9 +20,15 @@ bool place_open(struct place *place, const lam_check_painter *painter, lam_check
                 lam_error *error);
 void place_close(struct place *place); // a zeroed one is fine
 
-// Draws `mesh`, whatever drawing->mesh is.
-bool place_draw(struct place *place, enum reference_mesh mesh, const lam_check_drawing *drawing, float *pixels,
-                lam_error *error);
+// The inputs of a program that get what maps need; -1: none.
+struct map_inputs {
+    int texture_coordinates[MAX_TEXTURE_COORDINATES], tangent, bitangent; // tangent: of four floats
+};
+extern const struct map_inputs no_map_inputs;
+
+// Draws `mesh`, whatever drawing->mesh is. The streams are those of `inputs`.
+bool place_draw(struct place *place, enum reference_mesh mesh, const lam_check_drawing *drawing,
+                const struct map_inputs *inputs, float *pixels, lam_error *error);
 
 // The components of a type: matrices have several columns, vectors one of several rows.
 struct type_shape {

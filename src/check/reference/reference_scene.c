@@ -18,6 +18,8 @@
 #define BALL                                                                                                           \
     .scale = {0.9, 0.9, 0.9}, .turn_axis = {1, 1, 0}, .turn_deg = 20, .move = {0.3, 0.2, 0.1},                         \
     .eye = {-0.8, 0.9, 3.2}, .target = {0.2, 0.1, 0}
+#define PATCH                                                                                                          \
+    .scale = {1.8, 1, 1.1}, .turn_axis = {1, -0.3, 0.2}, .turn_deg = 50, .eye = {0.2, 1.2, 3.3}, .target = {0, 0, 0}
 #define WHITE  .color = {1, 1, 1}, .specular = {1, 1, 1}, .ambient = {1, 1, 1}
 #define TINTED .color = {1, 0.9f, 0.7f}, .specular = {0.75f, 0.9f, 1}, .ambient = {0.9f, 0.8f, 1}
 #define LAMP   {.type = LAM_LIGHT_POINT, .position = {1.6, 2.2, 2.4}, WHITE, .attenuation = {0.6f, 0.1f, 0.04f}}
@@ -116,6 +118,19 @@ const struct reference_scene reference_scenes[] = {
     {"alpha", "a translucent material: alpha is the diffuse alpha", NEED_ALPHA, .mesh = MESH_SPHERE, BALL, COLORS,
      .alpha = 0.4f, .ka = 0.15f, .kd = 0.7f, .ks = 0.4f, .shininess = 10, .metallic = 0, .roughness = 0.5f,
      .light_count = 1, .lights = {LAMP}},
+    {"bumps", "a normal map on a stretched patch, a light near by", NEED_NORMAL_MAP, .mesh = MESH_PATCH, PATCH, MATTER,
+     .ka = 0.1f, .kd = 0.8f, .ks = 0.4f, .shininess = 12, .metallic = 0.3f, .roughness = 0.45f,
+     .bump = {0.42, -0.30, 0.78}, .light_count = 1, .lights = {LAMP}},
+    {"bumps aside", "another normal map there, a light from the side", NEED_NORMAL_MAP, .mesh = MESH_PATCH, PATCH,
+     MATTER, .ka = 0.1f, .kd = 0.7f, .ks = 0.5f, .shininess = 10, .metallic = 0.8f, .roughness = 0.5f,
+     .bump = {-0.25, -0.45, 0.80}, .light_count = 1,
+     .lights = {{.type = LAM_LIGHT_POINT, .position = {-2.3, 1.1, 2}, WHITE, .attenuation = {0.6f, 0.1f, 0.04f}}}},
+    {"mirrored", "a normal map whose u is mirrored", NEED_NORMAL_MAP | NEED_TANGENT_SIGN, .mesh = MESH_PATCH_MIRRORED,
+     PATCH, MATTER, .ka = 0.1f, .kd = 0.8f, .ks = 0.4f, .shininess = 12, .metallic = 0.3f, .roughness = 0.45f,
+     .bump = {0.38, 0.36, 0.76}, .light_count = 1, .lights = {LAMP}},
+    {"glow", "light of the surface's own", NEED_EMISSION_MAP, .mesh = MESH_SPHERE, BALL, MATTER, .ka = 0.1f, .kd = 0.5f,
+     .ks = 0.3f, .shininess = 12, .metallic = 0.3f, .roughness = 0.5f, .emission = {0.30f, 0.12f, 0.45f},
+     .light_count = 1, .lights = {LAMP}},
 };
 const int reference_scene_count = sizeof reference_scenes / sizeof reference_scenes[0];
 
@@ -149,6 +164,10 @@ static int add_mesh(lam_scene *scene, enum reference_mesh mesh, lam_error *error
     case MESH_COARSE:
         return lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 9, .stacks = 6}, error);
     case MESH_PLANE:
+    case MESH_PATCH:
+    case MESH_PATCH_MIRRORED:
+    case MESH_PATCH_DOWN:
+    case MESH_PATCH_DOWN_MIRRORED:
         return lam_scene_add_shape(scene, "plane", &(lam_shape_params){.slices = 3, .stacks = 1}, error);
     case MESH_BOWL:
         return lam_scene_add_parametric(scene,
@@ -193,6 +212,36 @@ static void share_vertices(const lam_mesh *m, struct reference_points *points, i
     }
 }
 
+static void put(float *out, lam_vec3 v)
+{
+    out[0] = (float)v.x;
+    out[1] = (float)v.y;
+    out[2] = (float)v.z;
+}
+
+// Texture coordinates and their axes. On a patch, whose normal is y, the texture is turned by 30 degrees.
+static void lay_texture(enum reference_mesh mesh, struct reference_points *points)
+{
+    const lam_vec3 up = v3(0, 1, 0), across = v3(math_cos(PI / 6), 0, -math_sin(PI / 6)), along = v3_cross(up, across);
+    const bool patch = mesh >= MESH_PATCH;
+    const bool mirrored = mesh == MESH_PATCH_MIRRORED || mesh == MESH_PATCH_DOWN_MIRRORED,
+               down = mesh == MESH_PATCH_DOWN || mesh == MESH_PATCH_DOWN_MIRRORED;
+    const lam_vec3 u = !patch ? v3(0.61, 0.23, -0.37) : v3_scale(across, mirrored ? -0.7 : 0.7),
+                   v = !patch ? v3(-0.19, 0.67, 0.31) : v3_scale(along, down ? -0.7 : 0.7);
+    for (size_t i = 0; i < (size_t)points->vertex_count; i++) {
+        const float *p = points->positions + 3 * i, *n = points->normals + 3 * i, *t = points->tangents + 3 * i;
+        lam_vec3 at = v3((double)p[0], (double)p[1], (double)p[2]),
+                 normal = v3((double)n[0], (double)n[1], (double)n[2]);
+        lam_vec3 tangent = patch ? v3_scale(across, mirrored ? -1 : 1) : v3((double)t[0], (double)t[1], (double)t[2]);
+        double sign = mirrored ? -1 : 1;
+        points->texture_coordinates[2 * i] = (float)(v3_dot(at, u) + 0.5);
+        points->texture_coordinates[2 * i + 1] = (float)(v3_dot(at, v) + 0.5);
+        put(points->surface_tangents + 4 * i, tangent);
+        points->surface_tangents[4 * i + 3] = (float)sign;
+        put(points->bitangents + 3 * i, v3_scale(v3_cross(normal, tangent), sign));
+    }
+}
+
 bool reference_points(enum reference_mesh mesh, struct reference_points *points, lam_error *error)
 {
     *points = (struct reference_points){0};
@@ -208,16 +257,22 @@ bool reference_points(enum reference_mesh mesh, struct reference_points *points,
     points->positions = malloc(count * 3 * sizeof(float));
     points->normals = malloc(count * 3 * sizeof(float));
     points->tangents = malloc(count * 3 * sizeof(float));
+    points->texture_coordinates = malloc(count * 2 * sizeof(float));
+    points->surface_tangents = malloc(count * 4 * sizeof(float));
+    points->bitangents = malloc(count * 3 * sizeof(float));
     points->indices = malloc(count * sizeof *points->indices);
     int32_t *heads = malloc((positions + count) * sizeof *heads);
-    bool ok = points->positions && points->normals && points->tangents && points->indices && heads;
-    if (ok)
+    bool ok = points->positions && points->normals && points->tangents && points->texture_coordinates &&
+              points->surface_tangents && points->bitangents && points->indices && heads;
+    if (ok) {
         share_vertices(m, points, heads, heads + positions);
-    else
+        lay_texture(mesh, points);
+    } else {
         reference_points_free(points);
+    }
     free(heads);
     lam_scene_free(scene);
-    return ok || fail_memory(error, count * 11 * sizeof(float));
+    return ok || fail_memory(error, count * 20 * sizeof(float));
 }
 
 void reference_points_free(struct reference_points *points)
@@ -225,6 +280,9 @@ void reference_points_free(struct reference_points *points)
     free(points->positions);
     free(points->normals);
     free(points->tangents);
+    free(points->texture_coordinates);
+    free(points->surface_tangents);
+    free(points->bitangents);
     free(points->indices);
     *points = (struct reference_points){0};
 }
@@ -306,6 +364,7 @@ lam_scene *reference_to_scene(const struct reference_scene *s, lam_camera *camer
     material.metallic = s->metallic;
     material.roughness = s->roughness;
     material.roughness_angle_rad = s->roughness_angle_rad;
+    material.emission = s->emission;
     lam_object object = lam_object_default();
     object.mesh = add_mesh(scene, s->mesh, error);
     object.material = object.mesh < 0 ? -1 : lam_scene_add_material(scene, &material, error);

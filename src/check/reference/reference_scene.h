@@ -6,9 +6,20 @@
 #include <lambent/check.h>
 #include <lambent/lambent.h>
 
-enum { MAX_SCENE_LIGHTS = 4, MESH_COUNT = 5 };
+enum { MAX_SCENE_LIGHTS = 4, MESH_COUNT = 9 };
 
-enum reference_mesh { MESH_TEAPOT, MESH_SPHERE, MESH_COARSE, MESH_PLANE, MESH_BOWL };
+// A patch is the plane with a texture that is turned on it. There are four: u mirrored, v downward, both.
+enum reference_mesh {
+    MESH_TEAPOT,
+    MESH_SPHERE,
+    MESH_COARSE,
+    MESH_PLANE,
+    MESH_BOWL,
+    MESH_PATCH,
+    MESH_PATCH_MIRRORED,
+    MESH_PATCH_DOWN,
+    MESH_PATCH_DOWN_MIRRORED
+};
 
 // Features that a contract needs to express a scene.
 enum reference_need {
@@ -23,6 +34,9 @@ enum reference_need {
     NEED_TWO_SIDES = 256,
     NEED_SHININESS = 512, // variable
     NEED_VERTEX_LIT = 1024,
+    NEED_NORMAL_MAP = 2048,
+    NEED_TANGENT_SIGN = 4096, // the sign of the bitangent is among the inputs
+    NEED_EMISSION_MAP = 8192,
 };
 
 // Restrictions that the shader's text imposes, in the same word: the kind of each light and whether it is attenuated;
@@ -71,6 +85,15 @@ struct reference_scene {
     bool dims_ambient;         // OpenGL 1: the lights' own ambient light is attenuated, and there is no other
     float roughness_angle_rad; // of shaders of rough matt surfaces (Oren–Nayar)
     bool flat;
+    // What a normal map says, beside tangent, bitangent and normal. 0: it is flat. Not quite unit, as filtered maps are not.
+    lam_vec3 bump;
+    lam_rgb emission; // of an emission map
+    // Of shaders that read maps: which (map_bit), and of these those whose factor they have a name for. Factor times texel is
+    // the number above.
+    unsigned maps, factors;
+    float occlusion;    // of an occlusion map
+    bool encoded_maps;  // contract.maps
+    bool tints_ambient; // the base colour map multiplies the ambient colour too
     int light_count;
     struct reference_light lights[MAX_SCENE_LIGHTS];
 };
@@ -84,6 +107,9 @@ int reference_scene_find(const char *name); // −1: none
 // triangle: few enough for OpenGL ES 2, whose indices have 16 bits. From malloc.
 struct reference_points {
     float *positions, *normals, *tangents;
+    // For maps: two floats, linear in the position, so that their derivatives vanish nowhere; and four: the tangent, and the
+    // sign of the bitangent. On a patch this is the direction in which u increases.
+    float *texture_coordinates, *surface_tangents, *bitangents;
     uint16_t *indices;
     int vertex_count, count; // `count`: of indices
 };

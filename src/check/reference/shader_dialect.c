@@ -64,22 +64,54 @@ static const char *find_qualifier(const char *text, size_t *length)
     return NULL;
 }
 
+// The end of the text's first `precision … float;`, where another statement may stand. NULL: it has none.
+static const char *after_precision(const char *text)
+{
+    static const char word[] = "precision";
+    for (const char *c = text; (c = strstr(c, word)); c += sizeof word - 1) {
+        const char *end = strchr(c, ';'), *type = strstr(c, "float");
+        if (isspace((unsigned char)c[sizeof word - 1]) && end && type && type < end)
+            return end + 1;
+    }
+    return NULL;
+}
+
+// Whether textures are read with the precision that ES gives to their samplers where nothing is said, lowp.
+static bool reads_low(const char *text) { return strstr(text, "sampler2D") && after_precision(text); }
+
 bool shader_dialect_lowers_precision(const char *text)
 {
     size_t length;
-    return find_qualifier(text, &length) != NULL;
+    return find_qualifier(text, &length) != NULL || reads_low(text);
+}
+
+// Adds some letters at a place of a text; returns the place after them.
+static size_t copy(char *out, size_t at, const char *letters, size_t count)
+{
+    memcpy(out + at, letters, count);
+    return at + count;
 }
 
 char *shader_dialect_highp(const char *text)
 {
+    static const char of_samplers[] = " precision highp sampler2D;";
     size_t at = 0, length = 0;
-    char *out = malloc(2 * strlen(text) + 1); // `lowp` grows by one letter
+    const char *place = reads_low(text) ? after_precision(text) : NULL;
+    char *out = malloc(2 * strlen(text) + sizeof of_samplers); // `lowp` grows by one letter
     for (const char *word; out && (word = find_qualifier(text, &length)); text = word + length) {
-        memcpy(out + at, text, (size_t)(word - text));
-        at += (size_t)(word - text);
-        // NOLINTNEXTLINE(bugprone-not-null-terminated-result): in the middle of a text
-        memcpy(out + at, "highp", 5);
-        at += 5;
+        if (place && place <= word) {
+            at = copy(out, at, text, (size_t)(place - text));
+            at = copy(out, at, of_samplers, sizeof of_samplers - 1);
+            text = place;
+            place = NULL;
+        }
+        at = copy(out, at, text, (size_t)(word - text));
+        at = copy(out, at, "highp", 5);
+    }
+    if (out && place) {
+        at = copy(out, at, text, (size_t)(place - text));
+        at = copy(out, at, of_samplers, sizeof of_samplers - 1);
+        text = place;
     }
     if (out)
         strcpy(out + at, text);

@@ -8,10 +8,11 @@
 // precision statement or qualifier and no name that only desktop OpenGL has built in.
 lam_check_language shader_dialect_language(const struct shader_interface *interface);
 
-// Whether the text contains `mediump` or `lowp`.
+// Whether the text contains `mediump` or `lowp`, or reads textures with the precision that samplers have in OpenGL ES where
+// nothing is said: lowp.
 bool shader_dialect_lowers_precision(const char *text);
 
-// A copy of the text, from malloc, with `highp` for every `mediump` and `lowp`, on the same lines. Drivers may compute
+// A copy of the text, from malloc, with `highp` for every `mediump` and `lowp`, and for samplers, on the same lines. Drivers may compute
 // those with 16 bits, which is visible in a picture although the shader is correct. NULL: out of memory.
 char *shader_dialect_highp(const char *text);
 

@@ -17,7 +17,10 @@ static uint64_t own_memory(const lam_device *device)
 // Finds the edges that are drawn over the picture.
 static bool find_edges(lam_device *device, struct call_control *call, lam_error *error)
 {
-    static const int lanes[LAM_ISA_COUNT] = {16, 1, 4, 8, 16, 4, 4};
+    // Of rays side by side, at most; LAM_ISA_AUTO: of a device that has no instruction set of its own.
+    static const int lanes[LAM_ISA_COUNT] = {
+        [LAM_ISA_AUTO] = 16,   [LAM_ISA_SCALAR] = 1, [LAM_ISA_SSE4] = 4, [LAM_ISA_AVX2] = 8,
+        [LAM_ISA_AVX512] = 16, [LAM_ISA_NEON] = 4,   [LAM_ISA_WASM] = 4};
     lam_frame_report *report = &device->report;
     uint64_t start = now_ns();
     bool built;
@@ -87,10 +90,10 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
     device->report.depth_near = (double)device->frame.depth_near;
     device->report.depth_far = (double)device->frame.depth_far;
     if (ok && device->frame.makes_normals && !device->type->makes_normals)
-        ok = fail(error, LAM_UNSUPPORTED,
-                  "lam_draw: meshes of the scene have no normals (normals_when_drawn), which this device "
-                  "does not make; "
-                  "lam_scene_make_normals does");
+        ok =
+            fail(error, LAM_UNSUPPORTED,
+                 "lam_draw: meshes of the scene have no normals (normals_when_drawn), which this device does not make; "
+                 "lam_scene_make_normals does");
     const struct frame_ground *ground = &device->frame.ground;
     if (ok && ground->kind && !params->no_surfaces) {
         device->report.ground = true;

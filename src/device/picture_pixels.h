@@ -14,7 +14,13 @@ struct pixel_lanes {
     num r, g, b, a;
 };
 
-// A sum of premultiplied colours by the frame's tone curve, after exposure; still premultiplied.
+// A sum of premultiplied colours after exposure.
+LANE_FN struct pixel_lanes exposed(const struct frame *frame, struct pixel_lanes p)
+{
+    return (struct pixel_lanes){p.r * frame->exposure, p.g * frame->exposure, p.b * frame->exposure, p.a};
+}
+
+// A sum of premultiplied colours after exposure and the frame's tone curve; still premultiplied.
 LANE_FN struct pixel_lanes toned(const struct frame *frame, struct pixel_lanes p)
 {
     num part = pick(p.a > 0.0f, frame->exposure / p.a, num_of(0.0f));
@@ -22,27 +28,14 @@ LANE_FN struct pixel_lanes toned(const struct frame *frame, struct pixel_lanes p
     return (struct pixel_lanes){c.x * p.a, c.y * p.a, c.z * p.a, p.a};
 }
 
-// A sum of premultiplied colours after exposure and tone curve over the background, as 8 bits show it.
-LANE_FN struct pixel_lanes toned_over_background(const struct frame *frame, struct pixel_lanes p)
-{
-    const lam_rgba *back = &frame->background;
-    num clear = 1.0f - p.a;
-    p = toned(frame, p);
-    p.r = p.r + clear * (back->r * back->a);
-    p.g = p.g + clear * (back->g * back->a);
-    p.b = p.b + clear * (back->b * back->a);
-    p.a = p.a + clear * back->a;
-    return p;
-}
-
-// A sum of premultiplied colours, exposed, over the background.
+// Premultiplied colours, exposed or toned, over the background.
 LANE_FN struct pixel_lanes over_background(const struct frame *frame, struct pixel_lanes p)
 {
     const lam_rgba *back = &frame->background;
     num clear = 1.0f - p.a;
-    p.r = p.r * frame->exposure + clear * (back->r * back->a);
-    p.g = p.g * frame->exposure + clear * (back->g * back->a);
-    p.b = p.b * frame->exposure + clear * (back->b * back->a);
+    p.r = p.r + clear * (back->r * back->a);
+    p.g = p.g + clear * (back->g * back->a);
+    p.b = p.b + clear * (back->b * back->a);
     p.a = p.a + clear * back->a;
     return p;
 }
@@ -90,14 +83,14 @@ LANE_FN void write_packed(inum pixels, void *to, int count)
 LANE_FN void write_pixels(const struct frame *frame, struct pixel_lanes p, lam_pixel_format format, void *to, int count)
 {
     if (format == LAM_RGBA8 && frame->tone != LAM_TONE_NONE) {
-        write_packed(to_rgba8(frame, toned_over_background(frame, p)), to, count);
+        write_packed(to_rgba8(frame, over_background(frame, toned(frame, p))), to, count);
         return;
     }
     if (format == LAM_RGBA8 && all_lanes(p.a == 1.0f)) {
         write_packed(opaque_to_rgba8(frame, p), to, count);
         return;
     }
-    p = over_background(frame, p);
+    p = over_background(frame, exposed(frame, p));
     if (format == LAM_RGBA8) {
         write_packed(to_rgba8(frame, p), to, count);
         return;

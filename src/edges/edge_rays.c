@@ -1,8 +1,8 @@
 // edge_rays.c: which points of edges are hidden, by LANES rays at a time to the eye. Compiled for several instruction sets.
 //
-// An edge lies in the planes of its own triangles, and of others where faces touch: those are not in its way, and neither is any
-// triangle whose plane is not farther from the point than positions of files are rounded by. So no line breaks where it runs
-// along a surface, and nothing else is drawn through one.
+// An edge lies in the planes of its own triangles, and of others where faces touch. They must not hide it: a triangle hides a
+// point only if its plane is farther from the point than positions in files are rounded. So no line breaks where it runs along
+// a surface, and none is drawn through one.
 #include "edge_lines.h"
 
 #include "layer_kinds.h"
@@ -16,7 +16,7 @@
 #define JOIN_(a, b) a##_##b
 #define JOIN(a, b)  JOIN_(a, b)
 
-// Whether what is seen of a triangle there hides what is behind it.
+// Whether the triangle hides what is behind it where the ray of this lane crosses it: it is not culled, and it is opaque.
 static bool is_solid(const struct edge_view *view, const struct ray_triangle *triangle, const struct ray_lanes *ray,
                      const struct ray_view *seen, int lane, double facing)
 {

@@ -1,5 +1,5 @@
-// mesh_edges.c: each edge is looked at from the lower one of its two welded ends: all that lead from there to higher ones, in
-// both directions, sorted by the other end.
+// mesh_edges.c: the edges of a mesh. Corners are welded into vertices by position; the edges from a vertex to higher ones, in
+// both directions, are sorted by the other end, so that those of one edge follow each other.
 #include "mesh_edges.h"
 
 #include "corner_weld.h"
@@ -61,7 +61,7 @@ static uint32_t list_edges(const lam_mesh *mesh, struct mesh_edge *edges, struct
             starts[low + 1]++;
     for (size_t v = 0; v < weld.items; v++)
         starts[v + 1] += starts[v];
-    for (uint32_t c = 0; c < corners; c++) // starts advance to the ends
+    for (uint32_t c = 0; c < corners; c++) // each start advances to the end of its list
         if (ends_of(&weld, c, &low, &high))
             keys[starts[low]++] = edge_key(high, c);
     for (uint32_t v = 0, from = 0; v < weld.items; v++) {

@@ -116,7 +116,7 @@ static void release_bins(struct cpu_frame *cpu)
     }
 }
 
-// --- both
+// --- memory of the set and the normals
 
 static bool make_set(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error)
 {
@@ -149,7 +149,7 @@ static bool place_normals(struct visible_buffers *buffers, struct visible_normal
     return true;
 }
 
-// --- the distances alone
+// --- distances alone, for ambient occlusion
 
 static void measure_tile(void *user, size_t index, int number)
 {
@@ -164,7 +164,7 @@ static void measure_tile(void *user, size_t index, int number)
     thread->coverage_ns += now_ns() - start;
 }
 
-// --- all of it
+// --- the whole pass
 
 static bool make_normals(struct cpu_frame *cpu, struct visible_buffers *buffers, struct scratch_memory scratch,
                          lam_error *error)

@@ -72,6 +72,7 @@ static bool read_all(int file, char *bytes, size_t size)
 char *page_file_read(const char *path, size_t most, size_t *size, lam_error *error)
 {
     struct stat about;
+    *size = 0;
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
     char *bytes = NULL;
     if (file < 0 || fstat(file, &about) != 0) {
@@ -79,6 +80,7 @@ char *page_file_read(const char *path, size_t most, size_t *size, lam_error *err
     } else if (!S_ISREG(about.st_mode)) {
         complain(error, LAM_CANNOT_READ, "%s: cannot read: is not a regular file", path);
     } else if ((uint64_t)about.st_size > most) {
+        *size = (size_t)about.st_size;
         complain(error, LAM_LIMIT, "%s: has %.1f MB, more than the %.1f MB that fit", path, (double)about.st_size / 1e6,
                  (double)most / 1e6);
     } else if (!(bytes = malloc((size_t)about.st_size + 1))) {

@@ -13,7 +13,7 @@ bool page_is_named(const char *output);
 char *page_file_find(lam_error *error);
 
 // A whole file, its `*size` bytes and a zero after them, from malloc. NULL: LAM_CANNOT_READ; LAM_LIMIT where it has more than `most`
-// bytes or memory has run out.
+// bytes (*size is then the file's size, else 0) or memory has run out.
 char *page_file_read(const char *path, size_t most, size_t *size, lam_error *error);
 
 #endif

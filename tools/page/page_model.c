@@ -182,6 +182,7 @@ bool page_model_has_option(const struct option *option)
 struct words {
     struct json json;
     const struct page_model *model;
+    bool failed; // out of memory
 };
 
 static void put_option(void *user, const char *name, const char *value)
@@ -194,28 +195,31 @@ static void put_option(void *user, const char *name, const char *value)
         value = words->model->environment;
     if (asprintf(&word, "--%s%s%s", name, value ? "=" : "", value ? value : "") < 0)
         word = NULL;
+    words->failed |= !word;
     json_text(&words->json, NULL, word);
     free(word);
 }
 
-void page_model_words(FILE *out, const struct job *job, const struct options *given, const struct page_model *model)
+bool page_model_words(FILE *out, const struct job *job, const struct options *given, const struct page_model *model,
+                      lam_error *error)
 {
     char *text = NULL;
     size_t size = 0;
     FILE *list = open_memstream(&text, &size);
     if (!list)
-        return;
+        return complain(error, LAM_LIMIT, "out of memory");
     struct words words = {.json = {.file = list}, .model = model};
     json_open(&words.json, NULL, '[');
     bool shape = lam_shape_find(job->model) >= 0 || !model->count;
     json_text(&words.json, NULL, shape ? job->model : model->files[0].inside);
     each_given_option(given, put_option, &words);
     json_close(&words.json, ']');
-    fclose(list);
-    for (const char *c = text; c && *c; c++)
+    bool ok = fclose(list) == 0 && !words.failed;
+    for (const char *c = text; ok && *c; c++)
         if (*c == '<')
             fputs("\\u003c", out);
         else
             putc(*c, out);
     free(text);
+    return ok || complain(error, LAM_LIMIT, "out of memory");
 }

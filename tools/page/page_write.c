@@ -48,7 +48,7 @@ static bool put_file(FILE *out, const struct page_file *file, size_t *left, lam_
     size_t size = 0, length = 0;
     lam_error why = {0};
     char *bytes = page_file_read(file->path, *left, &size, &why);
-    if (!bytes && why.code == LAM_LIMIT && strstr(why.text, " MB"))
+    if (!bytes && size > *left)
         return complain(error, LAM_LIMIT, "%.400s: the model's files have more than the %d MB that a page may hold",
                         file->path, PAGE_FILES_MAX / 1000000);
     if (!bytes)
@@ -83,7 +83,7 @@ static bool put_page(FILE *out, const struct job *job, const struct options *giv
     for (int i = 0; ok && i < model->count; i++)
         ok = put_file(out, &model->files[i], &left, error);
     fputs("<script type=\"application/json\" id=\"inside-words\">", out);
-    page_model_words(out, job, given, model);
+    ok = ok && page_model_words(out, job, given, model, error);
     fputs("</script>\n", out);
     fputs(end, out);
     return ok;

@@ -11,6 +11,20 @@
 extern "C" {
 #endif
 
+// The response of a physical material's layers to light 1 from one direction (docs/lighting/layers.md):
+//     D                     = (1 − share) sheen_left base_diffuse
+//     specular_term ÷ light = (1 − share) (sheen_left base + sheen) + coat
+// with the coat's share of lam_explained_layers.
+typedef struct lam_explained_light_layers {
+    float S;            // of the base: π D V max(n·l, 0)
+    float base_diffuse; // max(n·l, 0) (1 − max F) (1 − transmission)
+    lam_rgb base;       // F S, F the mix of dielectric and metal
+    float sheen_left;   // what the sheen leaves of the light of the base; 1: no sheen
+    lam_rgb sheen;      // sheen_color π D V n·l of its fibres
+    float coat;         // share S of the coat; 0: no coat
+    LAM_RESERVED(4);
+} lam_explained_light_layers;
+
 // A point, directional or spot light at a lit point.
 typedef struct lam_explained_light {
     const char *name;      // NULL: unnamed
@@ -63,7 +77,10 @@ typedef struct lam_explained_light {
     lam_rgb fresnel;
     // The factor of ambient occlusion, 1 − occluded (1 − unoccluded), which both terms hold; 1: none.
     float occlusion;
-    LAM_RESERVED(2);
+    // How the layers of a physical material share the light; NULL: it has none. distribution, visibility and fresnel then are
+    // those of the base (the first two 0 where its highlight is stretched), and S is the largest channel of what all return.
+    const lam_explained_light_layers *layers;
+    LAM_RESERVED(1);
 } lam_explained_light;
 
 // A hemisphere light at a lit point.
@@ -76,6 +93,24 @@ typedef struct lam_explained_hemisphere {
     lam_rgb term;        // ka ⊙ mix(ground, sky, ½ + ½ n·up)
     LAM_RESERVED(8);
 } lam_explained_hemisphere;
+
+// The layers of a physical material at a point (docs/lighting/layers.md).
+typedef struct lam_explained_layers {
+    lam_rgb dielectric_f0, metal_f0; // of the base, along the normal
+    float opaque;                    // 1 − transmission
+    float sheen_left;                // 1 − max(sheen_color) E(n·v); 1: no sheen
+    lam_vec3 coat_normal;            // n_c, unit, eye space; zero: no coat
+    float coat;                      // its share, clearcoat (0.04 + 0.96 (1 − |n_c·v|)⁵)
+    lam_rgb transmittance;           // factor of the light behind; black: none goes through
+    // Of environment light, which the split sum of each layer returns: the reflection term is
+    //     environment_diffuse + mirrored_part + sheen_part + coat_part
+    // each dimmed by the layers over it and by occlusion. Black without an environment, and with `reference`.
+    lam_rgb mirrored_part, sheen_part, coat_part;
+    float coat_level;         // of the prefiltered environment, for the coat's roughness
+    float coat_albedo;        // scale + bias of the coat's lobe
+    lam_rgb coat_prefiltered; // around the mirror image of v about n_c
+    LAM_RESERVED(8);
+} lam_explained_layers;
 
 // A point that was lit: the fragment itself (Phong), a corner (Gouraud), or the last corner (flat).
 typedef struct lam_explained_point {
@@ -115,7 +150,9 @@ typedef struct lam_explained_point {
     // The share of the light from all around that ambient occlusion lets through, of which the ambient and reflection
     // terms are multiplied (a classic material's reflection is not); 1 without occlusion.
     float unoccluded;
-    LAM_RESERVED(8);
+    // The layers of a physical material; NULL: it has none.
+    const lam_explained_layers *layers;
+    LAM_RESERVED(7);
 } lam_explained_point;
 
 // A map that was read for a fragment.

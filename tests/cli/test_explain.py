@@ -165,6 +165,28 @@ class Explain(Case):
             self.assertAlmostEqual(around["diffuse_part"][c], base * 0.5 * around["irradiance"][c] * (1 - glass), places=5)
             self.assertGreater(point["terms"]["reflection"][c], around["diffuse_part"][c])
 
+    def test_layers(self):
+        """Each layer of a physical material apart: its share of a light and of the environment; the shares add up to the terms."""
+        words = ("sphere", "14,20", "-s", "41", "--samples", "1", "--view", "front", "--environment", "studio", "--light", "directional:direction=0/0/-1",
+                 "--material", "#ffc356,roughness=0.4,clearcoat=0.5,clearcoat_roughness=0.1,sheen_color=0.2/0.4/0.6,sheen_roughness=0.5,transmission=0.25")
+        text = self.good("explain", *words).stdout.decode()
+        for part in ("  layers\n", "    share ", "    n_c ", "    left ", "    not transmitted ", "    sheen ", "    coat ", "    sheen part ", "    coat part ",
+                     "the sum of its parts, above"):
+            self.assertIn(part, text)
+        self.assertNotIn("    coat ", self.good("explain", "sphere", "14,20", "-s", "41", "--material", "#ffc356,roughness=0.4,ior=1.8").stdout.decode())
+        point = json.loads(self.good("explain", *words, "--json").stdout)["triangles"][0]["points"][0]
+        layers, light = point["layers"], point["lights"][0]
+        facing = sum(a * b for a, b in zip(layers["coat_normal"], point["v"]))
+        self.assertAlmostEqual(layers["coat"], 0.5 * (0.04 + 0.96 * (1 - facing) ** 5), places=5)
+        self.assertEqual(layers["opaque"], 0.75)
+        parts = light["layers"]
+        self.assertAlmostEqual(light["D"], (1 - layers["coat"]) * parts["sheen_left"] * parts["base_diffuse"], places=5)
+        for c in range(3):
+            returned = (1 - layers["coat"]) * (parts["sheen_left"] * parts["base"][c] + parts["sheen"][c]) + parts["coat"]
+            self.assertAlmostEqual(light["specular_term"][c], returned, places=4)
+            reflected = point["environment"]["diffuse_part"][c] + sum(layers[name + "_part"][c] for name in ("mirrored", "sheen", "coat"))
+            self.assertAlmostEqual(reflected, point["terms"]["reflection"][c], places=5)
+
     def test_wrong(self):
         for place in ("5", "5,", ",5", "a,b", "1,2,3", "1.5,2", "0x1,2", "", "9999999999,1"):
             self.bad(1, "explain", "teapot", place, says="expected a pixel X,Y")

@@ -114,6 +114,40 @@ static void check_environment(const lam_explanation *e, const lam_explained_frag
         assert_true((&p->reflection.r)[c] == (&f->surface.reflectivity.r)[c] * (&light.r)[c]);
 }
 
+static int layered_lights, layered_surroundings; // checked
+
+static void assert_near(float a, float b) { assert_true(fabsf(a - b) <= 4e-6f * (1 + fabsf(b))); }
+
+// What the layers of a physical material return, each apart, adds up to the terms.
+static void check_layers(const lam_explained_point *p)
+{
+    const lam_explained_layers *all = p->layers;
+    float under = 1 - all->coat;
+    for (int i = 0; i < p->light_count; i++) {
+        const lam_explained_light *l = &p->lights[i];
+        const lam_explained_light_layers *layers = l->layers;
+        assert_non_null(layers);
+        assert_near(l->D, under * layers->sheen_left * layers->base_diffuse);
+        for (int c = 0; c < 3; c++) {
+            float base = (&layers->base.r)[c], sheen = (&layers->sheen.r)[c];
+            float returned = under * (layers->sheen_left * base + sheen) + layers->coat;
+            assert_near(l->S * (&l->ks_Ls.r)[c], (&l->specular.r)[c] * returned);
+            if (layers->S > 0)
+                assert_near(base, (&l->fresnel.r)[c] * layers->S);
+            layered_lights += returned > 0;
+        }
+        if (l->distribution > 0)
+            assert_near(3.14159265f * l->distribution * l->visibility * l->n_dot_l / layers->S, 1);
+    }
+    if (p->environment_scale + p->environment_bias == 0)
+        return;
+    for (int c = 0; c < 3; c++) {
+        float parts = (&p->environment_diffuse.r)[c] + (&all->mirrored_part.r)[c] + (&all->sheen_part.r)[c];
+        assert_near(parts + (&all->coat_part.r)[c], (&p->reflection.r)[c]);
+        layered_surroundings += (&p->reflection.r)[c] > 0;
+    }
+}
+
 static bool is_plain(const lam_explained_fragment *f)
 {
     bool plain = !f->surface.physical;
@@ -130,6 +164,8 @@ static void check_point(const lam_explanation *e, const lam_explained_fragment *
     bool plain = is_plain(f);
     if (plain)
         check_environment(e, f, p, environment);
+    if (p->layers)
+        check_layers(p);
     if (plain && f->reflection != LAM_REFLECTION_NONE) {
         float ambient[3] = {p->ambient_term.r, p->ambient_term.g, p->ambient_term.b}, diffuse[3] = {0},
               specular[3] = {0};
@@ -297,6 +333,8 @@ static void test_scenes(void **state)
         lam_scene_free(demo.scene);
     }
     assert_true(reflections > 20);
+    printf("layers: %d channels of lights, %d of environments\n", layered_lights, layered_surroundings);
+    assert_true(layered_lights > 100 && layered_surroundings > 50);
     lam_device_free(widest);
     lam_device_free(plain);
 }

@@ -33,7 +33,13 @@ export function lightEquations(triangle, point, light) {
   if (light.casts_shadows) add('passed', '', null, light.passed);
   add('D', formulas.D, filled(formulas.D, point, light), light.D);
   const gate = formulas.gated ? '[n·l > 0] ' : '', open = !formulas.gated || light.n_dot_l > 0;
-  if (formulas.microfacet) add('S', `${gate}π D(h) V max(n·l, 0)`, open ? `3.14159265 · ${number(light.distribution)} · ${number(light.visibility)} · max(${number(light.n_dot_l)}, 0)` : '0', light.S);
+  const { layers } = light, all = point.layers;
+  if (layers) { // what each layer of the surface returns of light 1
+    add('S', 'of the base', null, layers.S);
+    add('base', 'F S', null, layers.base);
+    if (all.sheen_left < 1) add('left', '1 − max(sheen_color) E', null, layers.sheen_left), add('sheen', '', null, layers.sheen);
+    if (all.coat > 0) add('coat', 'share · S of the coat', null, layers.coat);
+  } else if (formulas.microfacet) add('S', `${gate}π D(h) V max(n·l, 0)`, open ? `3.14159265 · ${number(light.distribution)} · ${number(light.visibility)} · max(${number(light.n_dot_l)}, 0)` : '0', light.S);
   else if (formulas.base) {
     const base = filled(formulas.base, point, light) ?? number(light.base);
     add('S', `${gate}${formulas.base}^α`, open ? `${base}^${number(light.power)}` : '0', light.S);
@@ -46,7 +52,8 @@ export function lightEquations(triangle, point, light) {
   };
   if (light.left_out) return rows;
   add('diffuse', ...product(formulas.microfacet ? 'base (1 − metallic) Ld' : 'kd Ld', light.kd_Ld, 'D', light.D, light.casts_shadows), light.diffuse_term);
-  if (formulas.base || formulas.microfacet) add('specular', ...product(formulas.microfacet ? 'F Ls' : 'ks Ls', light.ks_Ls, 'S', light.S, light.casts_shadows), light.specular_term);
+  if (layers) add('specular', 'Ls ((1 − share) (left base + sheen) + coat)', null, light.specular_term);
+  else if (formulas.base || formulas.microfacet) add('specular', ...product(formulas.microfacet ? 'F Ls' : 'ks Ls', light.ks_Ls, 'S', light.S, light.casts_shadows), light.specular_term);
   return rows;
 }
 
@@ -64,7 +71,12 @@ export function aroundEquations(triangle, point) {
   if (!e || !point.terms.reflection.some((x) => x !== 0)) return rows;
   if (e.prefiltered) {
     for (const name of ['irradiance', 'prefiltered', 'scale', 'bias']) add(name, '', null, e[name]);
-    add('reflection', 'kd irradiance (1 − (0.04 scale + bias)) + prefiltered (f0 scale + bias)', null, point.terms.reflection);
+    const { layers } = point;
+    if (layers) {
+      add('diffuse part', '', null, e.diffuse_part);
+      for (const name of ['mirrored', 'sheen', 'coat']) if (layers[`${name}_part`].some((x) => x !== 0)) add(`${name} part`, '', null, layers[`${name}_part`]);
+      add('reflection', 'the sum of these parts', null, point.terms.reflection);
+    } else add('reflection', 'kd irradiance (1 − (0.04 scale + bias)) + prefiltered (f0 scale + bias)', null, point.terms.reflection);
   } else add('reflection', `${dimmed ? 'unoccluded · ' : ''}kr environment`, `${dimmed ? `${number(point.unoccluded)} · ` : ''}${triple(reflectivity)} · ${triple(e.light)}`, point.terms.reflection);
   return rows;
 }

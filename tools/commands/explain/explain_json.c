@@ -95,12 +95,43 @@ static void write_light(struct json *json, const lam_explained_light *l)
         real(json, "visibility", l->visibility);
         color(json, "fresnel", l->fresnel);
     }
+    if (l->layers) {
+        json_open(json, "layers", '{');
+        real(json, "S", l->layers->S);
+        real(json, "base_diffuse", l->layers->base_diffuse);
+        color(json, "base", l->layers->base);
+        real(json, "sheen_left", l->layers->sheen_left);
+        color(json, "sheen", l->layers->sheen);
+        real(json, "coat", l->layers->coat);
+        json_close(json, '}');
+    }
     color(json, "kd_Ld", l->kd_Ld);
     color(json, "ks_Ls", l->ks_Ls);
     json_flag(json, "left_out", l->skipped);
     color(json, "ambient_term", l->ambient_term);
     color(json, "diffuse_term", l->diffuse_term);
     color(json, "specular_term", l->specular_term);
+    json_close(json, '}');
+}
+
+static void write_layers(struct json *json, const lam_explained_layers *layers)
+{
+    if (!layers)
+        return;
+    json_open(json, "layers", '{');
+    color(json, "dielectric_f0", layers->dielectric_f0);
+    color(json, "metal_f0", layers->metal_f0);
+    real(json, "opaque", layers->opaque);
+    color(json, "transmittance", layers->transmittance);
+    real(json, "sheen_left", layers->sheen_left);
+    if (is_zero(layers->coat_normal))
+        json_none(json, "coat_normal");
+    else
+        json_vector(json, "coat_normal", layers->coat_normal);
+    real(json, "coat", layers->coat);
+    color(json, "mirrored_part", layers->mirrored_part);
+    color(json, "sheen_part", layers->sheen_part);
+    color(json, "coat_part", layers->coat_part);
     json_close(json, '}');
 }
 
@@ -121,6 +152,7 @@ static void write_point(struct json *json, const lam_explained_point *p)
     color(json, "ambient_light", p->ambient_light);
     real(json, "unoccluded", p->unoccluded);
     color(json, "ambient_term", p->ambient_term);
+    write_layers(json, p->layers);
     json_open(json, "lights", '[');
     for (int i = 0; i < p->light_count; i++)
         write_light(json, &p->lights[i]);

@@ -5,59 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "explain_rows.h"
 #include "explain_words.h"
 
-enum {
-    COLUMN = 26,
-    FEW_LIGHTS = 16, // up to this number all lights are printed; of more, those that contribute
-};
-
-// Prints a label and its padding, counted in letters, not bytes.
-static void label(int indent, const char *text)
-{
-    int width = indent;
-    for (const char *s = text; *s; s++)
-        width += (*s & 0xC0) != 0x80;
-    printf("%*s%s%*s", indent, "", text, width < COLUMN ? COLUMN - width : 1, "");
-}
-
-static void three(int indent, const char *name, double x, double y, double z, const char *remark)
-{
-    label(indent, name);
-    printf("%13.7g %13.7g %13.7g%s%s\n", x + 0.0, y + 0.0, z + 0.0, *remark ? "   " : "", remark);
-}
-
-// Prints the names of the columns.
-static void heading(int indent, const char *name, const char *alpha)
-{
-    label(indent, name);
-    printf("%13s %13s %13s%s\n", "red", "green", "blue", alpha);
-}
-
-static void vector(int indent, const char *name, lam_vec3 v, const char *remark)
-{
-    three(indent, name, v.x, v.y, v.z, remark);
-}
-
-static void color(int indent, const char *name, lam_rgb c, const char *remark)
-{
-    three(indent, name, (double)c.r, (double)c.g, (double)c.b, remark);
-}
-
-static void number(int indent, const char *name, double x, const char *remark)
-{
-    label(indent, name);
-    printf("%13.7g%s%s\n", x, *remark ? "   " : "", remark);
-}
-
-static void angle(const char *name, double radians, const char *remark)
-{
-    label(4, name);
-    if (radians - radians == 0)
-        printf("%12.5f°   %s\n", radians * (180 / 3.14159265358979323846), remark);
-    else
-        printf("%13s   %s\n", "none", remark);
-}
+enum { FEW_LIGHTS = 16 }; // up to this number all lights are printed; of more, those that contribute
 
 static void named(const char *name)
 {
@@ -67,7 +18,6 @@ static void named(const char *name)
 
 static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-static bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
 // --- a light
@@ -75,16 +25,16 @@ static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 static void print_attenuation(const lam_explained_light *l)
 {
     if (l->type == LAM_LIGHT_DIRECTIONAL) {
-        number(4, "attenuation", (double)l->attenuation, "directional: not attenuated");
+        row_number(4, "attenuation", (double)l->attenuation, "directional: not attenuated");
         return;
     }
-    number(4, "distance d", (double)l->distance, "model units");
+    row_number(4, "distance d", (double)l->distance, "model units");
     char remark[200];
     int used = snprintf(remark, sizeof remark, "1 / (%.7g + %.7g d + %.7g d²)", (double)l->attenuation_terms.constant,
                         (double)l->attenuation_terms.linear, (double)l->attenuation_terms.quadratic);
     if (l->range > 0)
         snprintf(remark + used, sizeof remark - (size_t)used, " · max(min(1 − (d/%.7g)⁴, 1), 0)", (double)l->range);
-    number(4, "attenuation", (double)l->attenuation, remark);
+    row_number(4, "attenuation", (double)l->attenuation, remark);
 }
 
 static void print_highlight(const lam_explained_fragment *f, const lam_explained_point *p, const lam_explained_light *l)
@@ -94,27 +44,34 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
     const char *gate = gated ? "[n·l > 0] " : "";
     char remark[200];
     if (model->tangents) {
-        number(4, "t·l", dot(p->t, l->l), "cos(t,l)");
-        number(4, "t·v", dot(p->t, p->v), "cos(t,v)");
+        row_number(4, "t·l", dot(p->t, l->l), "cos(t,l)");
+        row_number(4, "t·v", dot(p->t, p->v), "cos(t,v)");
     }
+    const lam_explained_light_layers *layers = l->layers;
     bool gates_diffuse = strncmp(model->diffuse, "max(", 4) != 0; // a max() is 0 there already
-    snprintf(remark, sizeof remark, "%s%s", gates_diffuse ? gate : "", model->diffuse);
-    number(4, "D", (double)l->D, remark);
+    snprintf(remark, sizeof remark, "%s%s%s", layers ? "(1 − share) left · (1 − transmission) " : "",
+             gates_diffuse ? gate : "", model->diffuse);
+    row_number(4, "D", (double)l->D, remark);
     if (!model->base)
         return;
     if (model->microfacet) {
-        number(4, "D(h)", (double)l->distribution, "how many mirrors face h: α² / (π (|n × h|² + (n·h)² α²)²)");
-        number(4, "V", (double)l->visibility, "how many of them are in sight of light and eye");
-        color(4, "F", l->fresnel, "how much they reflect: f0 + (1 − f0) (1 − v·h)⁵");
-        snprintf(remark, sizeof remark, "%sπ D(h) V max(n·l, 0)", gate);
-        number(4, "S", (double)l->S, remark);
+        if (!layers || f->surface.anisotropy == 0) {
+            row_number(4, "D(h)", (double)l->distribution, "how many mirrors face h: α² / (π (|n × h|² + (n·h)² α²)²)");
+            row_number(4, "V", (double)l->visibility, "how many of them are in sight of light and eye");
+        }
+        row_color(4, "F", l->fresnel, "how much they reflect: f0 + (1 − f0) (1 − v·h)⁵");
+        snprintf(remark, sizeof remark, "%sπ D(h) V max(n·l, 0)%s", gate,
+                 layers && f->surface.anisotropy > 0 ? ", stretched along the surface" : "");
+        row_number(4, "S", (double)(layers ? layers->S : l->S), remark);
+        if (layers && p->layers)
+            explain_light_layers(layers, p->layers);
         return;
     }
-    number(4, "base", (double)l->base, model->base);
-    number(4, "power α", (double)l->power, "the shininess");
+    row_number(4, "base", (double)l->base, model->base);
+    row_number(4, "power α", (double)l->power, "the shininess");
     snprintf(remark, sizeof remark, "%sbase^α = %s%.7g^%.7g", gate, gated && !(l->n_dot_l > 0) ? "0 · " : "",
              (double)l->base, (double)l->power);
-    number(4, "S", (double)l->S, remark);
+    row_number(4, "S", (double)l->S, remark);
 }
 
 // Prints which surfaces are in the way of the light.
@@ -126,7 +83,7 @@ static void print_shadow(const lam_explained_light *l)
     if (l->shadow_object >= 0)
         snprintf(remark, sizeof remark, "triangle %u of object %d is in the way, %.7g from the point",
                  l->shadow_triangle, l->shadow_object, (double)l->shadow_distance);
-    color(4, "passed", l->passed, remark);
+    row_color(4, "passed", l->passed, remark);
 }
 
 static void product(char text[200], const lam_explained_light *l, const char *what, lam_rgb c, float answer)
@@ -151,38 +108,43 @@ static void print_light(const lam_explanation *e, const lam_explained_fragment *
         printf("\n  light %d of the rig", number_in_list);
     named(l->name);
     printf(", %s, fixed to the %s\n", lam_light_type_describe(l->type)->word, light_frame_word(l->frame));
-    heading(4, "matrix", "");
-    color(4, "ambient La", l->ambient, "");
-    color(4, "diffuse Ld", l->diffuse, "");
-    color(4, "specular Ls", l->specular, "");
+    row_heading(4, "matrix", "");
+    row_color(4, "ambient La", l->ambient, "");
+    row_color(4, "diffuse Ld", l->diffuse, "");
+    row_color(4, "specular Ls", l->specular, "");
     if (l->type != LAM_LIGHT_DIRECTIONAL)
-        vector(4, "position", l->position, "eye space");
+        row_vector(4, "position", l->position, "eye space");
     if (l->type != LAM_LIGHT_POINT)
-        vector(4, "axis", l->axis, "direction of the light");
-    vector(4, "l", l->l, "to the light");
-    vector(4, "r", l->r, "2 (n·l) n − l");
-    vector(4, "h", l->h, "(l + v) / |l + v|");
-    angle("θ", l->theta_rad, "between n and l");
-    angle("φ", l->phi_rad, "between r and v");
-    angle("ψ", l->psi_rad, "between n and h");
+        row_vector(4, "axis", l->axis, "direction of the light");
+    row_vector(4, "l", l->l, "to the light");
+    row_vector(4, "r", l->r, "2 (n·l) n − l");
+    row_vector(4, "h", l->h, "(l + v) / |l + v|");
+    row_angle("θ", l->theta_rad, "between n and l");
+    row_angle("φ", l->phi_rad, "between r and v");
+    row_angle("ψ", l->psi_rad, "between n and h");
     print_attenuation(l);
     if (l->type == LAM_LIGHT_SPOT) {
-        number(4, "c", (double)l->cos_axis, "(−l)·axis");
-        number(4, "spot", (double)l->spot, "the cone's factor");
+        row_number(4, "c", (double)l->cos_axis, "(−l)·axis");
+        row_number(4, "spot", (double)l->spot, "the cone's factor");
     }
     print_shadow(l);
     if (l->occlusion < 1)
-        number(4, "occlusion", (double)l->occlusion, "1 − occluded (1 − unoccluded)");
-    number(4, "n·l", (double)l->n_dot_l, "");
+        row_number(4, "occlusion", (double)l->occlusion, "1 − occluded (1 − unoccluded)");
+    row_number(4, "n·l", (double)l->n_dot_l, "");
     print_highlight(f, p, l);
     char text[200];
     bool microfacet = lam_reflection_describe(f->reflection)->microfacet;
     product(text, l, microfacet ? "base (1 − metallic) ⊙ Ld · D" : "kd ⊙ Ld · D", l->kd_Ld, l->D);
-    color(4, "diffuse", l->diffuse_term, text);
-    product(text, l, microfacet ? "F ⊙ Ls · S" : "ks ⊙ Ls · S", l->ks_Ls, l->S);
-    color(4, "specular", l->specular_term, text);
+    row_color(4, "diffuse", l->diffuse_term, text);
+    if (l->layers) {
+        row_color(4, "specular", l->specular_term,
+                  "spot · attenuation · Ls ⊙ ((1 − share) (left · base + sheen) + coat)");
+    } else {
+        product(text, l, microfacet ? "F ⊙ Ls · S" : "ks ⊙ Ls · S", l->ks_Ls, l->S);
+        row_color(4, "specular", l->specular_term, text);
+    }
     if (e->gl1)
-        color(4, "ambient", l->ambient_term, "spot · attenuation · ka ⊙ La, as OpenGL 1 did");
+        row_color(4, "ambient", l->ambient_term, "spot · attenuation · ka ⊙ La, as OpenGL 1 did");
 }
 
 static void print_hemisphere(const lam_explained_hemisphere *h, int number_in_list)
@@ -193,11 +155,11 @@ static void print_hemisphere(const lam_explained_hemisphere *h, int number_in_li
         printf("\n  hemisphere %d of the rig", number_in_list);
     named(h->name);
     printf(", hemisphere\n");
-    color(4, "sky", h->sky, "");
-    color(4, "ground", h->ground, "");
-    vector(4, "up", h->up, "eye space");
-    number(4, "n·up", (double)h->n_dot_up, "");
-    color(4, "ambient", h->term, "ka ⊙ mix(ground, sky, ½ + ½ n·up)");
+    row_color(4, "sky", h->sky, "");
+    row_color(4, "ground", h->ground, "");
+    row_vector(4, "up", h->up, "eye space");
+    row_number(4, "n·up", (double)h->n_dot_up, "");
+    row_color(4, "ambient", h->term, "ka ⊙ mix(ground, sky, ½ + ½ n·up)");
 }
 
 // Prints all lights; of many, only those that contribute here.
@@ -226,41 +188,40 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
 {
     if (p->corner >= 0)
         printf("\n  corner %d of the triangle is lit\n", p->corner);
-    vector(2, "position in the mesh", p->mesh_position, "model units");
-    vector(2, "position in the world", p->world_position, "");
-    vector(2, "position in eye space", p->position, "");
-    vector(2, "n", p->n, f->flipped ? "reversed: the back is visible" : "");
-    vector(2, "v", p->v, e->distant_viewer ? "to the eye, infinitely far" : "to the eye");
+    row_vector(2, "position in the mesh", p->mesh_position, "model units");
+    row_vector(2, "position in the world", p->world_position, "");
+    row_vector(2, "position in eye space", p->position, "");
+    row_vector(2, "n", p->n, f->flipped ? "reversed: the back is visible" : "");
+    row_vector(2, "v", p->v, e->distant_viewer ? "to the eye, infinitely far" : "to the eye");
     if (!is_zero(p->t) && lam_reflection_describe(f->reflection)->tangents)
-        vector(2, "t", p->t, "along the threads");
+        row_vector(2, "t", p->t, "along the threads");
     bool colored = p->color.r != 1 || p->color.g != 1 || p->color.b != 1;
     const char *tinting = f->surface.maps[LAM_MAP_DIFFUSE] ? "texture and vertex colour" : "vertex colour";
     if (colored)
-        color(2, tinting, p->color, "multiplies ambient and diffuse");
+        row_color(2, tinting, p->color, "multiplies ambient and diffuse");
+    if (p->layers)
+        explain_layers(p->layers);
     print_lights(e, f, p);
     for (int i = 0; i < p->hemisphere_count; i++)
         print_hemisphere(&p->hemispheres[i], i);
 
     if (!is_zero(p->reflected)) {
         printf("\n  environment\n");
-        vector(4, "R", p->reflected, "2 (n·v) n − v, the reflected eye vector");
-        vector(4, "direction", p->environment_direction, "R in the environment's own axes");
-        color(4, "light from there", p->environment_light, "");
+        row_vector(4, "R", p->reflected, "2 (n·v) n − v, the reflected eye vector");
+        row_vector(4, "direction", p->environment_direction, "R in the environment's own axes");
+        row_color(4, "light from there", p->environment_light, "");
         if (p->environment_scale + p->environment_bias > 0) {
             char text[100];
             int level = (int)p->environment_level;
             int share = (int)((p->environment_level - (float)level) * 100 + 0.5f);
             snprintf(text, sizeof text, "of the prefiltered environment for the roughness: %d %% of %d, %d %% of %d",
                      100 - share, level, share, level + 1);
-            number(4, "level", (double)p->environment_level, text);
-            color(4, "prefiltered", p->prefiltered, "around R, at that level");
-            color(4, "irradiance ÷ π", p->irradiance, "above the surface");
-            number(4, "scale", (double)p->environment_scale, "");
-            number(4, "bias", (double)p->environment_bias, "the lobe's integral is f0 scale + bias");
-            lam_rgb diffuse = p->environment_diffuse;
-            lam_rgb mirrored = {p->reflection.r - diffuse.r, p->reflection.g - diffuse.g, p->reflection.b - diffuse.b};
-            color(4, "diffuse part", diffuse, "base (1 − metallic) ⊙ irradiance/π (1 − (0.04 scale + bias))");
-            color(4, "mirrored part", mirrored, "prefiltered ⊙ (f0 scale + bias)");
+            row_number(4, "level", (double)p->environment_level, text);
+            row_color(4, "prefiltered", p->prefiltered, "around R, at that level");
+            row_color(4, "irradiance ÷ π", p->irradiance, "above the surface");
+            row_number(4, "scale", (double)p->environment_scale, "");
+            row_number(4, "bias", (double)p->environment_bias, "the lobe's integral is f0 scale + bias");
+            explain_environment_parts(p);
         }
     }
 
@@ -271,32 +232,35 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
     char text[200];
     if (f->reflection == LAM_REFLECTION_NONE) {
         snprintf(text, sizeof text, "kd: unlit%s", tint);
-        color(4, "diffuse", p->diffuse, text);
+        row_color(4, "diffuse", p->diffuse, text);
     } else {
         if (p->unoccluded < 1)
-            number(4, "unoccluded", (double)p->unoccluded,
-                   "ambient occlusion: the share of light from all around; a factor of ambient and environment light");
-        color(4, "emission", p->emission, "");
+            row_number(
+                4, "unoccluded", (double)p->unoccluded,
+                "ambient occlusion: the share of light from all around; a factor of ambient and environment light");
+        row_color(4, "emission", p->emission, "");
         snprintf(text, sizeof text, "ka ⊙ (La_global + Σ La)%s%s = ka ⊙ (%.7g %.7g %.7g)%s",
                  p->hemisphere_count ? " + Σ hemispheres" : "", tint, (double)p->ambient_light.r,
                  (double)p->ambient_light.g, (double)p->ambient_light.b, p->hemisphere_count ? " + …" : "");
-        color(4, "ambient", p->ambient, text);
+        row_color(4, "ambient", p->ambient, text);
         snprintf(text, sizeof text, "Σ of the lights' diffuse terms%s", tint);
-        color(4, "diffuse", p->diffuse, text);
-        color(4, "specular", p->specular, "Σ of the lights' specular terms");
+        row_color(4, "diffuse", p->diffuse, text);
+        row_color(4, "specular", p->specular, "Σ of the lights' specular terms");
         snprintf(text, sizeof text, "kr ⊙ environment = (%.7g %.7g %.7g) ⊙ (%.7g %.7g %.7g)",
                  (double)f->surface.reflectivity.r, (double)f->surface.reflectivity.g,
                  (double)f->surface.reflectivity.b, (double)p->environment_light.r, (double)p->environment_light.g,
                  (double)p->environment_light.b);
-        if (p->environment_scale + p->environment_bias > 0)
+        if (p->environment_scale + p->environment_bias > 0 && p->layers)
+            snprintf(text, sizeof text, "the sum of its parts, above");
+        else if (p->environment_scale + p->environment_bias > 0)
             snprintf(text, sizeof text, "kd ⊙ irradiance (1 − (0.04 scale + bias)) + prefiltered (f0 scale + bias)");
         else if (e->reference && f->surface.physical)
             snprintf(text, sizeof text, "the integral of the environment's light, by %d directions", e->reference);
-        color(4, "reflection", p->reflection, e->has_environment ? text : "");
+        row_color(4, "reflection", p->reflection, e->has_environment ? text : "");
     }
-    color(4, "sum", p->sum, "emission + ambient + diffuse + specular + reflection");
+    row_color(4, "sum", p->sum, "emission + ambient + diffuse + specular + reflection");
     if (p->result.r != p->sum.r || p->result.g != p->sum.g || p->result.b != p->sum.b)
-        color(4, "clamped", p->result, "to 0…1, as OpenGL 1 did");
+        row_color(4, "clamped", p->result, "to 0…1, as OpenGL 1 did");
 }
 
 static const char *field_label(const lam_field *field, char text[64])
@@ -311,7 +275,7 @@ static void print_color(const lam_explanation *e, const lam_field *field, const 
     char text[64];
     bool mirrored = field->offset == offsetof(lam_material, reflectivity);
     if (lam_field_get(field, m, numbers) > 1 && (e->has_environment || !mirrored))
-        three(4, field_label(field, text), numbers[0], numbers[1], numbers[2], "");
+        row_three(4, field_label(field, text), numbers[0], numbers[1], numbers[2], "");
 }
 
 // Prints the shininess, and other numbers that differ from their defaults.
@@ -322,10 +286,10 @@ static void print_number(const lam_explained_fragment *f, const lam_field *field
     if (lam_field_get_written(field, m, numbers) > 1)
         return;
     if (field->offset == offsetof(lam_material, shininess))
-        number(4, field_label(field, text), (double)f->shininess,
-               f->shininess == m->shininess ? "" : "as changed by the options");
+        row_number(4, field_label(field, text), (double)f->shininess,
+                   f->shininess == m->shininess ? "" : "as changed by the options");
     else if (numbers[0] != field->standard[0])
-        number(4, field_label(field, text), numbers[0], field->unit ? field->unit : "");
+        row_number(4, field_label(field, text), numbers[0], field->unit ? field->unit : "");
 }
 
 static void print_material(const lam_explanation *e, const lam_explained_fragment *f)
@@ -340,7 +304,7 @@ static void print_material(const lam_explanation *e, const lam_explained_fragmen
     if (!f->ground)
         named(m->name);
     printf("\n");
-    heading(4, "matrix", "");
+    row_heading(4, "matrix", "");
     for (int i = 0; lam_material_field(i); i++)
         print_color(e, lam_material_field(i), m);
     for (int i = 0; lam_material_field(i); i++)
@@ -361,13 +325,13 @@ static void print_map(const lam_explained_map *m)
     printf("  map '%s'", lam_map_name(m->map));
     named(m->texture);
     printf(", %d×%d texels\n", m->width, m->height);
-    label(4, "coordinates");
+    row_label(4, "coordinates");
     printf("%13.7g %13.7g   of the mesh\n", (double)m->s, (double)m->t);
-    label(4, "place");
+    row_label(4, "place");
     printf("%13.7g %13.7g   texels from the upper left corner\n", (double)m->column, (double)m->row);
     snprintf(text, sizeof text, "%s", m->level > 0 ? "texels of level 0 that a pixel spans: 2^level" : "magnified");
-    number(4, "level of detail", (double)m->level, text);
-    label(4, m->map == LAM_MAP_BUMP ? "heights" : "texel");
+    row_number(4, "level of detail", (double)m->level, text);
+    row_label(4, m->map == LAM_MAP_BUMP ? "heights" : "texel");
     printf("%13.7g %13.7g %13.7g %13.7g   %s\n", (double)m->texel.r, (double)m->texel.g, (double)m->texel.b,
            (double)m->texel.a, m->map == LAM_MAP_BUMP ? "left, right, above, below" : "filtered");
     printf("\n");
@@ -383,19 +347,19 @@ static void print_values(const lam_explained_fragment *f)
     if (!v || (!m->physical && !f->map_count))
         return;
     printf("  the material here\n");
-    color(4, m->physical ? "base colour" : "diffuse kd", v->base_color, "with maps and vertex colour");
+    row_color(4, m->physical ? "base colour" : "diffuse kd", v->base_color, "with maps and vertex colour");
     if (m->physical) {
-        number(4, "metallic", (double)v->metallic, "");
-        number(4, "roughness", (double)v->roughness, v->roughness < 0.045f ? "lit as 0.045" : "");
+        row_number(4, "metallic", (double)v->metallic, "");
+        row_number(4, "roughness", (double)v->roughness, v->roughness < 0.045f ? "lit as 0.045" : "");
     } else {
-        number(4, "shininess α", (double)v->shininess, "");
+        row_number(4, "shininess α", (double)v->shininess, "");
     }
     if (v->occlusion != 1)
-        number(4, "occlusion", (double)v->occlusion, "factor of light from everywhere");
+        row_number(4, "occlusion", (double)v->occlusion, "factor of light from everywhere");
     if (!is_zero(v->tangent)) {
-        vector(4, "n of the mesh", v->mesh_normal, "interpolated");
-        vector(4, "tangent", v->tangent, "interpolated, of any length");
-        number(4, "bitangent's sign", (double)v->bitangent_sign, "bitangent = sign · n × t");
+        row_vector(4, "n of the mesh", v->mesh_normal, "interpolated");
+        row_vector(4, "tangent", v->tangent, "interpolated, of any length");
+        row_number(4, "bitangent's sign", (double)v->bitangent_sign, "bitangent = sign · n × t");
     }
     printf("\n");
 }
@@ -407,28 +371,29 @@ static void print_places(const lam_explained_fragment *f)
     if (!f->places)
         return;
     printf("\n");
-    label(2, "on the way to the window");
+    row_label(2, "on the way to the window");
     printf("%13s %13s %13s %13s\n", "x", "y", "z", "w");
     for (int i = 0; i < 4; i++) {
         const lam_explained_place *p = &f->places[i];
         printf("  %s\n", names[i]);
-        vector(4, "object", p->mesh_position, "");
-        vector(4, "eye", p->eye_position, i ? "" : "model-view matrix · object");
-        label(4, "clip");
+        row_vector(4, "object", p->mesh_position, "");
+        row_vector(4, "eye", p->eye_position, i ? "" : "model-view matrix · object");
+        row_label(4, "clip");
         printf("%13.7g %13.7g %13.7g %13.7g%s\n", p->clip[0] + 0.0, p->clip[1] + 0.0, p->clip[2] + 0.0,
                p->clip[3] + 0.0, i ? "" : "   projection · eye");
         if (!(p->clip[3] > 0)) {
-            label(4, "NDC, window");
+            row_label(4, "NDC, window");
             printf("%13s   behind the eye: w ≤ 0\n", "none");
             continue;
         }
-        three(4, "NDC", p->ndc[0], p->ndc[1], p->ndc[2], i ? "" : "clip ÷ w");
-        three(4, "window", p->window[0], p->window[1], p->window[2], i ? "" : "pixels from the lower left; depth 0…1");
+        row_three(4, "NDC", p->ndc[0], p->ndc[1], p->ndc[2], i ? "" : "clip ÷ w");
+        row_three(4, "window", p->window[0], p->window[1], p->window[2],
+                  i ? "" : "pixels from the lower left; depth 0…1");
     }
     if (f->winding - f->winding == 0)
-        number(2, "winding", f->winding,
-               f->winding > 0 ? "counter-clockwise; (x3−x2)(y1−y2) − (y3−y2)(x1−x2) in the window"
-                              : "clockwise; (x3−x2)(y1−y2) − (y3−y2)(x1−x2) in the window");
+        row_number(2, "winding", f->winding,
+                   f->winding > 0 ? "counter-clockwise; (x3−x2)(y1−y2) − (y3−y2)(x1−x2) in the window"
+                                  : "clockwise; (x3−x2)(y1−y2) − (y3−y2)(x1−x2) in the window");
 }
 
 static void print_fragment(const lam_explanation *e, const lam_explained_fragment *f)
@@ -454,14 +419,14 @@ static void print_fragment(const lam_explanation *e, const lam_explained_fragmen
         named(f->object_name);
     }
     printf(": %d of %d sample%s\n", f->samples, e->samples, e->samples == 1 ? "" : "s");
-    label(2, "taken at");
+    row_label(2, "taken at");
     printf("%13.7g %13.7g   ", f->picture_x, f->picture_y);
     if (f->lit_sample < 0)
         printf("pixels from the top left: the pixel's centre\n");
     else
         printf("pixels from the top left: sample %d, since the centre is outside the triangle\n", f->lit_sample);
-    three(2, "weights of the corners", (double)f->weights[0], (double)f->weights[1], (double)f->weights[2],
-          "barycentric, perspective-correct");
+    row_three(2, "weights of the corners", (double)f->weights[0], (double)f->weights[1], (double)f->weights[2],
+              "barycentric, perspective-correct");
     print_places(f);
     print_material(e, f);
     print_values(f);
@@ -470,29 +435,30 @@ static void print_fragment(const lam_explanation *e, const lam_explained_fragmen
     if (f->point_count == 3)
         printf("\n");
     if (f->ground == LAM_GROUND_SHADOW) {
-        number(2, "light received", (double)f->received, "luminance of the sum: 0.2126 r + 0.7152 g + 0.0722 b");
-        number(2, "unobstructed", (double)f->unobstructed, "that without shadows and occlusion");
-        number(2, "taken away", f->unobstructed > f->received ? 1 - (double)f->received / (double)f->unobstructed : 0,
-               "1 − received / unobstructed");
+        row_number(2, "light received", (double)f->received, "luminance of the sum: 0.2126 r + 0.7152 g + 0.0722 b");
+        row_number(2, "unobstructed", (double)f->unobstructed, "that without shadows and occlusion");
+        row_number(2, "taken away",
+                   f->unobstructed > f->received ? 1 - (double)f->received / (double)f->unobstructed : 0,
+                   "1 − received / unobstructed");
     }
     lam_rgb c = {f->color.r, f->color.g, f->color.b};
-    color(2, "colour", c,
-          f->ground == LAM_GROUND_SHADOW   ? "black: the ground holds what is taken away as its alpha"
-          : f->point_count == 3            ? "c0 + weight1 · (c1 − c0) + weight2 · (c2 − c0), the corners' sums"
-          : e->shading == LAM_SHADING_FLAT ? "the sum, constant over the triangle"
-                                           : "the sum");
+    row_color(2, "colour", c,
+              f->ground == LAM_GROUND_SHADOW   ? "black: the ground holds what is taken away as its alpha"
+              : f->point_count == 3            ? "c0 + weight1 · (c1 − c0) + weight2 · (c2 − c0), the corners' sums"
+              : e->shading == LAM_SHADING_FLAT ? "the sum, constant over the triangle"
+                                               : "the sum");
     if (f->color.a != 1)
-        number(2, "alpha", (double)f->color.a,
-               f->ground == LAM_GROUND_SHADOW ? "taken away · the share to which the ground has not faded out"
-               : f->ground                    ? "the share to which the ground has not faded out"
-                                              : "opacity · the vertex colour's alpha");
+        row_number(2, "alpha", (double)f->color.a,
+                   f->ground == LAM_GROUND_SHADOW ? "taken away · the share to which the ground has not faded out"
+                   : f->ground                    ? "the share to which the ground has not faded out"
+                                                  : "opacity · the vertex colour's alpha");
     bool veiled = false;
     for (int s = 0; s < e->samples; s++)
         veiled |= (f->sample_mask >> s & 1) && f->transmittance[s] < 1;
     for (int s = 0; veiled && s < e->samples; s++) {
         snprintf(name, sizeof name, "sample %d", s);
         if (f->sample_mask >> s & 1)
-            number(2, name, (double)f->transmittance[s], "transmittance of the surfaces in front: Π (1 − alpha)");
+            row_number(2, name, (double)f->transmittance[s], "transmittance of the surfaces in front: Π (1 − alpha)");
     }
 }
 
@@ -501,32 +467,32 @@ static void print_fragment(const lam_explanation *e, const lam_explained_fragmen
 static void print_pixel(const lam_explanation *e)
 {
     printf("\n");
-    heading(0, "pixel", "         alpha");
+    row_heading(0, "pixel", "         alpha");
     for (int i = 0; i < e->fragment_count; i++) {
         const lam_explained_fragment *f = &e->fragments[i];
         char name[32];
-        label(2, item_of(f, name));
+        row_label(2, item_of(f, name));
         printf("%13.7g %13.7g %13.7g %13.7g   counts %.7g\n", (double)f->color.r, (double)f->color.g,
                (double)f->color.b, (double)f->color.a, (double)f->weight);
     }
-    label(2, "weighted sum");
+    row_label(2, "weighted sum");
     printf("%13.7g %13.7g %13.7g %13.7g   Σ weight · alpha · colour\n", (double)e->sum.r, (double)e->sum.g,
            (double)e->sum.b, (double)e->sum.a);
     char stops[64];
     snprintf(stops, sizeof stops, "2^%.7g stops, multiplies the sum's colour", e->stops);
-    number(2, "exposure", (double)e->exposure, e->exposure == 1 ? "not applied" : stops);
-    label(2, "background");
+    row_number(2, "exposure", (double)e->exposure, e->exposure == 1 ? "not applied" : stops);
+    row_label(2, "background");
     printf("%13.7g %13.7g %13.7g %13.7g\n", (double)e->background.r, (double)e->background.g, (double)e->background.b,
            (double)e->background.a);
-    label(2, "over it");
+    row_label(2, "over it");
     printf("%13.7g %13.7g %13.7g %13.7g   %ssum + (1 − alpha) · background; .pfm holds this\n", (double)e->result.r,
            (double)e->result.g, (double)e->result.b, (double)e->result.a, e->exposure == 1 ? "" : "exposure · ");
-    color(2, "colour ÷ alpha", e->straight, "");
+    row_color(2, "colour ÷ alpha", e->straight, "");
     if (e->tone != LAM_TONE_NONE)
-        color(2, "toned", e->toned, lam_tone_name(e->tone));
-    color(2, "encoded", e->encoded,
-          e->color == LAM_COLOR_RAW ? "clamped to 0…1 (--color-mode raw)" : "by the sRGB curve");
-    label(2, "bytes");
+        row_color(2, "toned", e->toned, lam_tone_name(e->tone));
+    row_color(2, "encoded", e->encoded,
+              e->color == LAM_COLOR_RAW ? "clamped to 0…1 (--color-mode raw)" : "by the sRGB curve");
+    row_label(2, "bytes");
     printf("%13u %13u %13u %13u   floor(255 x + ½)\n", e->bytes[0], e->bytes[1], e->bytes[2], e->bytes[3]);
 }
 

@@ -1,0 +1,63 @@
+// explain_layers.c: how the layers of a physical material share the light of a point, as text (docs/lighting/layers.md).
+#include "explain_rows.h"
+
+#include <stdio.h>
+
+static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+
+// What the layers of the surface return of light 1 (docs/lighting/layers.md).
+void explain_light_layers(const lam_explained_light_layers *layers, const lam_explained_layers *all)
+{
+    row_color(4, "base", layers->base, "F S");
+    if (all->sheen_left < 1 || !is_black(layers->sheen)) {
+        row_number(4, "left", (double)layers->sheen_left, "the smaller 1 − max(sheen_color) E, at n·v and at n·l");
+        row_color(4, "sheen", layers->sheen, "sheen_color π D V n·l of its fibres");
+    }
+    if (all->coat > 0)
+        row_number(4, "coat", (double)layers->coat, "share · S of the coat");
+}
+
+// The layers that hold for light from everywhere.
+void explain_layers(const lam_explained_layers *layers)
+{
+    printf("\n  layers\n");
+    row_color(4, "f0", layers->dielectric_f0, "of the dielectric, along the normal");
+    row_color(4, "f0 of the metal", layers->metal_f0, "");
+    if (layers->opaque < 1) {
+        row_number(4, "not transmitted", (double)layers->opaque, "1 − transmission");
+        row_color(4, "transmittance", layers->transmittance, "factor of the light behind the surface");
+    }
+    if (layers->sheen_left < 1)
+        row_number(4, "left", (double)layers->sheen_left,
+                   "1 − max(sheen_color) E(n·v): what the sheen leaves of the base");
+    if (!is_zero(layers->coat_normal))
+        row_vector(4, "n_c", layers->coat_normal, "the coat's normal");
+    if (layers->coat > 0)
+        row_number(4, "share", (double)layers->coat, "of the coat: clearcoat (0.04 + 0.96 (1 − |n_c·v|)⁵)");
+}
+
+// What the parts of the surface return of environment light; they add up to the term.
+void explain_environment_parts(const lam_explained_point *p)
+{
+    const lam_explained_layers *layers = p->layers;
+    lam_rgb diffuse = p->environment_diffuse;
+    if (!layers) {
+        lam_rgb mirrored = {p->reflection.r - diffuse.r, p->reflection.g - diffuse.g, p->reflection.b - diffuse.b};
+        row_color(4, "diffuse part", diffuse, "base (1 − metallic) ⊙ irradiance/π (1 − (0.04 scale + bias))");
+        row_color(4, "mirrored part", mirrored, "prefiltered ⊙ (f0 scale + bias)");
+        return;
+    }
+    row_color(4, "diffuse part", diffuse,
+              "(1 − share) left · base (1 − metallic) (1 − transmission) ⊙ irradiance/π (1 − max(f0 scale + bias))");
+    row_color(4, "mirrored part", layers->mirrored_part, "(1 − share) left · prefiltered ⊙ (f0 scale + bias)");
+    if (layers->sheen_left < 1 || !is_black(layers->sheen_part))
+        row_color(4, "sheen part", layers->sheen_part, "(1 − share) · sheen_color E(n·v) ⊙ irradiance/π");
+    if (layers->coat > 0) {
+        char text[100];
+        snprintf(text, sizeof text, "around the mirror image of v about n_c, at level %.7g",
+                 (double)layers->coat_level);
+        row_color(4, "prefiltered, coat", layers->coat_prefiltered, text);
+        row_number(4, "scale + bias, coat", (double)layers->coat_albedo, "");
+        row_color(4, "coat part", layers->coat_part, "share · (scale + bias) · prefiltered, of the coat");
+    }
+}

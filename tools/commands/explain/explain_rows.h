@@ -1,0 +1,23 @@
+// explain_rows.h: aligned rows of an explanation, printed to standard output: a name, numbers, a remark.
+#ifndef EXPLAIN_ROWS_H
+#define EXPLAIN_ROWS_H
+
+#include <lambent/lambent.h>
+
+void row_label(int indent, const char *text); // and the blanks behind it
+void row_three(int indent, const char *name, double x, double y, double z, const char *remark);
+void row_heading(int indent, const char *name, const char *alpha); // the names of the columns
+void row_vector(int indent, const char *name, lam_vec3 v, const char *remark);
+void row_color(int indent, const char *name, lam_rgb c, const char *remark);
+void row_number(int indent, const char *name, double x, const char *remark);
+void row_angle(const char *name, double radians, const char *remark); // in degrees; NaN: none
+
+static inline bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
+// The layers of a physical material (explain_layers.c): those that hold for light from everywhere; what they return of light
+// 1 from one direction; what each part of the surface returns of environment light.
+void explain_layers(const lam_explained_layers *layers);
+void explain_light_layers(const lam_explained_light_layers *layers, const lam_explained_layers *all);
+void explain_environment_parts(const lam_explained_point *point);
+
+#endif

@@ -17,7 +17,7 @@ extern "C" {
 // with the coat's share of lam_explained_layers.
 typedef struct lam_explained_light_layers {
     float S;            // of the base: π D V max(n·l, 0)
-    float base_diffuse; // max(n·l, 0) (1 − max F) (1 − transmission)
+    float base_diffuse; // max(n·l, 0) (1 − max F) matt
     lam_rgb base;       // F S, F the mix of dielectric and metal
     float sheen_left;   // what the sheen leaves of the light of the base; 1: no sheen
     lam_rgb sheen;      // sheen_color π D V n·l of its fibres
@@ -97,7 +97,7 @@ typedef struct lam_explained_hemisphere {
 // The layers of a physical material at a point (docs/lighting/layers.md).
 typedef struct lam_explained_layers {
     lam_rgb dielectric_f0, metal_f0; // of the base, along the normal
-    float opaque;                    // 1 − transmission
+    float matt;                      // (1 − transmission) (1 − specular_glossiness max f0)
     float sheen_left;                // 1 − max(sheen_color) E(n·v); 1: no sheen
     lam_vec3 coat_normal;            // n_c, unit, eye space; zero: no coat
     float coat;                      // its share, clearcoat (0.04 + 0.96 (1 − |n_c·v|)⁵)

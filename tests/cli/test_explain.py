@@ -170,7 +170,7 @@ class Explain(Case):
         words = ("sphere", "14,20", "-s", "41", "--samples", "1", "--view", "front", "--environment", "studio", "--light", "directional:direction=0/0/-1",
                  "--material", "#ffc356,roughness=0.4,clearcoat=0.5,clearcoat_roughness=0.1,sheen_color=0.2/0.4/0.6,sheen_roughness=0.5,transmission=0.25")
         text = self.good("explain", *words).stdout.decode()
-        for part in ("  layers\n", "    share ", "    n_c ", "    left ", "    not transmitted ", "    sheen ", "    coat ", "    sheen part ", "    coat part ",
+        for part in ("  layers\n", "    share ", "    n_c ", "    left ", "    matt ", "    sheen ", "    coat ", "    sheen part ", "    coat part ",
                      "the sum of its parts, above"):
             self.assertIn(part, text)
         self.assertNotIn("    coat ", self.good("explain", "sphere", "14,20", "-s", "41", "--material", "#ffc356,roughness=0.4,ior=1.8").stdout.decode())
@@ -178,7 +178,7 @@ class Explain(Case):
         layers, light = point["layers"], point["lights"][0]
         facing = sum(a * b for a, b in zip(layers["coat_normal"], point["v"]))
         self.assertAlmostEqual(layers["coat"], 0.5 * (0.04 + 0.96 * (1 - facing) ** 5), places=5)
-        self.assertEqual(layers["opaque"], 0.75)
+        self.assertEqual(layers["matt"], 0.75)
         parts = light["layers"]
         self.assertAlmostEqual(light["D"], (1 - layers["coat"]) * parts["sheen_left"] * parts["base_diffuse"], places=5)
         for c in range(3):

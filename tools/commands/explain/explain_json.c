@@ -121,7 +121,7 @@ static void write_layers(struct json *json, const lam_explained_layers *layers)
     json_open(json, "layers", '{');
     color(json, "dielectric_f0", layers->dielectric_f0);
     color(json, "metal_f0", layers->metal_f0);
-    real(json, "opaque", layers->opaque);
+    real(json, "matt", layers->matt);
     color(json, "transmittance", layers->transmittance);
     real(json, "sheen_left", layers->sheen_left);
     if (is_zero(layers->coat_normal))

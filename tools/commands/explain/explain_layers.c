@@ -23,10 +23,10 @@ void explain_layers(const lam_explained_layers *layers)
     printf("\n  layers\n");
     row_color(4, "f0", layers->dielectric_f0, "of the dielectric, along the normal");
     row_color(4, "f0 of the metal", layers->metal_f0, "");
-    if (layers->opaque < 1) {
-        row_number(4, "not transmitted", (double)layers->opaque, "1 − transmission");
+    if (layers->matt < 1)
+        row_number(4, "matt", (double)layers->matt, "(1 − transmission) (1 − specular_glossiness · max f0)");
+    if (!is_black(layers->transmittance))
         row_color(4, "transmittance", layers->transmittance, "factor of the light behind the surface");
-    }
     if (layers->sheen_left < 1)
         row_number(4, "left", (double)layers->sheen_left,
                    "1 − max(sheen_color) E(n·v): what the sheen leaves of the base");
@@ -48,7 +48,7 @@ void explain_environment_parts(const lam_explained_point *p)
         return;
     }
     row_color(4, "diffuse part", diffuse,
-              "(1 − share) left · base (1 − metallic) (1 − transmission) ⊙ irradiance/π (1 − max(f0 scale + bias))");
+              "(1 − share) left · matt · base (1 − metallic) ⊙ irradiance/π (1 − max(f0 scale + bias))");
     row_color(4, "mirrored part", layers->mirrored_part, "(1 − share) left · prefiltered ⊙ (f0 scale + bias)");
     if (layers->sheen_left < 1 || !is_black(layers->sheen_part))
         row_color(4, "sheen part", layers->sheen_part, "(1 − share) · sheen_color E(n·v) ⊙ irradiance/π");

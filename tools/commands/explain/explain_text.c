@@ -49,8 +49,8 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
     }
     const lam_explained_light_layers *layers = l->layers;
     bool gates_diffuse = strncmp(model->diffuse, "max(", 4) != 0; // a max() is 0 there already
-    snprintf(remark, sizeof remark, "%s%s%s", layers ? "(1 − share) left · (1 − transmission) " : "",
-             gates_diffuse ? gate : "", model->diffuse);
+    snprintf(remark, sizeof remark, "%s%s%s", layers ? "(1 − share) left · matt · " : "", gates_diffuse ? gate : "",
+             model->diffuse);
     row_number(4, "D", (double)l->D, remark);
     if (!model->base)
         return;

@@ -24,8 +24,9 @@ void texel_direction(int size, int face, int s, int t, float out[3])
 struct cube_sums *cube_sums_make(const struct cube_chain *chain, lam_error *error)
 {
     const struct lam_environment *cube = cube_chain_near(chain, SOURCE_SIZE);
-    size_t count = (size_t)cube->size * (size_t)cube->size * LAM_FACE_COUNT;
-    size_t bytes = sizeof(struct cube_sums) + count * sizeof(float[8]);
+    int n = cube->size;
+    size_t count = (size_t)n * (size_t)n * LAM_FACE_COUNT / 2;
+    size_t bytes = sizeof(struct cube_sums) + count * sizeof(struct opposite_texels);
     struct cube_sums *sums = malloc(bytes);
     if (!sums) {
         fail_memory(error, bytes);
@@ -33,19 +34,23 @@ struct cube_sums *cube_sums_make(const struct cube_chain *chain, lam_error *erro
     }
     sums->count = count;
     double total = 0; // of the solid angles, which are made shares: no sum exceeds the brightest light
-    for (int t = 0; t < cube->size; t++)
-        for (int i = 0; i < cube->size; i++)
-            total += LAM_FACE_COUNT * (double)texel_weight(cube->size, i, t);
-    float(*out)[8] = sums->texel;
-    for (int face = 0; face < LAM_FACE_COUNT; face++)
-        for (int t = 0; t < cube->size; t++)
-            for (int s = 0; s < cube->size; s++, out++) {
+    for (int t = 0; t < n; t++)
+        for (int s = 0; s < n; s++)
+            total += LAM_FACE_COUNT * (double)texel_weight(n, s, t);
+    struct opposite_texels *out = sums->pair;
+    for (int face = 0; face < LAM_FACE_COUNT; face += 2)
+        for (int t = 0; t < n; t++)
+            for (int s = 0; s < n; s++, out++) {
+                // On the opposite face the rows run the other way; on that of −y the columns do (cube_direction).
+                bool upper = face == LAM_FACE_PY;
                 const float *light = cube_texel(cube, face, s, t);
-                texel_direction(cube->size, face, s, t, *out);
-                (*out)[3] = (float)((double)texel_weight(cube->size, s, t) / total);
-                for (int c = 0; c < 3; c++)
-                    (*out)[4 + c] = light[c] * (*out)[3];
-                (*out)[7] = 0;
+                const float *behind = cube_texel(cube, face + 1, upper ? n - 1 - s : s, upper ? t : n - 1 - t);
+                texel_direction(n, face, s, t, out->direction);
+                out->share = (float)((double)texel_weight(n, s, t) / total);
+                for (int c = 0; c < 3; c++) {
+                    out->light[c] = light[c] * out->share;
+                    out->light_behind[c] = behind[c] * out->share;
+                }
             }
     return sums;
 }

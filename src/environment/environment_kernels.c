@@ -149,16 +149,18 @@ static void cube_sums_row(const struct cube_sums *sums, double alpha, struct lam
         num x = num_load(n[0] + s), y = num_load(n[1] + s), z = num_load(n[2] + s);
         num total = num_of(0), r = num_of(0), g = num_of(0), b = num_of(0);
         for (size_t i = 0; i < sums->count; i++) {
-            const float *from = sums->texel[i];
-            num cosine = max_of(x * from[0] + y * from[1] + z * from[2], num_of(0)), weight = cosine;
+            const struct opposite_texels *from = &sums->pair[i];
+            num along = x * from->direction[0] + y * from->direction[1] + z * from->direction[2];
+            num cosine = absolute(along), weight = cosine; // of the one that is above the horizon
+            mask behind = along < 0.0f;
             if (q > 0) {
                 num part = square / (1.0f - q * (1.0f + cosine));
                 weight = cosine * (part * part);
             }
-            total += weight * from[3];
-            r += weight * from[4];
-            g += weight * from[5];
-            b += weight * from[6];
+            total += weight * from->share;
+            r += weight * pick(behind, num_of(from->light_behind[0]), num_of(from->light[0]));
+            g += weight * pick(behind, num_of(from->light_behind[1]), num_of(from->light[1]));
+            b += weight * pick(behind, num_of(from->light_behind[2]), num_of(from->light[2]));
         }
         const num mean[3] = {r / total, g / total, b / total};
         for (int k = 0; k < LANES && s + k < cube->size; k++)

@@ -17,10 +17,13 @@ struct lobe_cells {
     struct cell cell[CELLS_MAX];
 };
 
-// The texels of a small copy of a cube.
+// The texels of a small copy of a cube, each with the one in the opposite direction.
 struct cube_sums {
     size_t count;
-    float texel[][8]; // unit direction, share of the sphere, red, green and blue times that
+    struct opposite_texels {
+        float direction[3], share;       // unit; of the sphere, of either
+        float light[3], light_behind[3]; // times the share
+    } pair[];
 };
 
 struct environment_kernels {

@@ -33,12 +33,13 @@ static const struct {
     int size;
     double core, growth;
 } levels[ENVIRONMENT_LEVELS] = {
-    {0},          {112, 0.8, 3.0}, {128, 0.6, 1.8}, {80, 0.5, 1.7}, {64, 0.4, 1.5}, {48, 0.35, 1.4},
-    {.size = 32}, {.size = 24},    {.size = 16},    {.size = 16},   {.size = 16},   {.size = 16}};
+    {0},          {96, 1.0, 2.6}, {112, 0.8, 1.8}, {80, 0.8, 1.8}, {56, 0.35, 1.6}, {40, 0.35, 1.4},
+    {.size = 32}, {.size = 24},   {.size = 16},    {.size = 16},   {.size = 16},    {.size = 16}};
 
 // What the far part of a lobe adds changes slowly: it is summed for a cube of a quarter of the size. Far is more than
 // FAR_TEXELS of that cube's texels away.
-enum { FAR_SHRINK = 4, FAR_TEXELS = 2 };
+enum { FAR_SHRINK = 4 };
+#define FAR_TEXELS 1.5
 static int far_size(int level) { return levels[level].growth > 0 ? levels[level].size / FAR_SHRINK : 0; }
 
 int prefiltered_size(int level) { return levels[level].size; }

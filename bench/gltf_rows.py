@@ -1,5 +1,6 @@
 """gltf_rows.py: rows of glTF files: textured models from the collection next to the checkout, alone and under an environment, and GLB files of
 1 and 10 million triangles, which are made here. Whole processes against F3D (whole.py); the prefilter of an environment by itself."""
+import base64
 import functools
 import json
 import os
@@ -13,6 +14,7 @@ import whole
 # Textured files that both programs read (no extension that F3D 1.3 lacks).
 TEXTURED = {"knight": "glb/kaykit_adventurers/Knight.glb", "normal tangent": "glb/playcanvas/NormalTangentTest.glb",
             "toy car": "gltf-tests/khronos/ToyCar/glTF/ToyCar.gltf"}
+BESIDES_DECODING = 8  # F3D's CPU time, at least so many times ours without that of decoding the pictures
 ENVIRONMENT = "env/kloppenheim_05_1k.hdr"
 
 
@@ -59,8 +61,37 @@ def glb(triangles):
     return made
 
 
-def pair(label, path, isas, display, seconds, environment=None):
-    """One file by both programs; the result as of whole.whole. One sample for equal work, since F3D smooths no edges."""
+def chunks(path):
+    """The document of a .gltf or .glb, and the bytes behind it."""
+    with open(path, "rb") as file:
+        data = file.read()
+    if data[:4] != b"glTF":
+        return json.loads(data), b""
+    length, = struct.unpack_from("<I", data, 12)
+    return json.loads(data[20:20 + length]), data[28 + length:]
+
+
+def pictures(path):
+    """The files of a model's pictures; those inside of it are written to files of their own."""
+    document, binary = chunks(path)
+    files = []
+    for number, image in enumerate(document.get("images", [])):
+        uri = image.get("uri", "")
+        if uri and not uri.startswith("data:"):
+            files.append(os.path.join(os.path.dirname(path), uri))
+            continue
+        view = document["bufferViews"][image["bufferView"]] if not uri else {}
+        begin = view.get("byteOffset", 0)
+        data = base64.b64decode(uri.partition(",")[2]) if uri else binary[begin:begin + view["byteLength"]]
+        files.append(os.path.join(paths.OUT, "models", "%s-%d.picture" % (os.path.basename(path), number)))
+        with open(files[-1], "wb") as file:
+            file.write(data)
+    return files
+
+
+def pair(label, path, isas, display, seconds, environment=None, decoding=False):
+    """One file by both programs; the result as of whole.whole. One sample for equal work, since F3D smooths no edges.
+    `decoding`: that of its pictures is measured by itself too."""
     file_name = label.replace(" ", "-").replace(",", "")
     ours, theirs = whole.picture(file_name + "-lambent"), whole.picture(file_name + "-f3d")
     options = ["--samples", "1"] + (["--environment", environment] if environment else [])
@@ -71,10 +102,17 @@ def pair(label, path, isas, display, seconds, environment=None):
         return [paths.LAMBENT, "-q", path, "-s", str(whole.SIZE), *options, "--isa", isa, "-o", ours]
     contestants = {isa: (lambda isa=isa: measure.whole_process(command(isa), ours)) for isa in isas}
     contestants["f3d"] = lambda: display.f3d(peer, theirs)
+    if decoding:
+        os.makedirs(os.path.join(paths.OUT, "models"), exist_ok=True)
+        decode = [paths.program("decode"), *pictures(path)]
+        contestants["decoding"] = lambda: measure.process(decode)
     taken = measure.in_turn(contestants, seconds)
+    decoded = [t.cpu_ms for t in taken.pop("decoding", [])]
     wall = {key: [t.wall_ms for t in rounds] for key, rounds in taken.items()}
     cpu = {key: [t.cpu_ms for t in rounds] for key, rounds in taken.items()}
-    return {"file_bytes": os.path.getsize(path), "triangles": report["model"]["triangles"], "samples": 1,
+    besides = {"decoding_cpu_ms": measure.spread(decoded), "besides_decoding_ratio": {
+        isa: measure.ratio(cpu["f3d"], [all_of_it - part for all_of_it, part in zip(cpu[isa], decoded)]) for isa in isas}} if decoding else {}
+    return {"file_bytes": os.path.getsize(path), "triangles": report["model"]["triangles"], "samples": 1, **besides,
             "options": [os.path.relpath(o, paths.ROOT) if o == environment else o for o in options], "size": whole.SIZE,
             "ms": {key: measure.spread(t) for key, t in wall.items()}, "cpu_ms": {key: measure.spread(t) for key, t in cpu.items()},
             "ratio": {isa: measure.ratio(wall["f3d"], wall[isa]) for isa in isas},
@@ -85,7 +123,7 @@ def pair(label, path, isas, display, seconds, environment=None):
 def rows(isas, display):
     """(name, target of the CPU time's ratio or None, target of the wall time's, function that measures)."""
     for name, path in TEXTURED.items():
-        yield "glb " + name, 3, None, functools.partial(lambda label, file: pair(label, real(file), isas, display, 3), "glb " + name, path)
+        yield "glb " + name, 3, None, functools.partial(lambda label, file: pair(label, real(file), isas, display, 3, decoding=True), "glb " + name, path)
     for name in ("knight", "toy car"):
         label = "glb %s, environment" % name
         yield label, 40, None, functools.partial(lambda label, file: pair(label, real(file), isas, display, 3, real(ENVIRONMENT)),

@@ -86,6 +86,9 @@ def beside(row):
     if "cpu_ms" in row:
         text += "; CPU time " + ", ".join("%s %s" % (ISA_NAMES.get(key, key), ms(t["median"])) for key, t in row["cpu_ms"].items()) + " ms (%s)" % (
             ", ".join("%s: %s" % (ISA_NAMES.get(isa, isa), times(r["median"])) for isa, r in row["cpu_ratio"].items()))
+    if "decoding_cpu_ms" in row:
+        text += "; of that decoding the pictures %s ms; all else: %s" % (ms(row["decoding_cpu_ms"]["median"]), ", ".join(
+            "%s %s" % (ISA_NAMES.get(isa, isa), times(r["median"])) for isa, r in row["besides_decoding_ratio"].items()))
     extra = ["%s: %s" % (key, times(r["median"])) for key, r in row.get("ratio", {}).items() if key not in ISA_NAMES]
     if "alone_ratio" in row:
         extra += ["%s: %.2f of one alone, %.0f %% busy" % (ISA_NAMES.get(isa, isa), r["median"], 100 * row["busy"][isa]) for isa, r in row["alone_ratio"].items()]

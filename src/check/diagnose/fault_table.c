@@ -496,16 +496,16 @@ const struct fault faults[] = {
         "vec3 bump = texture({normal_map}, {uv}).xyz * 2.0 - 1.0; // no pow, and no sRGB format",
         .maps = MAPS_NORMAL | MAPS_DERIVATIVES),
     ROW("normal-map-without-frame", BITS(NORMAL_MAP_AS_WORLD), 0, NEED_NORMAL_MAP,
-        "what the normal map says is used as a normal in {space} space; it is in the surface's frame of tangent, "
-        "bitangent and normal",
+        "what the normal map holds is used as a normal in the space of the lights; it is given along the surface's "
+        "tangent, bitangent and normal",
         "vec3 n = normalize(mat3(T, B, N) * (texture({normal_map}, {uv}).xyz * 2.0 - 1.0));", .maps = MAPS_NORMAL),
     ROW("frame-transposed", BITS(FRAME_TRANSPOSED), 0, NEED_NORMAL_MAP,
-        "the normal of the map is multiplied by the transpose of the frame, which leads from {space} space to the "
-        "surface's",
+        "the normal of the map is multiplied by the transposed frame, which leads the other way: into the surface's "
+        "own axes",
         "vec3 n = normalize(mat3(T, B, N) * bump); // the matrix on the left", .maps = MAPS_NORMAL),
     ROW("frame-transposed", BITS(FRAME_TRANSPOSED, FRAME_INTERPOLATED), 0, NEED_NORMAL_MAP,
-        "the normal of the map is multiplied by the transpose of the frame, which leads from {space} space to the "
-        "surface's",
+        "the normal of the map is multiplied by the transposed frame, which leads the other way: into the surface's "
+        "own axes",
         "vec3 n = normalize(mat3(T, B, N) * bump); // the matrix on the left", .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("bent-normal-not-unit", BITS(BENT_NORMAL_LONG), 0, NEED_NORMAL_MAP,
         "the normal is not normalized after the normal map has bent it; filtered texels are shorter than 1",
@@ -517,16 +517,17 @@ const struct fault faults[] = {
         "the bitangent points the wrong way: green of the normal map is reversed, or B is cross(T, N)",
         "vec3 B = cross(N, T); // and bump.y as it is", .maps = MAPS_NORMAL | MAPS_DERIVATIVES | MAPS_DOWN),
     ROW("bitangent-reversed", BITS(FRAME_COTANGENT), 0, NEED_NORMAL_MAP,
-        "the bitangent points along v, but v runs downward in the picture: green of the normal map points upward",
+        "the bitangent points along v, and green of the normal map with it; here v runs downward in the picture, and "
+        "green points upward",
         "bump.y = -bump.y; // or B = -B", .maps = MAPS_NORMAL | MAPS_DERIVATIVES | MAPS_DOWN),
     ROW("tangent-reversed", BITS(TANGENT_REVERSED), 0, NEED_NORMAL_MAP,
         "the tangent points the wrong way: red of the normal map is reversed",
         "vec3 T = normalize(mat3({model_view}) * {tangent}.xyz); // and bump.x as it is",
         .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("tangent-reversed", BITS(FRAME_DERIVED), 0, NEED_NORMAL_MAP,
-        "the tangent from derivatives points the wrong way, for v runs downward in the picture: what "
-        "dFdx(p) * dFdy(uv).y - dFdy(p) * dFdx(uv).y gives has to be divided by the determinant of the derivatives of "
-        "uv",
+        "the tangent points the wrong way, so that red of the normal map is reversed: here v runs downward in the "
+        "picture, and the expression of derivatives has to be divided by the determinant of those of the texture "
+        "coordinates",
         "vec3 T = normalize((dFdx(p) * dFdy({uv}).y - dFdy(p) * dFdx({uv}).y) / (dFdx({uv}).x * dFdy({uv}).y - "
         "dFdy({uv}).x * "
         "dFdx({uv}).y)), B = cross(N, T);",
@@ -690,29 +691,28 @@ const struct fault faults[] = {
         "the maps of colours are decoded by the exact curve of sRGB, where the course has pow(x, 2.2)", NULL,
         .style = true, .maps = MAPS_ENCODED),
     ROW("frame-from-derivatives", BITS(FRAME_DERIVED), 0, 0,
-        "tangent and bitangent come from derivatives, with green of the normal map against v, as LearnOpenGL has them: "
-        "right "
-        "where the texture is not mirrored",
+        "tangent and bitangent are computed from derivatives, as LearnOpenGL does it, with green of the normal map "
+        "pointing against v; that is right where the texture is not mirrored",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_DERIVATIVES | MAPS_UP),
     ROW("frame-from-derivatives", BITS(FRAME_DERIVED, BITANGENT_REVERSED), 0, 0,
-        "tangent and bitangent come from derivatives, with green of the normal map along v: right where the texture is "
-        "not "
-        "mirrored",
+        "tangent and bitangent are computed from derivatives, with green of the normal map pointing along v; that is "
+        "right where the texture is not mirrored",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_DERIVATIVES | MAPS_UP),
     ROW("frame-from-derivatives", BITS(FRAME_DERIVED_SIGNED), 0, 0,
-        "tangent and bitangent come from derivatives, as in Khronos' sample viewer: right where the texture is not "
-        "mirrored",
+        "tangent and bitangent are computed from derivatives, as Khronos' sample viewer does it; that is right where "
+        "the texture is not mirrored",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_DERIVATIVES),
     ROW("frame-from-derivatives", BITS(FRAME_COTANGENT), 0, 0,
-        "tangent and bitangent come from derivatives, as three.js has them, with green of the normal map along v", NULL,
-        .style = true, .maps = MAPS_NORMAL | MAPS_DERIVATIVES | MAPS_UP),
+        "tangent and bitangent are computed from derivatives, as three.js does it, with green of the normal map "
+        "pointing along v",
+        NULL, .style = true, .maps = MAPS_NORMAL | MAPS_DERIVATIVES | MAPS_UP),
     ROW("frame-from-derivatives", BITS(FRAME_COTANGENT, BITANGENT_REVERSED), 0, 0,
-        "tangent and bitangent come from derivatives, as three.js has them, with green of the normal map against v",
+        "tangent and bitangent are computed from derivatives, as three.js does it, with green of the normal map "
+        "pointing against v",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_DERIVATIVES),
     ROW("bitangent-transformed", BITS(BITANGENT_BY_MODEL), 0, 0,
-        "the bitangent is transformed like the tangent; beside the cross product of both it leans where a matrix "
-        "stretches "
-        "the surface, and both are in use",
+        "the bitangent is transformed by the matrix, as the tangent is; where that stretches the surface, it differs "
+        "from the cross product of normal and tangent, and both are in use",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("rim-kept", BITS(RIM_KEPT), WHERE_PHYSICAL | WHERE_SMITH, 0,
         "the highlight is kept where n.v is not above 0, with n.v clamped there; only interpolated normals at rims are "

@@ -232,18 +232,19 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
         ranges += mesh->part_count ? mesh->part_count : 1;
         strokes += mesh_is_strokes(mesh);
     }
-    size_t materials = 3 * ((size_t)scene->materials.count + 1) + 1, turned = frame_materials_turned(frame, scene);
+    size_t materials = 3 * ((size_t)scene->materials.count + 1) + 1,
+           converted = frame_materials_to_convert(frame, scene);
     size_t bytes = objects * sizeof *frame->draws + ranges * sizeof *frame->ranges + lights * sizeof *frame->lights +
                    lights * sizeof *frame->hemispheres + materials * sizeof *frame->materials +
-                   turned * sizeof *frame->turned + strokes * sizeof *frame->stroke_meshes + 64;
+                   converted * sizeof *frame->converted + strokes * sizeof *frame->stroke_meshes + 64;
     if (!buffer_reserve(&frame->storage, bytes, call, error))
         return false;
     char *at = frame->storage.data;
     // In the order of their alignment: ranges are the only ones without a pointer or a double.
     frame->materials = (void *)at;
     at += materials * sizeof *frame->materials;
-    frame->turned = (void *)at;
-    at += turned * sizeof *frame->turned;
+    frame->converted = (void *)at;
+    at += converted * sizeof *frame->converted;
     frame->stroke_meshes = (void *)at;
     at += strokes * sizeof *frame->stroke_meshes;
     frame->draws = (void *)at;

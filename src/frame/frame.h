@@ -155,8 +155,8 @@ struct frame {
     // these. Each is of the kind that its model lights.
     const lam_material **materials;
     int material_count, scene_material_count; // all; without those backs
-    lam_material *turned;                     // materials of the other kind than the scene's
-    int turned_count;
+    lam_material *converted;                  // materials of the other kind than the scene's
+    int converted_count;
     lam_mesh *stroke_meshes; // one for each draw of lines or points
     int stroke_mesh_count;
     struct frame_light *lights;
@@ -214,8 +214,8 @@ static inline void frame_to_world(const struct frame_draw *draw, const float fro
 // Whether a model lights physical materials.
 bool frame_is_physical(lam_reflection model);
 
-// The greatest number of materials that frame_materials_build and frame_back_material turn into the other kind.
-size_t frame_materials_turned(const struct frame *frame, const lam_scene *scene);
+// The greatest number of materials that frame_materials_build and frame_back_material convert to the other kind.
+size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *scene);
 void frame_materials_build(struct frame *frame, const lam_scene *scene);
 // The layers of a material that the frame draws: LAYER_…. Light goes through surfaces under Phong shading only.
 int frame_layers(const struct frame *frame, const lam_material *material);

@@ -1,4 +1,4 @@
-// frame_materials.c: the reflection model of each material, and materials turned into the kind that their model lights.
+// frame_materials.c: the reflection model of each material, and materials converted to the kind that their model lights.
 #define LANES 1
 #include "lighting.h"
 
@@ -26,7 +26,7 @@ static bool fits(const lam_material *material, lam_reflection model)
     return model == LAM_REFLECTION_NONE || material->physical == frame_is_physical(model);
 }
 
-static lam_material turned(const lam_material *material, lam_reflection model)
+static lam_material converted(const lam_material *material, lam_reflection model)
 {
     if (frame_is_physical(model))
         return lam_material_as_physical(material);
@@ -36,7 +36,7 @@ static lam_material turned(const lam_material *material, lam_reflection model)
     return classic;
 }
 
-size_t frame_materials_turned(const struct frame *frame, const lam_scene *scene)
+size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *scene)
 {
     size_t count = 0;
     bool physical = scene->default_material.physical, mixed = false;
@@ -58,19 +58,19 @@ void frame_materials_build(struct frame *frame, const lam_scene *scene)
 {
     frame->default_material = scene->default_material;
     frame->scene_material_count = frame->material_count = scene->materials.count + 1;
-    frame->turned_count = 0;
+    frame->converted_count = 0;
     for (int i = 0; i < frame->material_count; i++) {
         const lam_material *material = i ? lam_scene_material(scene, i - 1) : &frame->default_material;
         lam_reflection model = frame_reflection(frame, material);
         frame->materials[i] = material;
         if (!fits(material, model)) {
-            frame->turned[frame->turned_count] = turned(material, model);
-            frame->materials[i] = &frame->turned[frame->turned_count++];
+            frame->converted[frame->converted_count] = converted(material, model);
+            frame->materials[i] = &frame->converted[frame->converted_count++];
         }
     }
 }
 
-// Has all materials `times` times in the list.
+// Repeats the list of materials, so that it holds all of them `times` times.
 static void repeat_materials(struct frame *frame, int times)
 {
     for (; frame->material_count < times * frame->scene_material_count; frame->material_count++)
@@ -86,8 +86,8 @@ int frame_back_material(struct frame *frame, int front, int back)
     int second = frame->scene_material_count + back;
     repeat_materials(frame, 2);
     if (frame->materials[second] == material) {
-        frame->turned[frame->turned_count] = turned(material, model);
-        frame->materials[second] = &frame->turned[frame->turned_count++];
+        frame->converted[frame->converted_count] = converted(material, model);
+        frame->materials[second] = &frame->converted[frame->converted_count++];
     }
     return second;
 }
@@ -100,7 +100,7 @@ int frame_stroke_material(struct frame *frame, int front)
     int third = 2 * frame->scene_material_count + front;
     repeat_materials(frame, 3);
     if (frame->materials[third] == material) {
-        lam_material *unlit = &frame->turned[frame->turned_count++];
+        lam_material *unlit = &frame->converted[frame->converted_count++];
         *unlit = *material;
         unlit->diffuse.r += material->emission.r;
         unlit->diffuse.g += material->emission.g;
@@ -122,7 +122,7 @@ void frame_material_colors(const lam_material *material, float kd[3], float ks[3
 
 bool frame_material_is_converted(const struct frame *frame, const lam_material *material)
 {
-    return !material->physical && material >= frame->turned && material < frame->turned + frame->turned_count;
+    return !material->physical && material >= frame->converted && material < frame->converted + frame->converted_count;
 }
 
 int frame_layers(const struct frame *frame, const lam_material *material)

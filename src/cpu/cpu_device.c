@@ -164,7 +164,10 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
                    .guard = {65536.0f, 65536.0f},
                    .bins = device->bins,
                    .thread_count = device->thread_count},
-        .shade = {.frame = frame, .decode_srgb = device->decode_srgb, .decode_linear = device->decode_linear},
+        .shade = {.frame = frame,
+                  .decode_srgb = device->decode_srgb,
+                  .decode_linear = device->decode_linear,
+                  .recorder = base->recorder},
         .target = {.frame = frame, .image = converted ? &working : image, .converted = converted ? image : NULL},
         .kernels = device->kernels,
         .call = call,
@@ -198,7 +201,6 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     base->report.triangles_ms = milliseconds_since(&clock);
     if (!step_done(&cpu, error))
         return false;
-    cpu.shade.recorder = base->recorder;
     bool ok = true;
     if (frame->makes_normals || cpu.shade.occlusion)
         ok = cover_in_advance(&cpu, &device->visible, error) && step_done(&cpu, error);

@@ -2,6 +2,7 @@
 #include "cpu_frame.h"
 
 #include "fail.h"
+#include "visible_triangles.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -206,18 +207,23 @@ static bool set_up_shading(struct cpu_frame *cpu, struct frame_memory *memory, l
 bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
 {
     const struct frame *frame = cpu->raster.frame;
+    if (!list_pieces(cpu, memory, error))
+        return false;
     if (frame->occlusion == LAM_OCCLUSION_RAYS) {
         if (!buffer_reserve(&memory->occlusion, sizeof(struct occlusion_pattern), cpu->call, error))
             return false;
         occlusion_pattern_fill(memory->occlusion.data, frame->occlusion_samples);
         cpu->shade.occlusion_pattern = memory->occlusion.data;
     } else if (frame->occlusion == LAM_OCCLUSION_SCREEN) {
-        if (!screen_occlusion_start(&cpu->occlusion, frame, &memory->occlusion, cpu->pool, cpu->call, error))
+        // Once fragments are kept, the transformed vertices are no longer needed.
+        struct scratch_memory lent = {0};
+        if (keeps_fragments(cpu) && !frame->makes_normals)
+            lent = (struct scratch_memory){.memory = memory->vertices.data, .capacity = memory->vertices.capacity};
+        if (!screen_occlusion_start(&cpu->occlusion, frame, lent, &memory->occlusion, cpu->pool, cpu->call, error))
             return false;
         cpu->shade.occlusion = &cpu->occlusion;
     }
-    return list_pieces(cpu, memory, error) && set_up_shading(cpu, memory, error) &&
-           set_up_threads(cpu, &memory->bins, error);
+    return set_up_shading(cpu, memory, error) && set_up_threads(cpu, &memory->bins, error);
 }
 
 uint64_t frame_memory_bytes(const struct frame_memory *memory)

@@ -8,44 +8,40 @@ enum { LANES_MAX = 16 };
 
 // Rows have LANES_MAX floats more at either end, planes of cells stand in front of those of pixels.
 // In pieces, by all threads: first use of the memory of a large picture takes seconds, in which the call may be stopped.
-enum { PIECE = 1 << 17 };
-struct filling {
+enum { PIECE = 1 << 17, CELL_PLANES = 5 };
+struct emptying {
     float *at;
-    size_t zeros, count; // the others are SCREEN_EMPTY
+    size_t count;
     struct call_control *call;
 };
 
-static void fill_piece(void *user, size_t index, int thread)
+static void empty_piece(void *user, size_t index, int thread)
 {
     (void)thread;
-    const struct filling *filling = user;
-    size_t first = index * PIECE, end = first + PIECE < filling->count ? first + PIECE : filling->count;
-    size_t zeros = filling->zeros < end ? filling->zeros : end;
-    if (!call_should_continue(filling->call))
-        return;
-    for (size_t i = first; i < zeros; i++)
-        filling->at[i] = 0;
-    for (size_t i = first > zeros ? first : zeros; i < end; i++)
-        filling->at[i] = SCREEN_EMPTY;
+    const struct emptying *emptying = user;
+    size_t first = index * PIECE, end = first + PIECE < emptying->count ? first + PIECE : emptying->count;
+    for (size_t i = first; call_should_continue(emptying->call) && i < end; i++)
+        emptying->at[i] = SCREEN_EMPTY;
 }
 
-bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct buffer *storage,
-                            struct pool *pool, struct call_control *call, lam_error *error)
+bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct scratch_memory lent,
+                            struct buffer *storage, struct pool *pool, struct call_control *call, lam_error *error)
 {
     int step = (int64_t)frame->width * frame->height > SCREEN_FINE ? 2 : 1;
     int across = (frame->width + step - 1) / step, down = (frame->height + step - 1) / step;
     int stride = (across + LANES_MAX - 1) / LANES_MAX * LANES_MAX + 2 * LANES_MAX;
-    size_t plane = (size_t)stride * (size_t)down, pixels = (size_t)(step * step) * plane, cells = step > 1 ? plane : 0;
-    if (!buffer_reserve(storage, (4 * plane + cells + 2 * pixels) * sizeof(float), call, error))
+    size_t plane = (size_t)stride * (size_t)down, pixels = (size_t)(step * step) * plane, cells = CELL_PLANES * plane;
+    bool fits = lent.memory && cells * sizeof(float) <= lent.capacity;
+    if (!buffer_reserve(storage, (pixels + (fits ? 0 : cells)) * sizeof(float), call, error))
         return false;
-    float *at = storage->data, *depth = at + 4 * plane;
-    // Beside the cells a filter reads numbers, which do not count.
-    struct filling filling = {at, 4 * plane, 4 * plane + cells + pixels, call};
-    pool_run(pool, (filling.count + PIECE - 1) / PIECE, fill_piece, &filling);
+    float *depth = storage->data, *at = fits ? lent.memory : depth + pixels;
+    struct emptying emptying = {depth, pixels, call};
+    pool_run(pool, (pixels + PIECE - 1) / PIECE, empty_piece, &emptying);
     if (!call_should_continue(call))
         return call_error(call, error);
     at += LANES_MAX;
     depth += LANES_MAX;
+    float *fifth = at + 4 * plane;
     *occlusion = (struct screen_occlusion){.width = frame->width,
                                            .height = frame->height,
                                            .step = step,
@@ -60,10 +56,34 @@ bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct fra
                                            .slope_y = at + plane,
                                            .noisy = at + 2 * plane,
                                            .smoothed = at + 3 * plane,
-                                           .cell_depth = depth,
-                                           .depth = depth + cells,
-                                           .unoccluded = depth + cells + pixels};
+                                           .cell_depth = step > 1 ? fifth : depth,
+                                           .depth = depth,
+                                           .unoccluded = step > 1 ? depth : fifth};
     return true;
+}
+
+static void fill_beside(const struct screen_occlusion *o, float *plane, int y, float value)
+{
+    float *row = plane + (size_t)y * (size_t)o->stride;
+    for (int x = y > 0 ? 0 : -LANES_MAX; x < 0; x++)
+        row[x] = value;
+    for (int x = o->grid_width; x < o->stride - LANES_MAX; x++)
+        row[x] = value;
+    for (int x = o->stride - LANES_MAX; x < o->stride && y + 1 < o->grid_height; x++) // before the next row
+        row[x] = value;
+}
+
+// Beside the cells a filter reads numbers, which do not count, and sees no surface.
+static void fill_rows_beside(const struct screen_occlusion *o, int first, int end)
+{
+    for (int y = first; y < end; y++) {
+        fill_beside(o, o->slope_x, y, 0);
+        fill_beside(o, o->slope_y, y, 0);
+        fill_beside(o, o->noisy, y, 0);
+        fill_beside(o, o->smoothed, y, 0);
+        if (o->step > 1)
+            fill_beside(o, o->cell_depth, y, SCREEN_EMPTY);
+    }
 }
 
 struct pass {
@@ -85,6 +105,7 @@ void screen_occlusion_find(struct screen_occlusion *occlusion, const struct occl
                            struct pool *pool, struct call_control *call)
 {
     size_t pieces = ((size_t)occlusion->grid_height + OCCLUSION_ROWS - 1) / OCCLUSION_ROWS;
+    pool_run(pool, pieces, run_rows, &(struct pass){occlusion, fill_rows_beside, call});
     if (occlusion->step > 1)
         pool_run(pool, pieces, run_rows, &(struct pass){occlusion, kernels->cell_rows, call});
     pool_run(pool, pieces, run_rows, &(struct pass){occlusion, kernels->occlude_rows, call});

@@ -11,6 +11,7 @@
 #include "buffer.h"
 #include "frame.h"
 #include "occlusion_pattern.h"
+#include "scratch_memory.h"
 
 struct pool;
 
@@ -34,7 +35,8 @@ struct screen_occlusion {
     // Of the surface of each cell, found with its occlusion: how the distance grows from cell to cell.
     float *slope_x, *slope_y;
     float *noisy, *smoothed; // before the filter, and after its first pass
-    float *unoccluded; // the result, in the order of `depth`: 1 where all light from around arrives … 0 where none does
+    // The result, in the order of `depth` and, with step 2, in its place: 1 where all light from around arrives … 0 where none does.
+    float *unoccluded;
 };
 
 // Farther than any surface; its square is a float.
@@ -75,9 +77,10 @@ static inline float screen_ground_depth(const struct frame *frame, int x, int y)
     return seen && (dx * dx + dy * dy) + dz * dz < end * end ? depth : SCREEN_EMPTY;
 }
 
-// Sets up a picture's rows in `storage`, without any surface, by several threads (`pool` NULL: one).
-bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct buffer *storage,
-                            struct pool *pool, struct call_control *call, lam_error *error);
+// Sets up a picture's rows in `storage`, without any surface, by several threads (`pool` NULL: one). `lent` is memory, if any,
+// that nothing else uses from screen_occlusion_find on until the result has been read; the cells lie there where it is large enough.
+bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct scratch_memory lent,
+                            struct buffer *storage, struct pool *pool, struct call_control *call, lam_error *error);
 
 // The steps (screen_occlusion.inc, compiled for each instruction set), for rows of cells from `first` to before `end`: the
 // depth of each cell (with step 2), its occlusion, the two passes of its filter, and its pixels. Each step takes all rows

@@ -185,13 +185,19 @@ static bool make_normals(struct cpu_frame *cpu, struct visible_buffers *buffers,
     return true;
 }
 
+bool keeps_fragments(const struct cpu_frame *cpu)
+{
+    const struct frame *frame = cpu->raster.frame;
+    return !frame->translucent && !cpu->shade.recorder && lam_output_is_light(frame->output);
+}
+
 bool cover_in_advance(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error)
 {
     const struct frame *frame = cpu->raster.frame;
     buffers->search_ms = 0;
     if (frame->makes_normals && !make_set(cpu, buffers, error))
         return false;
-    if (!frame->translucent && !cpu->shade.recorder && lam_output_is_light(frame->output)) {
+    if (keeps_fragments(cpu)) {
         if (!search_tiles(cpu, buffers, error))
             return false;
     } else {

@@ -16,6 +16,9 @@ struct visible_buffers {
     double search_ms;        // of the last frame: finding the visible triangles of each tile
 };
 
+// Whether each tile's fragments are found in advance and kept until they are lit, if anything is found in advance.
+bool keeps_fragments(const struct cpu_frame *cpu);
+
 // Finds the distances of the surfaces (cpu->occlusion), and the visible triangles and their normals, as far as the frame
 // needs them. If all surfaces are opaque, each tile's fragments are found on the way and kept; otherwise every binned
 // triangle counts as visible.

@@ -21,7 +21,7 @@ static struct mesh_edge edge_of(const lam_mesh *mesh, const struct corner_weld *
     for (uint32_t i = 0; i < count; i++)
         inner &= is_inner(mesh, (uint32_t)keys[i]);
     edge.kind = (inner ? EDGE_INNER : 0) | (count == 1 ? EDGE_OPEN : 0) | (count > 2 ? EDGE_SHARED : 0);
-    if (count == 2 && corner_weld_of(weld, edge.corner) == corner_weld_of(weld, edge.other))
+    if (count == 2 && weld->of[edge.corner] == weld->of[edge.other])
         edge.kind |= EDGE_ALIKE;
     return edge;
 }
@@ -30,8 +30,7 @@ static struct mesh_edge edge_of(const lam_mesh *mesh, const struct corner_weld *
 static bool ends_of(const struct corner_weld *weld, uint32_t corner, uint32_t *low, uint32_t *high)
 {
     uint32_t first = corner - corner % 3;
-    uint32_t v[3] = {corner_weld_of(weld, first), corner_weld_of(weld, first + (size_t)1),
-                     corner_weld_of(weld, first + (size_t)2)};
+    uint32_t v[3] = {weld->of[first], weld->of[first + (size_t)1], weld->of[first + (size_t)2]};
     uint32_t a = v[corner % 3], b = v[(corner + 1) % 3];
     *low = a < b ? a : b;
     *high = a < b ? b : a;

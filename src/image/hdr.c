@@ -159,14 +159,18 @@ static void fill_scale(float scale[256])
         scale[exponent] = exponent > 10 ? (float)value : 0.0f;
 }
 
+// A file is small for its picture where a byte of it stands for more pixels: uncompressed ones take four bytes.
+enum { PIXELS_OF_A_BYTE = 2 };
+
 static bool read_rows(const struct picture_file *file, const struct header *header, uint8_t *row, lam_image *image,
                       lam_error *error)
 {
     const uint8_t *end = file->bytes + file->size;
     float scale[256];
     fill_scale(scale);
-    // Every row is read twice: the first pass finds a small file that claims a huge picture before memory is allocated.
-    for (int pass = 0; pass < 2; pass++) {
+    // The rows of a small file that claims a huge picture are read twice: the first pass finds that before memory is allocated.
+    size_t pixels = (size_t)header->width * (size_t)header->height;
+    for (int pass = pixels / PIXELS_OF_A_BYTE < file->size; pass < 2; pass++) {
         const uint8_t *at = file->bytes + header->pixels;
         if (pass == 1 &&
             !picture_make(file, (uint32_t)header->width, (uint32_t)header->height, LAM_RGBA32F, image, error))

@@ -14,7 +14,8 @@
 
 #include <lambent/lambent.h>
 
-#include "environment_light.h"
+#include "cpu_features.h"
+#include "environment_kernels.h"
 #include "environment_scene.h"
 #include "share.h"
 #include "texture_map.h"
@@ -200,6 +201,43 @@ static void test_same_bytes(void **state)
     lam_image_free(&first);
 }
 
+// The sums are the same with every instruction set. `alpha` of cube_sums_row < 0: the irradiance.
+static void test_kernels(void **state)
+{
+    (void)state;
+    enum { SIZE = 21, ROW = 3 * (SIZE + 2) }; // no multiple of any number of lanes
+    lam_error error;
+    lam_environment *environment = make_environment();
+    struct cube_chain chain;
+    assert_true(cube_chain_make(&chain, environment, NULL, NULL, &error));
+    struct cube_sums *sums = cube_sums_make(&chain, &error);
+    assert_non_null(sums);
+    struct lobe_cells cells = {.count = 60};
+    for (int i = 0; i < cells.count; i++) {
+        double angle = i * 2.4, away = i / 40.0, z = 1 - away, r = sqrt(1 - z * z);
+        cells.cell[i] = (struct cell){(float)(r * cos(angle)), (float)(r * sin(angle)), (float)z, 1.0f / 60,
+                                      &chain.cube[i % chain.count]};
+    }
+    static float texels[3][LAM_FACE_COUNT * (SIZE + 2) * ROW + CUBE_TEXELS_AFTER];
+    for (int lanes = 0; lanes < 3; lanes++) {
+        const struct environment_kernels *kernels =
+            CPU_WIDEST(4 << lanes, &environment_kernels_scalar, &environment_kernels_avx2, &environment_kernels_avx512);
+        struct lam_environment out = {.size = SIZE, .texels = texels[lanes]};
+        for (int row = 0; row < LAM_FACE_COUNT * SIZE; row++) {
+            int face = row / SIZE, t = row % SIZE;
+            if (t % 3 == 0)
+                kernels->prefilter_row(&cells, 0, cells.count, t % 2 ? &chain.cube[2] : NULL, &out, face, t);
+            else
+                kernels->cube_sums_row(sums, t % 3 == 1 ? -1 : 0.3, &out, face, t);
+        }
+        assert_memory_equal(texels[lanes], texels[0], sizeof *texels);
+    }
+    assert_true(cube_texel(&(struct lam_environment){.size = SIZE, .texels = texels[0]}, 5, 20, 20)[1] > 0);
+    free(sums);
+    cube_chain_free(&chain);
+    lam_environment_free(environment);
+}
+
 // Cubes of any size are prefiltered, the smallest too, and light too strong for floats' sums stays finite.
 static void test_any_size(void **state)
 {
@@ -343,9 +381,9 @@ static void test_levels_of_maps(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_split_sum),     cmocka_unit_test(test_white_furnace),
-                                       cmocka_unit_test(test_same_bytes),    cmocka_unit_test(test_any_size),
-                                       cmocka_unit_test(test_parts),         cmocka_unit_test(test_map_ranges),
-                                       cmocka_unit_test(test_levels_of_maps)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_split_sum),  cmocka_unit_test(test_white_furnace),
+                                       cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_any_size),
+                                       cmocka_unit_test(test_kernels),    cmocka_unit_test(test_parts),
+                                       cmocka_unit_test(test_map_ranges), cmocka_unit_test(test_levels_of_maps)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -267,7 +267,7 @@ static void equal_hashes_are_distinguished(void **state)
     assert_true(corner_weld(&weld, &mesh, &memory, NULL, NULL));
     assert_int_equal(weld.items, ALL);
     for (uint32_t i = 0; i < ALL; i++)
-        assert_int_equal(weld.first[i], i % VERTICES);
+        assert_int_equal(weld.of[i], i % VERTICES);
     arena_free(&memory);
     free(numbers);
     free(indices);

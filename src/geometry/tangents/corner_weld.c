@@ -80,16 +80,16 @@ static int by_numbers(const void *a, const void *b)
 }
 
 // Welds the items of one hash. Most runs hold equal items; the others are sorted in an array of their own.
-static bool weld_run(struct corner_weld *weld, const lam_mesh *mesh, const struct hashed_item *run, uint32_t count,
-                     struct call_control *call, lam_error *error)
+static bool weld_run(uint32_t *firsts, bool by_vertex, const lam_mesh *mesh, const struct hashed_item *run,
+                     uint32_t count, struct call_control *call, lam_error *error)
 {
     struct item_bits first, other;
     bool equal = true;
-    bits_of(mesh, weld->vertices != NULL, run[0].item, &first);
+    bits_of(mesh, by_vertex, run[0].item, &first);
     for (uint32_t i = 0; i < count; i++) {
-        weld->first[run[i].item] = run[0].item;
+        firsts[run[i].item] = run[0].item;
         if (i && equal) {
-            bits_of(mesh, weld->vertices != NULL, run[i].item, &other);
+            bits_of(mesh, by_vertex, run[i].item, &other);
             equal = memcmp(first.numbers, other.numbers, sizeof first.numbers) == 0;
         }
     }
@@ -103,11 +103,11 @@ static bool weld_run(struct corner_weld *weld, const lam_mesh *mesh, const struc
         return call_memory_error(call, count * sizeof *all, error);
     }
     for (uint32_t i = 0; i < count; i++)
-        bits_of(mesh, weld->vertices != NULL, run[i].item, &all[i]);
+        bits_of(mesh, by_vertex, run[i].item, &all[i]);
     qsort(all, count, sizeof *all, by_numbers); // the order is total: any sorting gives the same
     for (uint32_t i = 0, from = 0; i < count; i++) {
         from = memcmp(all[i].numbers, all[from].numbers, sizeof all[i].numbers) == 0 ? from : i;
-        weld->first[all[i].item] = all[from].item;
+        firsts[all[i].item] = all[from].item;
     }
     arena_free(&memory);
     return true;
@@ -117,13 +117,15 @@ bool corner_weld(struct corner_weld *weld, const lam_mesh *mesh, struct arena *m
                  lam_error *error)
 {
     bool by_vertex = mesh->indices && !mesh->normal_indices && !mesh->texcoord_indices;
-    weld->vertices = by_vertex ? mesh->indices : NULL;
-    weld->items = by_vertex ? mesh->vertex_count : 3 * mesh->triangle_count;
-    weld->first = arena_array(memory, weld->items, sizeof *weld->first);
+    uint32_t corners = 3 * mesh->triangle_count;
+    weld->items = by_vertex ? mesh->vertex_count : corners;
+    uint32_t *firsts = arena_array(memory, weld->items, sizeof *firsts);
+    uint32_t *of = by_vertex ? arena_array(memory, corners, sizeof *of) : firsts;
     struct hashed_item *items = arena_array(memory, weld->items, sizeof *items);
     struct hashed_item *sorted = arena_array(memory, weld->items, sizeof *sorted);
-    if (!weld->first || !items || !sorted)
-        return call_memory_error(call, weld->items * (sizeof *weld->first + 2 * sizeof *items), error);
+    if (!firsts || !of || !items || !sorted)
+        return call_memory_error(call, weld->items * (sizeof *firsts + 2 * sizeof *items) + corners * sizeof *of,
+                                 error);
     for (uint32_t i = 0; i < weld->items; i++) {
         if (i % CHECK_INTERVAL == 0 && !call_should_continue(call))
             return call_error(call, error);
@@ -137,8 +139,11 @@ bool corner_weld(struct corner_weld *weld, const lam_mesh *mesh, struct arena *m
             ;
         if (from / CHECK_INTERVAL != to / CHECK_INTERVAL && !call_should_continue(call))
             return call_error(call, error);
-        if (!weld_run(weld, mesh, sorted + from, to - from, call, error))
+        if (!weld_run(firsts, by_vertex, mesh, sorted + from, to - from, call, error))
             return false;
     }
+    for (uint32_t c = 0; by_vertex && c < corners; c++)
+        of[c] = firsts[mesh->indices[c]];
+    weld->of = of;
     return true;
 }

@@ -16,16 +16,9 @@ static inline uint32_t mesh_element(const uint32_t *own, const uint32_t *common,
 
 // The items that are welded: the mesh's vertices, where one index serves the three attributes, else its corners.
 struct corner_weld {
-    const uint32_t *vertices; // the item of each corner; NULL: corner i is item i
     uint32_t items;
-    uint32_t *first; // of each item the first item that is equal to it: itself, or one before it
+    const uint32_t *of; // of each corner the first item that is equal to its own: the number that equal corners share
 };
-
-// The number that equal corners share, below `items`.
-static inline uint32_t corner_weld_of(const struct corner_weld *weld, size_t corner)
-{
-    return weld->first[weld->vertices ? weld->vertices[corner] : (uint32_t)corner];
-}
 
 // Numbers are compared as floats: −0 equals 0. Normals and texture coordinates that the mesh lacks are all equal. n·log n steps at worst, n
 // for files that were not made to collide. `memory` holds the result and the scratch memory.

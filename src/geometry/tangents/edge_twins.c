@@ -28,7 +28,7 @@ static uint32_t list_corners(struct edge_twins *edges, const struct corner_weld 
 {
     uint32_t max = 0;
     for (size_t c = 0; c < corners; c++)
-        edges->first[corner_weld_of(weld, c) + (size_t)1] += !(flags[c / 3] & left_out);
+        edges->first[weld->of[c] + (size_t)1] += !(flags[c / 3] & left_out);
     for (size_t v = 0; v < weld->items; v++) {
         max = edges->first[v + 1] > max ? edges->first[v + 1] : max;
         edges->first[v + 1] += edges->first[v];
@@ -36,7 +36,7 @@ static uint32_t list_corners(struct edge_twins *edges, const struct corner_weld 
     // Filling advances each start to its end; the loop after it restores them.
     for (size_t c = 0; c < corners; c++)
         if (!(flags[c / 3] & left_out))
-            edges->list[edges->first[corner_weld_of(weld, c)]++] = (uint32_t)c;
+            edges->list[edges->first[weld->of[c]]++] = (uint32_t)c;
     for (size_t v = weld->items; v > 0; v--)
         edges->first[v] = edges->first[v - 1];
     edges->first[0] = 0;
@@ -63,7 +63,7 @@ bool edge_twins(struct edge_twins *edges, const struct corner_weld *weld, uint32
             return call_error(call, error);
         for (uint32_t i = edges->first[v]; i < edges->first[v + 1]; i++) {
             uint32_t corner = edges->list[i], prev = prev_corner(corner);
-            uint32_t to = corner_weld_of(weld, next_corner(corner)), from = corner_weld_of(weld, prev);
+            uint32_t to = weld->of[next_corner(corner)], from = weld->of[prev];
             if (to > v)
                 out[out_count++] = edge_key(to, corner);
             if (from > v)

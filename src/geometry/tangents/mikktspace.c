@@ -77,7 +77,7 @@ static void make_group(struct tangent_maker *m, uint32_t corner)
 // the rest have a group of their own.
 static void finish_corner(struct tangent_maker *m, uint32_t corner)
 {
-    uint32_t v = corner_weld_of(&m->weld, corner);
+    uint32_t v = m->weld.of[corner];
     if (m->edges.first[v] < m->edges.first[v + (size_t)1]) {
         uint32_t first = m->edges.list[m->edges.first[v]];
         if (m->groups[first] != NO_CORNER) {

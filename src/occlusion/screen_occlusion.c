@@ -20,7 +20,9 @@ static void empty_piece(void *user, size_t index, int thread)
     (void)thread;
     const struct emptying *emptying = user;
     size_t first = index * PIECE, end = first + PIECE < emptying->count ? first + PIECE : emptying->count;
-    for (size_t i = first; call_should_continue(emptying->call) && i < end; i++)
+    if (!call_should_continue(emptying->call))
+        return;
+    for (size_t i = first; i < end; i++)
         emptying->at[i] = SCREEN_EMPTY;
 }
 

@@ -689,7 +689,7 @@ const struct fault faults[] = {
         NULL, .style = true),
     ROW("maps-of-srgb", BITS(MAPS_OF_SRGB), WHERE_PHYSICAL, 0,
         "the maps of colours are decoded by the exact curve of sRGB, where the course has pow(x, 2.2)", NULL,
-        .style = true, .maps = MAPS_ENCODED),
+        .style = true, .maps = MAPS_BASE | MAPS_ENCODED),
     ROW("frame-from-derivatives", BITS(FRAME_DERIVED), 0, 0,
         "tangent and bitangent are computed from derivatives, as LearnOpenGL does it, with green of the normal map "
         "pointing against v; that is right where the texture is not mirrored",

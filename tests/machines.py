@@ -33,10 +33,12 @@ def sources(machine, long):
     for room in ROOMS:
         files += sorted(glob.glob(os.path.join(ROOT, "src", room, "**", "*.c"), recursive=True))
     files = [path for path in files if long or PROCESSOR.search(open(path).read())]
-    skipped = LEFT_OUT + machine["without"] + ["kernels.c", "environment_kernels.c", "corner_fan_simd.c", "position_simd.c", "edge_rays.c"]
+    skipped = LEFT_OUT + machine["without"] + ["kernels.c", "environment_kernels.c", "corner_fan_simd.c", "position_simd.c", "tangent_kernels.c",
+                                                  "edge_rays.c"]
     for_each = [("src/cpu/kernels.c", kernel) for kernel in machine["kernels"]]
     for_each += [("src/environment/environment_kernels.c", ("scalar", 4))]
     for_each += [("src/geometry/normals/%s_simd.c" % name, ("scalar", 1)) for name in ("corner_fan", "position")]
+    for_each += [("src/geometry/tangents/tangent_kernels.c", ("scalar", 1))]
     for_each += [("src/edges/edge_rays.c", ("scalar", 1))]
     return [(f, []) for f in files if os.path.basename(f) not in skipped] + [
         (os.path.join(ROOT, path), ["-DISA=" + isa, "-DLANES=%d" % lanes]) for path, (isa, lanes) in for_each]

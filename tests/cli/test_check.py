@@ -202,8 +202,15 @@ class Right(CheckTest):
                 "bufferViews": [{"buffer": 0, "byteOffset": at, "byteLength": size} for at, size, _ in views],
                 "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]}
         (self.folder / "maps.gltf").write_text(json.dumps(file))
-        self.good("shader", "maps.gltf", "--single-scattering", "--rig", "headlight", "--tone", "none", "-q", "-o", "m")
+        printed = ["shader", "maps.gltf", "--single-scattering", "--rig", "headlight", "--tone", "none", "-q", "-o", "m"]
         words = ["m.frag", "--vertex", "m.vert"]
+        for more in (["--shading", "gouraud"], ["--glsl", "120"], ["--glsl", "300es"]):
+            self.good(*printed, *more)
+            self.assertEqual(self.report_of(*words)["verdict"], "passes", more)
+        file["materials"][0]["alphaMode"] = "MASK"
+        (self.folder / "maps.gltf").write_text(json.dumps(file))
+        self.good(*printed)
+        self.assertIn("alpha_cutoff", (self.folder / "m.frag").read_text())
         report = self.report_of(*words)
         self.assertEqual((report["verdict"], report["contract"], report["mistakes"], report["notes"]), ("passes", "lambent", [], []), report)
         self.assertLessEqual({"bumps", "bumps aside", "mirrored", "glow"}, {scene["name"] for scene in report["scenes"]})

@@ -271,10 +271,10 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
 // What maps hold. The numbers of the scene stay as they are: factor and texel share them.
 static void adapt_maps(const struct shader_interface *r, struct reference_scene *s)
 {
-    s->maps = r->maps;
+    s->maps = r->vertex_lit ? r->maps & ~r->factors : r->maps; // of light from the vertices, maps beside a factor are 1
     s->factors = r->factors;
     s->encoded_maps = r->contract->maps.encoded;
-    s->tints_ambient = s->physical && r->maps & map_bit(SEMANTIC_BASE_COLOR_MAP) &&
+    s->tints_ambient = s->physical && s->maps & map_bit(SEMANTIC_BASE_COLOR_MAP) &&
                        (r->contract->printed || r->defaults.ambient_color.source == COLOR_OF_DIFFUSE);
     s->occlusion = r->contract->terms & TERM_AMBIENT ? s->ka : 0.6f;
     if (s->mesh >= MESH_PATCH && r->contract->maps.v_down)

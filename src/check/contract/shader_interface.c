@@ -91,13 +91,15 @@ static bool is_material(enum uniform_semantic semantic)
 }
 
 // Whether a shader computes lighting: it declares a uniform of a material or light. The colour of the surface alone may
-// be multiplied with a light that comes from the vertex shader.
+// be multiplied with a light that comes from the vertex shader; in printed shaders, any map.
 static bool is_lit(const struct shader_interface *r, const struct declarations *d)
 {
     bool colored = false;
     for (int i = 0; i < d->count; i++) {
         const struct contract_name *n =
             d->items[i].kind == DECLARED_UNIFORM ? contract_find(r->contract, d->items[i].name, false, NULL) : NULL;
+        if (n && is_map(n->semantic) && r->contract->printed)
+            continue;
         if (n && (n->semantic == SEMANTIC_COLOR || n->semantic == SEMANTIC_BASE_COLOR_MAP))
             colored = true;
         else if (n && (is_material(n->semantic) || is_light(n->semantic)))

@@ -339,6 +339,31 @@ static void a_place_at_rest_is_closed_beside_another(void **state)
 
 // --- texts
 
+// Drivers may compute what is not highp with 16 bits. A sampler of OpenGL ES is lowp where nothing is said.
+static void everything_has_full_precision(void **state)
+{
+    (void)state;
+    static const char *const rows[][2] = {
+        {"precision mediump float;\nuniform sampler2D a;\nlowp vec4 b;\n",
+         "precision highp float; precision highp sampler2D;\nuniform sampler2D a;\nhighp vec4 b;\n"},
+        {"mediump vec2 a;\nuniform sampler2D b; precision highp float;",
+         "highp vec2 a;\nuniform sampler2D b; precision highp float; precision highp sampler2D;"},
+        {"precision highp int; precision highp float;\nuniform sampler2D a;\n",
+         "precision highp int; precision highp float; precision highp sampler2D;\nuniform sampler2D a;\n"},
+        {"uniform mediump sampler2D a;\n", "uniform highp sampler2D a;\n"}, // no statement to stand behind
+        {"precision lowp float;\n", "precision highp float;\n"},
+        {"precision lowp float", "precision highp float"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        assert_true(shader_dialect_lowers_precision(rows[i][0]));
+        char *text = shader_dialect_highp(rows[i][0]);
+        assert_non_null(text);
+        assert_string_equal(text, rows[i][1]);
+        free(text);
+    }
+    assert_false(shader_dialect_lowers_precision("precision highp float;\nvec4 precisions, sampler;\n"));
+    assert_false(shader_dialect_lowers_precision("#version 330 core\nuniform sampler2D a;\n"));
+}
+
 static void desktop_texts_become_es(void **state)
 {
     (void)state;
@@ -377,6 +402,7 @@ int main(void)
         cmocka_unit_test(a_painter_that_does_not_open_says_why),
         cmocka_unit_test(a_place_that_does_not_wake_is_freed),
         cmocka_unit_test(a_place_at_rest_is_closed_beside_another),
+        cmocka_unit_test(everything_has_full_precision),
         cmocka_unit_test(desktop_texts_become_es),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

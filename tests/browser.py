@@ -20,9 +20,9 @@ import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 OUT = os.path.join(ROOT, "build-web")
-sys.path[:0] = [os.path.join(ROOT, "web"), os.path.join(ROOT, "tests")]
+sys.path[:0] = [os.path.join(ROOT, "web"), os.path.join(ROOT, "tests"), os.path.join(ROOT, "tests", "check")]
 import build  # noqa: E402
-from check.mistakes import MISTAKES  # noqa: E402
+from mistakes import MISTAKES  # noqa: E402
 from web import Results, make_models  # noqa: E402
 
 

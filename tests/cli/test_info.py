@@ -119,8 +119,8 @@ class Info(GltfCase):
         self.assertEqual((color["name"], color["file"], color["format"], color["width"], color["height"]), ("skin", "map.png", "png", 4, 2))
         self.assertEqual((color["slots"], numbers["slots"], glow["slots"]), (["diffuse"], ["metallic", "roughness", "occlusion"], ["emission"]))
         self.assertEqual((glow["file"], glow["format"], unread["file"]), (None, "png", "gone.jpg"))
-        # 8 bits at full size, floats below: 2x1 and 1x1.
-        self.assertEqual(color["memory_bytes"], 4 * 2 * 4 + (2 + 1) * 16)
+        # Without alpha: three bytes a texel at full size, three floats below: 2x1 and 1x1.
+        self.assertEqual(color["memory_bytes"], 4 * 2 * 3 + (2 + 1) * 12)
         self.assertEqual([m["texture"] for m in row["materials"][0]["maps"]], [0, 2, 1, 1, 1])
         text = self.good("info", model).stdout.decode()
         for words in ("0 'skin', 'map.png', png, 4x2, srgb: diffuse", "1 'skin', 'map.png', png, 4x2, linear: metallic, roughness, occlusion",

@@ -12,11 +12,6 @@
 #include "console.h"
 #include "limit_options.h"
 
-// From the build file: the folder of libraries, below the prefix.
-#ifndef LAMBENT_LIBDIR
-#define LAMBENT_LIBDIR "lib"
-#endif
-
 static struct sandbox_state active = {.reason = "not entered"};
 
 const struct sandbox_state *sandbox_active(void) { return &active; }

@@ -47,11 +47,6 @@ void *library_open(const char *name, bool resident, const char **reason)
     return library;
 }
 
-// From the build file: the folder of libraries, below the prefix.
-#ifndef LAMBENT_LIBDIR
-#define LAMBENT_LIBDIR "lib"
-#endif
-
 // The folders from one that holds this code: a build folder and its folder of tests; that of the libraries; that of the
 // programs, which has the libraries' beside it.
 static const char *const own_folders[] = {"", "../", "lambent/", "../" LAMBENT_LIBDIR "/lambent/"};

@@ -38,7 +38,7 @@ export function lightEquations(triangle, point, light) {
     add('S', 'of the base', null, layers.S);
     add('base', 'F S', null, layers.base);
     if (all.sheen_left < 1) add('left', '1 − max(sheen_color) E', null, layers.sheen_left), add('sheen', '', null, layers.sheen);
-    if (all.coat > 0) add('coat', 'share · S of the coat', null, layers.coat);
+    if (all.coat > 0) add('share', 'clearcoat (0.04 + 0.96 (1 − |n_c·v|)⁵)', null, all.coat), add('coat', 'share · S of the coat', null, layers.coat);
   } else if (formulas.microfacet) add('S', `${gate}π D(h) V max(n·l, 0)`, open ? `3.14159265 · ${number(light.distribution)} · ${number(light.visibility)} · max(${number(light.n_dot_l)}, 0)` : '0', light.S);
   else if (formulas.base) {
     const base = filled(formulas.base, point, light) ?? number(light.base);
@@ -52,7 +52,10 @@ export function lightEquations(triangle, point, light) {
   };
   if (light.left_out) return rows;
   add('diffuse', ...product(formulas.microfacet ? 'base (1 − metallic) Ld' : 'kd Ld', light.kd_Ld, 'D', light.D, light.casts_shadows), light.diffuse_term);
-  if (layers) add('specular', 'Ls ((1 − share) (left base + sheen) + coat)', null, light.specular_term);
+  if (layers) {
+    const under = all.sheen_left < 1 ? 'left base + sheen' : 'base';
+    add('specular', all.coat > 0 ? `Ls ((1 − share) (${under}) + coat)` : `Ls (${under})`, null, light.specular_term);
+  }
   else if (formulas.base || formulas.microfacet) add('specular', ...product(formulas.microfacet ? 'F Ls' : 'ks Ls', light.ks_Ls, 'S', light.S, light.casts_shadows), light.specular_term);
   return rows;
 }

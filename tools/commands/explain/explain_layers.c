@@ -5,11 +5,16 @@
 
 static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
+void explain_layers_over(char text[60], const lam_explained_layers *layers, float sheen_left)
+{
+    snprintf(text, 60, "%s%s", layers->coat > 0 ? "(1 − share) · " : "", sheen_left < 1 ? "left · " : "");
+}
+
 // What the layers of the surface return of light 1 (docs/lighting/layers.md).
 void explain_light_layers(const lam_explained_light_layers *layers, const lam_explained_layers *all)
 {
     row_color(4, "base", layers->base, "F S");
-    if (all->sheen_left < 1 || !is_black(layers->sheen)) {
+    if (layers->sheen_left < 1 || !is_black(layers->sheen)) {
         row_number(4, "left", (double)layers->sheen_left, "the smaller 1 − max(sheen_color) E, at n·v and at n·l");
         row_color(4, "sheen", layers->sheen, "sheen_color π D V n·l of its fibres");
     }
@@ -47,13 +52,18 @@ void explain_environment_parts(const lam_explained_point *p)
         row_color(4, "mirrored part", mirrored, "prefiltered ⊙ (f0 scale + bias)");
         return;
     }
-    row_color(4, "diffuse part", diffuse,
-              "(1 − share) left · matt · base (1 − metallic) ⊙ irradiance/π (1 − max(f0 scale + bias))");
-    row_color(4, "mirrored part", layers->mirrored_part, "(1 − share) left · prefiltered ⊙ (f0 scale + bias)");
+    char text[200], under[60];
+    explain_layers_over(under, layers, layers->sheen_left);
+    snprintf(text, sizeof text, "%s%sbase (1 − metallic) ⊙ irradiance/π (1 − max(f0 scale + bias))", under,
+             layers->matt < 1 ? "matt · " : "");
+    row_color(4, "diffuse part", diffuse, text);
+    snprintf(text, sizeof text, "%sprefiltered ⊙ (f0 scale + bias)", under);
+    row_color(4, "mirrored part", layers->mirrored_part, text);
     if (layers->sheen_left < 1 || !is_black(layers->sheen_part))
-        row_color(4, "sheen part", layers->sheen_part, "(1 − share) · sheen_color E(n·v) ⊙ irradiance/π");
+        row_color(4, "sheen part", layers->sheen_part,
+                  layers->coat > 0 ? "(1 − share) · sheen_color E(n·v) ⊙ irradiance/π"
+                                   : "sheen_color E(n·v) ⊙ irradiance/π");
     if (layers->coat > 0) {
-        char text[100];
         snprintf(text, sizeof text, "around the mirror image of v about n_c, at level %.7g",
                  (double)layers->coat_level);
         row_color(4, "prefiltered, coat", layers->coat_prefiltered, text);

@@ -47,10 +47,13 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
         row_number(4, "t·l", dot(p->t, l->l), "cos(t,l)");
         row_number(4, "t·v", dot(p->t, p->v), "cos(t,v)");
     }
-    const lam_explained_light_layers *layers = l->layers;
+    const lam_explained_light_layers *layers = p->layers ? l->layers : NULL;
     bool gates_diffuse = strncmp(model->diffuse, "max(", 4) != 0; // a max() is 0 there already
-    snprintf(remark, sizeof remark, "%s%s%s", layers ? "(1 − share) left · matt · " : "", gates_diffuse ? gate : "",
-             model->diffuse);
+    char over[60] = "";
+    if (layers)
+        explain_layers_over(over, p->layers, layers->sheen_left);
+    snprintf(remark, sizeof remark, "%s%s%s%s", over, layers && p->layers->matt < 1 ? "matt · " : "",
+             gates_diffuse ? gate : "", model->diffuse);
     row_number(4, "D", (double)l->D, remark);
     if (!model->base)
         return;
@@ -63,7 +66,7 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
         snprintf(remark, sizeof remark, "%sπ D(h) V max(n·l, 0)%s", gate,
                  layers && f->surface.anisotropy > 0 ? ", stretched along the surface" : "");
         row_number(4, "S", (double)(layers ? layers->S : l->S), remark);
-        if (layers && p->layers)
+        if (layers)
             explain_light_layers(layers, p->layers);
         return;
     }
@@ -136,9 +139,15 @@ static void print_light(const lam_explanation *e, const lam_explained_fragment *
     bool microfacet = lam_reflection_describe(f->reflection)->microfacet;
     product(text, l, microfacet ? "base (1 − metallic) ⊙ Ld · D" : "kd ⊙ Ld · D", l->kd_Ld, l->D);
     row_color(4, "diffuse", l->diffuse_term, text);
-    if (l->layers) {
-        row_color(4, "specular", l->specular_term,
-                  "spot · attenuation · Ls ⊙ ((1 − share) (left · base + sheen) + coat)");
+    if (l->layers && p->layers) {
+        bool coat = p->layers->coat > 0, sheen = l->layers->sheen_left < 1 || !is_black(l->layers->sheen);
+        snprintf(text, sizeof text, "%sspot · attenuation%s · Ls ⊙ (%s%s%s)", l->occlusion < 1 ? "occlusion · " : "",
+                 l->casts_shadows ? " · passed" : "", coat ? "(1 − share) " : "",
+                 !sheen ? "base"
+                 : coat ? "(left · base + sheen)"
+                        : "left · base + sheen",
+                 coat ? " + coat" : "");
+        row_color(4, "specular", l->specular_term, text);
     } else {
         product(text, l, microfacet ? "F ⊙ Ls · S" : "ks ⊙ Ls · S", l->ks_Ls, l->S);
         row_color(4, "specular", l->specular_term, text);

@@ -1,4 +1,5 @@
-# test_view.py: `lambent view`: what its server answers, to whom, and when it ends. The page in a browser is tests/browser.py's.
+# test_view.py: `lambent view`: what its server answers, and when it ends. Whom it answers is in test_view_requests.py, the page in a browser in
+# tests/browser.py.
 import hashlib
 import http.client
 import json
@@ -12,93 +13,11 @@ import socket
 import subprocess
 import urllib.parse
 
-from harness import PROGRAM, Case, read_png, write_png
-
-POLICY = "default-src 'none'; script-src 'sha256-x'; img-src blob: data:; base-uri 'none'; form-action 'none'"
-PAGE = ("<!doctype html>\n<html>\n<head>\n<meta http-equiv=\"Content-Security-Policy\" content=\"%s\">\n</head>\n<body>\n<main></main>\n"
-        "</body>\n</html>\n" % POLICY)
-WAIT = 60  # seconds, after which what should have come will not
+from harness import PROGRAM, read_png, write_png
+from view_server import PAGE, WAIT, ViewCase
 
 
-def quoted(path):
-    return urllib.parse.quote(path)
-
-
-class Server:
-    """A viewer that runs."""
-
-    def __init__(self, case, *words):
-        self.case = case
-        self.process = subprocess.Popen([PROGRAM, "view", "--no-open", *map(str, words)], cwd=case.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                        env={**os.environ, "LAMBENT_PAGE": str(case.page)})
-        case.addCleanup(self.end)
-        line = self.process.stdout.readline().decode()
-        found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/\n", line)
-        if not found:
-            case.fail("no address: " + repr(line) + self.process.stderr.read().decode())
-        self.port, self.token = int(found[1]), found[2]
-
-    def end(self):
-        if self.process.poll() is None:
-            self.process.kill()
-        self.process.wait()
-        self.process.stdout.close()
-        self.process.stderr.close()
-
-    def raw(self, path, method="GET", headers=None, body=None):
-        """An answer to an address from its root: status, headers, body."""
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=WAIT)
-        try:
-            connection.request(method, path, body=body, headers=headers or {})
-            answer = connection.getresponse()
-            return answer.status, dict(answer.getheaders()), answer.read()
-        finally:
-            connection.close()
-
-    def get(self, path, **more):
-        return self.raw("/%s/%s" % (self.token, path), **more)
-
-    def task(self, word, *words, **more):
-        return self.get(word + "?" + urllib.parse.urlencode([("w", w) for w in words] + [("c", "test"), *more.items()]))
-
-    def events(self):
-        """A connection that hears of changes, after its first line."""
-        connection = socket.create_connection(("127.0.0.1", self.port), timeout=WAIT)
-        self.case.addCleanup(connection.close)
-        connection.sendall(b"GET /%s/events HTTP/1.1\r\nHost: 127.0.0.1:%d\r\n\r\n" % (self.token.encode(), self.port))
-        return Events(self.case, connection)
-
-    def interrupt(self):
-        self.process.send_signal(signal.SIGINT)
-        return self.process.wait(timeout=WAIT)
-
-
-class Events:
-    def __init__(self, case, connection):
-        self.case, self.connection, self.seen = case, connection, b""
-        self.until(b": \n\n")
-
-    def until(self, wanted):
-        while wanted not in self.seen:
-            part = self.connection.recv(4096)
-            self.case.assertTrue(part, f"{wanted}: the connection has ended after {self.seen}")
-            self.seen += part
-        self.seen = self.seen.split(wanted, 1)[1]
-
-
-class View(Case):
-    def setUp(self):
-        super().setUp()
-        self.page = self.folder / "page.html"
-        self.page.write_text(PAGE)
-        done = self.run_program("view", "--help")
-        self.assertEqual(done.returncode, 0)
-        if b"libmicrohttpd" in self.run_program("view", "no-such-model.obj").stderr:
-            self.skipTest("libmicrohttpd is not there")
-
-    def serve(self, *words):
-        return Server(self, *words)
-
+class View(ViewCase):
     def textured(self):
         place = self.folder / "models"
         (place / "pictures").mkdir(parents=True)
@@ -148,38 +67,6 @@ class View(Case):
         self.assertNotEqual(one.token, other.token)
         self.assertNotEqual(one.port, other.port)
 
-    # --- who is answered
-
-    def test_token(self):
-        server = self.serve("cube.obj")
-        last = server.token[:-1] + ("0" if server.token[-1] != "0" else "1")
-        for path in ("/", "/favicon.ico", "/files/cube.obj", "/%s/" % ("0" * 32), "/%s/" % last, "/%s/" % server.token[:-1], "/%s" % server.token,
-                     "/%s0/" % server.token, "/%s/" % server.token.upper() if server.token.upper() != server.token else "/x"):
-            self.assertEqual(server.raw(path)[0], 403, path)
-        self.assertEqual(server.get("")[0], 200)
-        self.assertEqual(server.get("no-such-page")[0], 404)
-
-    def test_host_and_origin(self):
-        server = self.serve("cube.obj")
-        port = server.port
-        for host in ("evil.example", "evil.example:%d" % port, "127.0.0.1", "127.0.0.1:%d" % (port + 1), "localhost", "[::1]:%d" % port,
-                     "127.0.0.1:%d.evil.example" % port, ""):
-            self.assertEqual(server.get("", headers={"Host": host})[0], 403, host)
-        for host in ("127.0.0.1:%d" % port, "localhost:%d" % port, "LOCALHOST:%d" % port):
-            self.assertEqual(server.get("", headers={"Host": host})[0], 200, host)
-        for name, value, status in (("Origin", "http://evil.example", 403), ("Origin", "null", 403), ("Origin", "https://127.0.0.1:%d" % port, 403),
-                                    ("Origin", "http://127.0.0.1:%d" % port, 200), ("Sec-Fetch-Site", "cross-site", 403),
-                                    ("Sec-Fetch-Site", "same-site", 403), ("Sec-Fetch-Site", "none", 200), ("Sec-Fetch-Site", "same-origin", 200)):
-            self.assertEqual(server.get("files/cube.obj", headers={name: value})[0], status, value)
-
-    def test_methods(self):
-        server = self.serve("cube.obj")
-        for method in ("POST", "PUT", "DELETE", "OPTIONS", "PATCH", "TRACE", "BREW"):
-            status, headers, _ = server.get("", method=method, body=b"x" * 5000 if method in ("POST", "PUT") else None)
-            self.assertEqual((status, headers.get("Allow")), (405, "GET, HEAD"), method)
-        status, headers, body = server.get("files/cube.obj", method="HEAD")
-        self.assertEqual((status, body, int(headers["Content-Length"])), (200, b"", (self.folder / "cube.obj").stat().st_size))
-
     # --- which files
 
     def test_paths(self):
@@ -199,8 +86,8 @@ class View(Case):
             hidden = "/." in path
             self.assertEqual(server.get("files" + path)[0], 404 if hidden else 200, path)
         for path in ("/../secret.obj", "/..%2fsecret.obj", "/%2e%2e/secret.obj", "/%2e%2e%2fsecret.obj", "/pictures/../../secret.obj", "//etc/passwd",
-                     "/%2fetc/passwd", quoted(str(self.folder / "secret.obj")), "/out.obj", "/away/secret.obj", "/secret.txt", "/.hidden.obj", "/.git/a.json",
-                     "/folder.obj", "/pipe.obj", "/", "", "/quad.obj/", "/nothing.obj", "/x%00y.obj", "/" + "a" * 3000 + ".obj", "/pictures",
+                     "/%2fetc/passwd", urllib.parse.quote(str(self.folder / "secret.obj")), "/out.obj", "/away/secret.obj", "/secret.txt", "/.hidden.obj", "/.git/a.json",
+                     "/folder.obj", "/pipe.obj", "/", "", "/quad.obj/", "/nothing.obj", "/" + "a" * 3000 + ".obj", "/pictures",
                      "/proc/self/environ", "/.environment/1-x"):
             status = server.get("files" + path)[0]
             self.assertEqual(status, 404, path)
@@ -479,52 +366,6 @@ class View(Case):
             except OSError:
                 pass  # it has ended
         self.assertEqual(server.process.wait(timeout=WAIT), 0)
-
-    # --- other users
-
-    def test_other_users(self):
-        """A connection of another user is refused, though it has the token; root's is not, since relays are root's."""
-        other = self.plain_user()
-        if other is None:
-            self.skipTest("runs without the right to become another user")
-        server = self.serve("cube.obj")
-        ask = ("import http.client, sys\nc = http.client.HTTPConnection('127.0.0.1', %d, timeout=%d)\nc.request('GET', '/%s/files/cube.obj')\n"
-               "a = c.getresponse()\nprint(a.status, a.read(60).decode())" % (server.port, WAIT, server.token))
-        said = [subprocess.run(["python3", "-S", "-c", ask], user=user, stdout=subprocess.PIPE, check=True, cwd="/").stdout.decode() for user in (None, other)]
-        self.assertTrue(said[0].startswith("200 "), said)
-        self.assertEqual(said[1], "403 this viewer answers only the user who has started it\n")
-
-    # --- hostile requests
-
-    def test_hostile(self):
-        server = self.serve("cube.obj")
-        host = b"Host: 127.0.0.1:%d\r\n" % server.port
-        waiting = []
-        for i in range(200):  # half requests
-            connection = socket.create_connection(("127.0.0.1", server.port), timeout=WAIT)
-            self.addCleanup(connection.close)
-            connection.sendall([b"GET /", b"", b"GET / HTTP/1.1\r\n" + host, b"GET /%s/ HTTP/1.1\r\nX: " % server.token.encode()][i % 4])
-            waiting.append(connection)
-        self.assertEqual(server.get("files/cube.obj")[0], 200)
-        for junk in (b"GET / HTTP/1.1\r\n" + host + b"X: " + b"a" * 200000 + b"\r\n\r\n", b"GET /" + b"a" * 200000 + b" HTTP/1.1\r\n" + host + b"\r\n",
-                     b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", b"\0" * 100, b"GET\r\n\r\n", b"A" * 70000, b"GET / HTTP/9.9\r\n\r\n",
-                     b"GET http://evil.example/ HTTP/1.1\r\n" + host + b"\r\n", b"GET /%ff%fe/../..// HTTP/1.1\r\n" + host + b"\r\n",
-                     b"POST / HTTP/1.1\r\n" + host + b"Content-Length: 99999999999999\r\n\r\n", b"GET / HTTP/1.1\r\n" + b"X: y\r\n" * 5000 + b"\r\n",
-                     b"GET /" + server.token.encode() + b"/draw?" + b"w=a&" * 8000 + b" HTTP/1.1\r\n" + host + b"\r\n"):
-            connection = socket.create_connection(("127.0.0.1", server.port), timeout=1)  # to some there is no answer
-            try:
-                connection.sendall(junk)
-                answer = connection.recv(4096)
-                self.assertNotIn(b" 200 ", answer[:20], junk[:60])
-            except OSError:
-                pass
-            finally:
-                connection.close()
-        self.assertEqual(server.get("files/cube.obj")[0], 200)
-        for connection in waiting:
-            connection.close()
-        self.assertEqual(server.task("draw", "/cube.obj", "--size=8")[0], 200)
-        self.assertIsNone(server.process.poll())
 
     # --- what it cannot do
 

@@ -23,6 +23,21 @@ struct view_listener {
     struct view_listener *next;
 };
 
+// A connection, from its acceptance to its end: the library's context of a socket.
+struct view_socket {
+    int file;
+    bool waits;      // for a request; it is in view.waiting
+    bool names_zero; // the address of its last request contains "%00"
+    double since_ms; // clock_ms() at which it began to wait
+    struct view_socket *before, *after;
+};
+
+// Connections that wait, in the order in which they began to.
+struct view_sockets {
+    struct view_socket *oldest, *newest;
+    int count;
+};
+
 // A request of HTTP, from its first line to the end of its answer.
 struct view_connection {
     struct view *view;
@@ -33,7 +48,7 @@ struct view_connection {
     enum view_kind kind;
     bool thumbnail;
     struct view_listener *listener;
-    int socket;
+    const struct view_socket *socket;
     struct view_connection *next; // in view.connections
 };
 
@@ -50,6 +65,7 @@ struct view {
     struct view_tasks tasks;
     struct view_watch watch;
     struct view_listener *listeners;
+    struct view_sockets waiting;
     struct view_connection *connections; // whose answers are not whole yet
     double alive_ms;                     // clock_ms() at which the listeners have last heard something
     bool ends;

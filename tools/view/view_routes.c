@@ -13,6 +13,7 @@
 #include "view_answer.h"
 #include "view_events.h"
 #include "view_gallery.h"
+#include "view_waiting.h"
 
 // --- who asks
 
@@ -25,16 +26,34 @@ static bool same_token(const char *given, const char *token)
     return difference == 0;
 }
 
-static const char *header(const struct view_connection *c, const char *name)
+struct header {
+    const char *name, *value; // value: NULL: there is none
+    int count;
+};
+
+static enum MHD_Result match_header(void *user, enum MHD_ValueKind kind, const char *key, const char *value)
 {
-    return c->view->http.MHD_lookup_connection_value(c->connection, MHD_HEADER_KIND, name);
+    struct header *h = user;
+    (void)kind;
+    if (strcasecmp(key, h->name) == 0) {
+        h->value = value ? value : "";
+        h->count++;
+    }
+    return MHD_YES;
+}
+
+static struct header header(const struct view_connection *c, const char *name)
+{
+    struct header h = {.name = name};
+    c->view->http.MHD_get_connection_values(c->connection, MHD_HEADER_KIND, match_header, &h);
+    return h;
 }
 
 // "127.0.0.1:PORT", or "localhost:PORT".
 static bool is_own_host(const struct view *view, const char *host)
 {
     static const char *const names[] = {"127.0.0.1", "localhost"};
-    for (size_t i = 0; host && i < sizeof names / sizeof *names; i++) {
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char own[40];
         snprintf(own, sizeof own, "%s:%d", names[i], view->port);
         if (strcasecmp(host, own) == 0 || (view->port == 80 && strcasecmp(host, names[i]) == 0))
@@ -43,12 +62,16 @@ static bool is_own_host(const struct view *view, const char *host)
     return false;
 }
 
-// Whether the page that sent the request is one of ours, by the browser's headers.
-static bool is_own_page(const struct view_connection *c)
+// Whether the request is for this server and the page that sent it is one of ours, by the browser's headers. Each may occur once: of two
+// a relay in between could have checked the other.
+static bool is_from_here(const struct view_connection *c)
 {
-    const char *origin = header(c, "Origin"), *site = header(c, "Sec-Fetch-Site");
-    bool own = !origin || (strncmp(origin, "http://", 7) == 0 && is_own_host(c->view, origin + 7));
-    return own && (!site || strcmp(site, "same-origin") == 0 || strcmp(site, "none") == 0);
+    const struct header host = header(c, "Host"), origin = header(c, "Origin"), site = header(c, "Sec-Fetch-Site");
+    return host.count == 1 && is_own_host(c->view, host.value) &&
+           (!origin.count || (origin.count == 1 && strncmp(origin.value, "http://", 7) == 0 &&
+                              is_own_host(c->view, origin.value + 7))) &&
+           (!site.count ||
+            (site.count == 1 && (strcmp(site.value, "same-origin") == 0 || strcmp(site.value, "none") == 0)));
 }
 
 // --- tasks
@@ -241,12 +264,14 @@ static enum MHD_Result answer_request(struct view_connection *c, const char *url
     const struct view *view = c->view;
     if (strcmp(method, "GET") != 0 && strcmp(method, "HEAD") != 0)
         return view_answer_text(view, c->connection, MHD_HTTP_METHOD_NOT_ALLOWED, "only GET and HEAD are answered");
-    if (!is_own_user(c))
-        return view_answer_text(view, c->connection, 403, "this viewer answers only the user who has started it");
-    if (!is_own_host(view, header(c, "Host")) || !is_own_page(c))
+    if (!is_from_here(c))
         return view_answer_text(view, c->connection, 403, "not from here");
     if (strlen(url) < VIEW_TOKEN_SIZE + 1 || url[VIEW_TOKEN_SIZE] != '/' || !same_token(url + 1, view->token))
         return view_answer_text(view, c->connection, 403, "open the address that lambent view has printed");
+    if (!is_own_user(c)) // last, since it reads a table of the whole machine
+        return view_answer_text(view, c->connection, 403, "this viewer answers only the user who has started it");
+    if (c->socket->names_zero)
+        return view_answer_text(view, c->connection, 404, "no name contains a zero byte");
     return answer_address(c, url + VIEW_TOKEN_SIZE + 1);
 }
 
@@ -263,14 +288,12 @@ enum MHD_Result view_routes_answer(void *user, struct MHD_Connection *connection
         *upload_size = 0;
         return MHD_YES;
     }
-    c = calloc(1, sizeof *c);
+    struct view *view = user;
+    const struct view_socket *socket = view_waiting_end(view, connection);
+    c = socket ? calloc(1, sizeof *c) : NULL;
     if (!c)
         return MHD_NO;
-    struct view *view = user;
-    const union MHD_ConnectionInfo *info =
-        view->http.MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
-    *c = (struct view_connection){
-        .view = view, .connection = connection, .socket = info ? info->connect_fd : -1, .next = view->connections};
+    *c = (struct view_connection){.view = view, .connection = connection, .socket = socket, .next = view->connections};
     view->connections = *kept = c;
     return answer_request(c, url, method);
 }
@@ -280,8 +303,9 @@ void view_routes_completed(void *user, struct MHD_Connection *connection, void *
 {
     struct view *view = user;
     struct view_connection *c = *kept;
-    (void)connection, (void)code;
+    (void)code;
     *kept = NULL;
+    view_waiting_begin(view, connection);
     if (!c)
         return;
     for (struct view_connection **at = &view->connections; *at; at = &(*at)->next)

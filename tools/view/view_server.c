@@ -23,6 +23,7 @@
 #include "show_all.h"
 #include "view_events.h"
 #include "view_routes.h"
+#include "view_waiting.h"
 
 enum {
     CONNECTIONS_MAX = 256,
@@ -53,7 +54,7 @@ static int listen_here(struct view *view, lam_error *error)
     socklen_t size = sizeof address;
     int file = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0), yes = 1;
     bool ok = file >= 0 && setsockopt(file, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) == 0 &&
-              bind(file, (struct sockaddr *)&address, sizeof address) == 0 && listen(file, CONNECTIONS_MAX) == 0 &&
+              bind(file, (struct sockaddr *)&address, sizeof address) == 0 && listen(file, SOMAXCONN) == 0 &&
               getsockname(file, (struct sockaddr *)&address, &size) == 0;
     view->port = ntohs(address.sin_port);
     if (ok)
@@ -79,7 +80,8 @@ static bool start_daemon(struct view *view, lam_error *error)
         MHD_OPTION_EXTERNAL_LOGGER, say_nothing, NULL, MHD_OPTION_LISTEN_SOCKET, socket, MHD_OPTION_CONNECTION_LIMIT,
         (unsigned)CONNECTIONS_MAX, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)SILENCE_S,
         MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)HEADERS_MAX, MHD_OPTION_NOTIFY_COMPLETED, view_routes_completed,
-        view, MHD_OPTION_END);
+        view, MHD_OPTION_NOTIFY_CONNECTION, view_waiting_notify, view, MHD_OPTION_URI_LOG_CALLBACK,
+        view_waiting_address, view, MHD_OPTION_END);
     if (view->daemon)
         return true;
     close(socket);
@@ -164,7 +166,7 @@ static void wait_for_something(const struct view *view)
     for (struct view_connection *c = view->connections; c && connection_count < CONNECTIONS_MAX; c = c->next)
         if (c->task || (c->listener && c->listener->suspended)) { // the library does not look at it
             waiting[connection_count++] = c;
-            wait[count++] = (struct pollfd){.fd = c->socket, .events = POLLRDHUP};
+            wait[count++] = (struct pollfd){.fd = c->socket->file, .events = POLLRDHUP};
         }
     if (view->http.MHD_get_timeout(view->daemon, &most) != MHD_YES || most > STEP_MS)
         most = STEP_MS;
@@ -185,6 +187,7 @@ static void loop(struct view *view)
         view_events_keep(view);
         view->http.MHD_run(view->daemon); // sends the answers of what has just ended
         view_tasks_step(&view->tasks);
+        view_waiting_drop(view);
         double now = clock_ms();
         if (connections(view)) {
             idle_since = now;

@@ -1,6 +1,6 @@
 // lambent/base.h: errors, control of long calls, small vectors, and the rules of the whole interface.
 //
-// C11; includes cleanly in C++17. Every call may be made from any thread. The library prints nothing, never exits, and
+// C11; includes cleanly in C++17. Every call may be made from any thread with 256 kB of stack. The library prints nothing, never exits, and
 // keeps no global state.
 //
 // Names: functions are lam_<thing>_<verb>, types lam_<thing>, constants LAM_<KIND>_<VALUE>. A unit stands at the end of

@@ -2,10 +2,13 @@
 #include "call_control.h"
 #include "dynamic_library.h"
 #include "available_memory.h"
+#include "pool.h"
 #include "shown_name.h"
 #include "spelling.h"
 #include "text_builder.h"
 
+#include <pthread.h>
+#include <sched.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -263,6 +266,38 @@ static void test_limits(void **state)
     assert_string_equal(error.text, "f: 11 bytes, expected at most 10 (--file-limit)");
 }
 
+// Waits for the other thread, so that each takes one task, and stores the size of its thread's stack.
+static void measure_stack(void *user, size_t index, int thread)
+{
+    static int begun;
+    pthread_attr_t attributes;
+    (void)index;
+    __atomic_fetch_add(&begun, 1, __ATOMIC_SEQ_CST);
+    while (__atomic_load_n(&begun, __ATOMIC_SEQ_CST) < 2)
+        sched_yield();
+    assert_int_equal(pthread_getattr_np(pthread_self(), &attributes), 0);
+    assert_int_equal(pthread_attr_getstacksize(&attributes, (size_t *)user + thread), 0);
+    pthread_attr_destroy(&attributes);
+}
+
+// The system's default, which follows `ulimit -s`, may be too small for drawing.
+static void test_stack_of_workers(void **state)
+{
+    (void)state;
+    pthread_attr_t before, small;
+    size_t sizes[2] = {0};
+    assert_int_equal(pthread_getattr_default_np(&before), 0);
+    pthread_attr_init(&small);
+    pthread_attr_setstacksize(&small, 128 << 10);
+    assert_int_equal(pthread_setattr_default_np(&small), 0);
+    struct pool *pool = pool_make(2);
+    assert_int_equal(pool_threads(pool), 2);
+    pool_run(pool, 2, measure_stack, sizes);
+    pool_free(pool);
+    assert_int_equal(pthread_setattr_default_np(&before), 0);
+    assert_true(sizes[1] >= 1 << 20);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -272,6 +307,7 @@ int main(void)
         cmocka_unit_test(test_word_distance),
         cmocka_unit_test(test_shown_name),
         cmocka_unit_test(test_libraries),
+        cmocka_unit_test(test_stack_of_workers),
         cmocka_unit_test(test_memory_of_groups),
         cmocka_unit_test(test_memory_of_process),
         cmocka_unit_test(test_limits),

@@ -332,7 +332,6 @@ static void run_views(struct reading *r, struct job *job, struct progress *progr
 static void draw(struct reading *r)
 {
     const struct batch_item *item = r->item;
-    struct job_view views[VIEWS_MAX * VIEWS_MAX];
     struct options own = *item->options; // sizes of the command line are given like --size
     own.has_size |= own.size_count > 0;
     struct job job = {.options = item->several ? &own : item->options,
@@ -349,8 +348,7 @@ static void draw(struct reading *r)
     progress_start(&progress, item->model,
                    console_is_terminal() && r->artist->has_bar && !own.quiet && report_stream(&own) != stderr);
     if (item->several) {
-        memcpy(views, item->views, (size_t)item->view_count * sizeof *views);
-        job.views = views;
+        job.views = item->views;
         job.view_count = item->view_count;
         run_views(r, &job, &progress);
     } else {

@@ -73,7 +73,7 @@ bool batch_process_start(struct batch_process *process, batch_work *work, void *
 // Reads what is there; false at the end.
 static bool receive(struct batch_process *process)
 {
-    char piece[64 << 10];
+    char piece[16 << 10];
     ssize_t got = read(process->from, piece, sizeof piece);
     if (got < 0)
         return errno == EINTR || errno == EAGAIN;

@@ -428,7 +428,7 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error)
 bool job_run_view(struct job *job, int view, struct progress *progress, lam_error *error)
 {
     job_choose_view(job, &job->views[view]);
-    job->camera = job->views[view].camera;
+    job->camera = job->cameras[view];
     job->written = false;
     if (!job_check_output(job, error) || (view > 0 && !job_light_again(job, error)))
         return false;
@@ -442,10 +442,12 @@ void job_free(struct job *job)
     lam_image_free(&job->image);
     lam_scene_free(job->scene);
     free(job->lights);
+    free(job->cameras);
     free(job->frames.first);
     free(job->frames.last);
     job->scene = NULL;
     job->lights = NULL;
+    job->cameras = NULL;
     job->frames = (struct job_frames){0};
 }
 

@@ -35,7 +35,6 @@ struct model_sphere {
 struct job_view {
     int side;          // lam_side; −1: as the options have it
     int width, height; // pixels
-    lam_camera camera; // filled by job_arrange
 };
 
 // The frames of --turntable and --sweep.
@@ -70,9 +69,10 @@ struct job {
     lam_rgba background; // behind the model
     lam_device *device;
     struct environment_cache *environments; // that other jobs share; NULL: none are
-    struct job_view *views;                 // the pictures to draw; NULL: one, as the options have it
+    const struct job_view *views;           // the pictures to draw; NULL: one, as the options have it
     int view_count;
-    lam_light *lights; // those before the options' lights, which may depend on the camera; from malloc
+    lam_camera *cameras; // of the views; from malloc, by job_arrange
+    lam_light *lights;   // those before the options' lights, which may depend on the camera; from malloc
     int light_count;
     uint64_t bytes; // size of the written file
     bool written;

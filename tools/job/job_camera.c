@@ -107,10 +107,12 @@ bool job_place_camera(struct job *job, lam_error *error)
     if (!keep_lights(job, error))
         return false;
     double start = clock_ms();
+    if (job->view_count && !(job->cameras = calloc((size_t)job->view_count, sizeof *job->cameras)))
+        return complain(error, LAM_LIMIT, "out of memory");
     for (int i = job->view_count - 1; i >= 0; i--) { // the first one is in place then
         job_choose_view(job, &job->views[i]);
         fit_camera(job, sphere, job->views[i].side >= 0);
-        job->views[i].camera = job->camera;
+        job->cameras[i] = job->camera;
     }
     if (!job->view_count)
         fit_camera(job, sphere, false);
@@ -124,6 +126,6 @@ bool job_place_camera(struct job *job, lam_error *error)
     if (o->camera && strchr(o->camera, '='))
         lam_camera_parse(o->camera, job->scene, &job->camera, NULL); // cannot fail: store_camera has parsed it
     for (int i = 0; o->camera && i < job->view_count; i++)
-        job->views[i].camera = job->camera;
+        job->cameras[i] = job->camera;
     return true;
 }

@@ -19,6 +19,15 @@ static inline int pthread_cond_init(pthread_cond_t *changed, const void *attribu
     (void)attributes;
     return *changed = 0;
 }
+// The stacks of threads have one size (threads.c).
+typedef int pthread_attr_t;
+static inline int pthread_attr_init(pthread_attr_t *attributes) { return *attributes = 0; }
+static inline int pthread_attr_setstacksize(pthread_attr_t *attributes, size_t size)
+{
+    (void)attributes, (void)size;
+    return 0;
+}
+static inline int pthread_attr_destroy(pthread_attr_t *attributes) { return (void)attributes, 0; }
 static inline int pthread_mutex_destroy(pthread_mutex_t *mutex) { return (void)mutex, 0; }
 static inline int pthread_cond_destroy(pthread_cond_t *changed) { return (void)changed, 0; }
 

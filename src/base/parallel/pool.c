@@ -8,7 +8,10 @@
 #include <signal.h>
 #include <stdlib.h>
 
-enum { THREADS_MAX = 1024 };
+enum {
+    THREADS_MAX = 1024,
+    WORKER_STACK = 1 << 20, // bytes. The system's default follows `ulimit -s`; drawing uses less than 128 kB of it.
+};
 
 struct pool {
     int threads; // the caller included
@@ -87,17 +90,21 @@ struct pool *pool_make(int threads)
     pool->threads = 1;
     // Signals are left to the program's own threads.
     sigset_t all, before;
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, WORKER_STACK);
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     for (int i = 1; i < threads; i++) {
         struct worker *worker = &pool->workers[i];
         worker->pool = pool;
         worker->number = i;
-        if (pthread_create(&worker->thread, NULL, worker_main, worker) != 0)
+        if (pthread_create(&worker->thread, &attributes, worker_main, worker) != 0)
             break;
         pool->threads++;
     }
     pthread_sigmask(SIG_SETMASK, &before, NULL);
+    pthread_attr_destroy(&attributes);
     return pool;
 }
 

@@ -11,7 +11,7 @@
 
 // Rows are a little longer than a batch: the same entries of several rows then lie in different sets of the
 // processor's cache.
-enum { BATCH_MAX = 512, BATCH_ROW = BATCH_MAX + 16 };
+enum { BATCH_MAX = 512, BATCH_ROW = BATCH_MAX + 16, LIGHT_BATCH = 256 };
 _Static_assert((int)BATCH_ROW <= (int)TAPS_ROW, "the taps of a batch fit");
 
 // Consecutive fragments that show the same triangle are a run. Rows hold what belongs to the triangle
@@ -25,7 +25,22 @@ struct triangle_runs {
     float row[RUN_ROWS][BATCH_MAX + LANES_MAX];
 };
 
+// Intermediate values of LIGHT_BATCH points for the current light, and the sums so far (light_loop.inc).
+struct light_batch {
+    _Alignas(64) float ambient[3][BATCH_ROW]; // each packet is a cache line
+    float diffuse[3][BATCH_ROW], specular[3][BATCH_ROW];
+    float f0[3][BATCH_ROW], rest[3][BATCH_ROW]; // Fresnel's factor of microfacet lobes
+    float tint[3][BATCH_ROW];                   // of the light, by what it came through (frame.tints_rays)
+    float kept_diffuse[3][BATCH_ROW], kept_specular[3][BATCH_ROW];
+    float l[3][BATCH_ROW], distance[BATCH_ROW], arriving[BATCH_ROW];
+    float share[BATCH_ROW];                    // of the arriving light: all where there is a highlight, else 0
+    float base[BATCH_ROW];                     // of the packets listed below, one after the other
+    float first[BATCH_ROW], second[BATCH_ROW]; // from one step to the next
+    int packets[LIGHT_BATCH], packet_count;    // first points of the packets with a highlight
+};
+
 struct shading_batch {
+    struct light_batch lit;
     float p[3][BATCH_ROW], n[3][BATCH_ROW], v[3][BATCH_ROW], t[3][BATCH_ROW];
     float color[3][BATCH_ROW], alpha[BATCH_ROW];    // of the vertices; after shading the result
     uint32_t triangle[BATCH_ROW];                   // of the mesh

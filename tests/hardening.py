@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""hardening.py FILE…: checks that the program and the shared libraries of a release build are hardened: position-independent, all
-relocations read-only before main (full RELRO), no executable stack, stack protector, FORTIFY, and on x86-64 a landing pad (CET) at
-each exported function. The compiler's flags are in meson.build."""
+"""hardening.py FILE…: checks that the program and the libraries of a release build are hardened: position-independent, all
+relocations read-only before main (full RELRO), no executable stack, stack protector, FORTIFY, and on x86-64 a landing pad at each
+exported function and the marks of control-flow protection (CET). The compiler's flags are in meson.build."""
 import os
 import platform
 import re
@@ -31,7 +31,25 @@ def landing_pads(path):
     return [name for name in without if name != "_start"]  # the C library's own
 
 
+def marks(path):
+    """The features that all objects of a file are marked for: IBT (landing pads), SHSTK (shadow stack)."""
+    lists = re.findall(r"x86 feature: (.*)", output("readelf", "-Wn", path))
+    return set.intersection(*(set(found.split(", ")) for found in lists)) if lists else set()
+
+
+def wanted_marks(path):
+    """Of a library of objects both; else IBT only if the C library's start files, which are linked into every file, have it too."""
+    if platform.machine() != "x86_64":
+        return set()
+    start_files = [output("cc", "-print-file-name=" + name).strip() for name in ("Scrt1.o", "crti.o", "crtn.o")]
+    return {"SHSTK", "IBT"} if path.endswith(".a") or all("IBT" in marks(name) for name in start_files) else {"SHSTK"}
+
+
 def properties(path):
+    wanted = wanted_marks(path)
+    yield "marks " + (", ".join(sorted(wanted)) or "none"), wanted <= marks(path)
+    if path.endswith(".a"):
+        return
     header, segments = output("readelf", "-Wh", path), output("readelf", "-Wl", path)
     dynamic, symbols = output("readelf", "-Wd", path), output("readelf", "-Ws", "--dyn-syms", path)
     yield "position-independent", "DYN (" in header

@@ -394,7 +394,7 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     bool started = start(&b, journal, &error), ok = started && run_passes(&b, &error);
     if (started && ok)
         finish(&b);
-    journal_close(b.journal, ok && !interrupted() && !b.failed);
+    journal_close(b.journal, ok && !interrupted() && !b.failed, interrupted());
     int code = ok ? b.code : report_failure(&error, plan->options);
     if (ok && is_batch && b.tally.failed + b.tally.failed_before && !b.failed)
         code = EXIT_SOME_FAILED;

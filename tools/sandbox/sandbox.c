@@ -139,13 +139,16 @@ static uint64_t rights_of(int version)
            (version >= 5 ? IOCTL_DEV : 0);
 }
 
-// False: the kernel refuses the rule. A path that does not exist, or may not be opened, needs none.
+// The process has no handle or no memory left, which says nothing about the kernel's sandbox or the path.
+static bool is_exhausted(int reason) { return reason == EMFILE || reason == ENFILE || reason == ENOMEM; }
+
+// False: the kernel refuses the rule, or is_exhausted(errno). A path that does not exist, or may not be opened, needs none.
 static bool add_path(int rules, const struct sandbox_path *path, uint64_t handled)
 {
     struct stat about;
     int file = open(path->path, O_PATH | O_CLOEXEC);
     if (file < 0)
-        return true;
+        return !is_exhausted(errno);
     uint64_t allowed = 0;
     if (path->access & SANDBOX_READ)
         allowed |= READ_FILE | READ_DIR;
@@ -156,10 +159,13 @@ static bool add_path(int rules, const struct sandbox_path *path, uint64_t handle
         allowed &= OF_FILES;
     struct path_beneath rule = {.allowed = allowed & handled, .folder = file};
     ok = ok && syscall(ADD_RULE, rules, PATH_BENEATH, &rule, 0) == 0;
+    int reason = errno;
     close(file);
+    errno = reason;
     return ok;
 }
 
+// False: errno says why.
 static bool enter_landlock(const struct sandbox_paths *paths, int version)
 {
     struct ruleset set = {.files = rights_of(version), .network = 3, .scoped = 3};
@@ -171,7 +177,9 @@ static bool enter_landlock(const struct sandbox_paths *paths, int version)
     for (int i = 0; ok && i < paths->count; i++)
         ok = add_path(rules, &paths->items[i], set.files);
     ok = ok && syscall(RESTRICT_SELF, rules, 0) == 0;
+    int reason = errno;
     close(rules);
+    errno = reason;
     return ok;
 }
 
@@ -187,6 +195,8 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
         return true;
     }
     if (state->landlock && !enter_landlock(paths, state->landlock)) {
+        if (is_exhausted(errno))
+            return complain(error, LAM_LIMIT, "cannot start the sandbox: %s", strerror(errno));
         state->landlock = 0;
         state->reason = "the kernel refuses Landlock";
     }

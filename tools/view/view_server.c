@@ -84,8 +84,9 @@ static bool start_daemon(struct view *view, lam_error *error)
         view_waiting_address, view, MHD_OPTION_END);
     if (view->daemon)
         return true;
+    const int reason = errno;
     close(socket);
-    return complain(error, LAM_LIMIT, HTTP_LIBRARY " cannot start a server");
+    return complain(error, LAM_LIMIT, HTTP_LIBRARY " cannot start a server: %s", strerror(reason));
 }
 
 static bool find_operand(struct view *view, const char *operand, lam_error *error)

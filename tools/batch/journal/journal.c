@@ -34,7 +34,8 @@ struct journal {
     size_t count;
     char *was_running; // slots of the run before
     size_t was_slots;
-    bool torn; // the last line has no end
+    bool torn;  // the last line has no end
+    bool begun; // FILE.running has the slots of this run
 };
 
 char *journal_text(const char *text)
@@ -241,7 +242,7 @@ static bool set_aside(const struct journal *j, lam_error *error)
 }
 
 // Only one run at a time writes a journal: the lock is that of FILE.running, and ends with the process.
-static bool open_running(struct journal *j, int slots, lam_error *error)
+static bool open_running(struct journal *j, lam_error *error)
 {
     j->running = open(j->running_path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (j->running < 0)
@@ -251,9 +252,14 @@ static bool open_running(struct journal *j, int slots, lam_error *error)
     size_t size;
     j->was_running = journal_read(j->running_path, &size);
     j->was_slots = j->was_running ? size / SLOT : 0;
-    if (ftruncate(j->running, 0) != 0 || ftruncate(j->running, (off_t)slots * SLOT) != 0)
-        return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", j->running_path, strerror(errno));
     return true;
+}
+
+// The slots of this run take the place of those of the run before, which stay if this run cannot begin.
+static bool take_over_running(struct journal *j, int slots, lam_error *error)
+{
+    j->begun = ftruncate(j->running, 0) == 0 && ftruncate(j->running, (off_t)slots * SLOT) == 0;
+    return j->begun || complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", j->running_path, strerror(errno));
 }
 
 struct journal *journal_open(const char *path, enum journal_way way, const struct journal_run *run, int slots,
@@ -265,7 +271,7 @@ struct journal *journal_open(const char *path, enum journal_way way, const struc
     bool ok = j && j->path && asprintf(&j->running_path, "%s.running", path) >= 0;
     if (!ok)
         complain(error, LAM_LIMIT, "out of memory");
-    ok = ok && output_make_folder(path, error) && open_running(j, slots, error) &&
+    ok = ok && output_make_folder(path, error) && open_running(j, error) &&
          (way == JOURNAL_START ? set_aside(j, error) : read_journal(j, way, run->options, error));
     if (ok) {
         j->file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
@@ -274,10 +280,10 @@ struct journal *journal_open(const char *path, enum journal_way way, const struc
     // A torn line is ended, so that the next one stands alone.
     ok = ok && (!j->torn || write_all(j->file, "\n", 1) ||
                 complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno)));
-    ok = ok && begin_run(j, run, error);
+    ok = ok && begin_run(j, run, error) && take_over_running(j, slots, error);
     if (ok)
         return j;
-    journal_close(j, false);
+    journal_close(j, false, false);
     return NULL;
 }
 
@@ -356,7 +362,7 @@ static void end_run(struct journal *j)
     json_decref(ended);
 }
 
-void journal_close(struct journal *j, bool done)
+void journal_close(struct journal *j, bool done, bool interrupted)
 {
     if (!j)
         return;
@@ -364,7 +370,7 @@ void journal_close(struct journal *j, bool done)
         end_run(j);
     if (j->file >= 0)
         close(j->file);
-    if (done && j->running >= 0)
+    if (j->was_running && (j->begun ? !interrupted : !j->was_slots)) // locked by this run, and of use to no later one
         unlink(j->running_path);
     if (j->running >= 0)
         close(j->running);

@@ -47,8 +47,9 @@ void journal_each_running(const struct journal *journal,
 // Reads a whole file, with a zero after it; from malloc. NULL: `errno`; 0: there is none.
 char *journal_read(const char *path, size_t *size);
 
-// Closes it. `done`: the run came to its end, and nothing is being drawn. NULL is fine.
-void journal_close(struct journal *journal, bool done);
+// Closes it. `done`: the run came to its end. FILE.running is removed, also if the run failed, unless it was interrupted while it was drawing.
+// NULL is fine.
+void journal_close(struct journal *journal, bool done, bool interrupted);
 
 // Text as JSON can hold it, from malloc: bytes that are not UTF-8 become U+FFFD and two hexadecimal digits. NULL: out of
 // memory.

@@ -5,7 +5,7 @@ import pathlib
 import shutil
 import subprocess
 
-from harness import Case, PROGRAM, ROOT
+from harness import Case, PROGRAM, ROOT, write_png
 
 HAVE = "off" not in subprocess.run([PROGRAM, "--version"], stdout=subprocess.PIPE).stdout.decode().split("sandbox ")[1]
 FULL = "and seccomp" in subprocess.run([PROGRAM, "--version"], stdout=subprocess.PIPE).stdout.decode()
@@ -50,6 +50,27 @@ class Sandbox(Case):
         self.good("cube.obj", "-s", 8, "-o", "pipe", *REQUIRE)
         self.assertEqual(reader.communicate()[0][:4], b"\x89PNG")
         self.assertEqual(self.good("-", "-o", "-", "-s", 8, *REQUIRE, stdin=(self.folder / "cube.stl").read_bytes()).stdout[:4], b"\x89PNG")
+
+    def test_files_that_options_name(self):
+        """Files of looks, environments and pictures of a sheet lie anywhere; naming them is enough."""
+        self.file("models/cube.obj", (self.folder / "cube.obj").read_bytes())
+        self.file("else/blue.png", write_png(4, 2, b"\x40\x80\xff\xff" * 8))
+        self.file("else/red.png", write_png(4, 2, b"\xff\x40\x20\xff" * 8))
+        self.file("else/blue.look", "background white\nreflectivity 1\nenvironment else/blue.png\n")
+        for number, words in enumerate((["--across", "environment=else/blue.png,else/red.png"], ["--across", "look=else/blue.look,studio"],
+                                        ["--across", "look=else/blue.look,classic", "--across", "environment=else/red.png,else/blue.png"],
+                                        ["--look", "else/blue.look", "--across", "shading=flat,phong"])):
+            words = ["compare", "models/cube.obj", *words, "-s", 32, "--no-captions", "--reflectivity", 1, "-o"]
+            self.good(*words, "a.ppm", "--sandbox", "require")
+            self.good(*words, "b.ppm", "--sandbox", "off")
+            self.assertEqual((self.folder / "a.ppm").read_bytes(), (self.folder / "b.ppm").read_bytes(), number)
+        for words in (["models/cube.obj"], ["explain", "models/cube.obj", "8,8"], ["batch", "models", "-o", "out/"],
+                      ["batch", "models", "--isolate", "-o", "out/"]):
+            self.good(*words, "--look", "else/blue.look", "-s", 16, *REQUIRE)
+        job = {"id": 1, "model": "models/cube.obj", "output": "job.png", "options": {"look": "else/blue.look", "size": "16"}}
+        for more in ([], ["--isolate"]):
+            done = self.good("batch", "--jobs", "-", "--allow-path", ".", *more, *REQUIRE, stdin=json.dumps(job).encode() + b"\n")
+            self.assertEqual(json.loads(done.stdout)["outcome"], "written", done.stdout)
 
     def test_optional_libraries(self):
         """Libraries that are opened when they are used open in the sandbox too."""

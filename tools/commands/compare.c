@@ -540,6 +540,19 @@ static bool check(const struct options *o, const struct sheet *sheet, const char
     return output_check(path, model, output_is_named(o->output), error);
 }
 
+// Lets the pictures of a sheet reach the files that their own options name: --across look=my.look, --across environment=a.png,b.png.
+static bool reach_cells(const struct compare *c, struct sandbox_paths *paths, lam_error *error)
+{
+    struct options own;
+    for (int i = 0; i < c->sheet.count; i++) {
+        if (!cell_options(c, &c->sheet.cells[i], NULL, NULL, &own, error))
+            return false;
+        sandbox_add_options(paths, &own);
+        options_free(&own);
+    }
+    return true;
+}
+
 int run_compare(int operand_count, char **operands, const struct options *options)
 {
     (void)operand_count;
@@ -558,7 +571,7 @@ int run_compare(int operand_count, char **operands, const struct options *option
         struct options drawn = *options;
         if (c.sheet.mistakes && drawn.device == DEVICE_AUTO)
             drawn.device = DEVICE_GL;
-        ok = sandbox_start(&drawn, &paths, &error);
+        ok = reach_cells(&c, &paths, &error) && sandbox_start(&drawn, &paths, &error);
     }
     if (ok) {
         c.device = device_option_make(options, &error);

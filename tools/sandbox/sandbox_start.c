@@ -141,12 +141,14 @@ static void add_system(struct sandbox_paths *paths)
     }
 }
 
-static void add_options(struct sandbox_paths *paths, const struct options *o)
+void sandbox_add_options(struct sandbox_paths *paths, const struct options *o)
 {
     for (int i = 0; i < o->allow_paths.count; i++)
         sandbox_add(paths, o->allow_paths.items[i], SANDBOX_READ | SANDBOX_WRITE);
     if (o->environment)
         add_list(paths, o->environment, ',');
+    if (o->look)
+        sandbox_add(paths, o->look, SANDBOX_READ);
     if (o->font)
         sandbox_add(paths, o->font, SANDBOX_READ);
     if (o->save_scene)
@@ -180,7 +182,7 @@ bool sandbox_start(const struct options *o, struct sandbox_paths *paths, lam_err
     } else {
         limits_memory(o); // reads the system's files, which then are out of reach
         add_system(paths);
-        add_options(paths, o);
+        sandbox_add_options(paths, o);
         if (everything)
             sandbox_add(paths, "/", SANDBOX_READ);
         ok = sandbox_enter(paths, &active, error) && check_required(o, error);

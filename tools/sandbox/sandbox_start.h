@@ -19,6 +19,9 @@ void sandbox_add_file(struct sandbox_paths *paths, const char *file);
 // Lets a file be made or replaced in its folder, which need not exist yet; or files in a folder. "-" needs nothing.
 void sandbox_add_output(struct sandbox_paths *paths, const char *path);
 
+// Lets the files be reached that options name: environments, looks, the font, --allow-path, --save-scene. sandbox_start does it for its own.
+void sandbox_add_options(struct sandbox_paths *paths, const struct options *options);
+
 // Enters the sandbox that the options ask for, with the given paths, those of the options and those of the system's
 // libraries and fonts. Frees `paths` in any case. Call it before threads start. False: LAM_UNSUPPORTED where
 // --sandbox require cannot be had, LAM_LIMIT.

@@ -141,6 +141,25 @@ class Docs(Case):
             done = self.run_program(*words, *limit, stdin=b"")
             self.assertNotEqual(done.returncode, 1, (line, done.stderr))
 
+    @unittest.skipUnless(shutil.which("dpkg-query"), "not Debian")
+    def test_packages_of_libraries(self):
+        """A library that is opened when it is needed comes with the packages that `make` installs; libchafa only draws in terminals."""
+        sources = [path for folder in ("src", "tools") for ending in ("c", "h") for path in (ROOT / folder).rglob("*." + ending)]
+        names = {name for path in sources for name in re.findall(r'"(lib[\w+-]+\.so\.[\w.]+)"', path.read_text())} - {"libchafa.so.0"}
+        self.assertGreaterEqual(names, {"libmeshoptimizer.so.2d", "libwebp.so.7", "libmicrohttpd.so.12"})
+        owners = subprocess.run(["dpkg-query", "-S", *("*/" + name for name in names)], capture_output=True, text=True).stdout.splitlines()
+        needs = {}
+        for line in subprocess.run(["dpkg-query", "-W", "-f", "${Package}|${Pre-Depends}, ${Depends}\n"], capture_output=True, text=True).stdout.splitlines():
+            package, depends = line.split("|", 1)
+            needs[package] = set(re.findall(r"(?:^|[,|]) *([a-z0-9.+-]+)", depends))
+        found, new = set(), {name for line in re.findall(r"(?m)^build (\S+)$", (ROOT / "packages.txt").read_text()) for name in line.split("|")}
+        while new:
+            found |= new
+            new = {need for package in new for need in needs.get(package, ())} - found
+        self.assertGreater(len(owners), 5)
+        for line in owners:
+            self.assertIn(line.split(":")[0], found, line)
+
     def test_committed_docs_are_up_to_date(self):
         made = self.good("generate", "markdown").stdout.decode()
         kept = (ROOT / "docs" / "command-line.md").read_text()

@@ -113,7 +113,7 @@ ROWS = [
     ("docs/rooms/cpu.md", "tiles of {}×{} pixels", TILE, TILE),
     ("docs/rooms/cpu.md", "A thread holds {} such fragments", LAYERS),
     ("docs/rooms/cpu.md", "shaded in batches of {}", constant("src/cpu/shade/shading_batch.h", "BATCH_MAX")),
-    ("docs/rooms/cpu.md", "over up to {} points", constant("src/cpu/shade/light_loop.inc", "LIGHT_BATCH")),
+    ("docs/rooms/cpu.md", "over up to {} points", constant("src/cpu/shade/shading_batch.h", "LIGHT_BATCH")),
     ("docs/rooms/cpu.md", "With more than {} lights ({} for Gouraud and flat shading)",
      code("src/cpu/shade/light_bounds.h", r"LAM_SHADING_PHONG \? (\d+) :"), FEW_LIGHTS),
     ("include/lambent/check.h", "32..1024 pixels; 0: {}", code("src/check/check.c", r"p->size : (\d+);")),

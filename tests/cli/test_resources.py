@@ -54,7 +54,7 @@ class Resources(Case):
             self.assertEqual(done.returncode, 0, (words, done.stderr))
 
     def test_few_files(self):
-        """Where no file can be opened any more, this is said, and not that the sandbox or a permission is in the way."""
+        """If no further file can be opened, the error says so, and names neither the sandbox nor a permission."""
         self.good("cube.obj", "-s", 16, "-o", "a.png")
         for words in (["cube.obj", "-s", "16", "-o", "b.png"], ["info", "cube.obj"], ["compare", "cube.obj", "-s", "16", "-o", "c.png"], ["diff", "a.png", "a.png"],
                       ["batch", "cube.obj", "cube.stl", "-s", "16", "-o", "b/{stem}{ext}.png"],
@@ -88,7 +88,7 @@ class Resources(Case):
         self.assertEqual(running.read_bytes(), bytes(8192))
 
     def test_full_disk_later(self):
-        """Where the journal can grow no more, the run ends, and leaves no trace of models that it is drawing."""
+        """If the journal cannot grow any more, the run ends and leaves no FILE.running."""
         for i in range(100):
             (self.folder / f"{i}.obj").write_bytes((self.folder / "cube.obj").read_bytes())
         words = "batch . -s 8 -j 2 -o out/{stem}{ext}.png"

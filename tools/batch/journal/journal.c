@@ -9,12 +9,15 @@
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "batch_key.h"
 #include "console.h"
 #include "host_name.h"
+#include "interrupt.h"
 #include "output.h"
+#include "progress.h"
 #include "xxh64.h"
 
 enum { SLOT = 8192 };
@@ -240,14 +243,43 @@ static bool set_aside(const struct journal *j, lam_error *error)
     return ok;
 }
 
-// Only one run at a time writes a journal: the lock is that of FILE.running, and ends with the process.
+// Waits two seconds for the lock: the processes of a run that was killed hold it until they have ended too.
+static bool wait_for_lock(int file)
+{
+    const double until = clock_ms() + 2000;
+    while (flock(file, LOCK_EX | LOCK_NB) != 0) {
+        if ((errno != EWOULDBLOCK && errno != EINTR) || clock_ms() > until || interrupted())
+            return false;
+        nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+    }
+    return true;
+}
+
+// Only one run at a time writes a journal: the lock is that of FILE.running, and ends with the process and its children.
+static bool lock_running(struct journal *j, lam_error *error)
+{
+    struct stat about = {0};
+    // A run that has just ended removes the file that it held: then a new one is locked.
+    while (about.st_nlink == 0) {
+        if (j->running >= 0)
+            close(j->running);
+        j->running = open(j->running_path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (j->running < 0)
+            return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", j->running_path, strerror(errno));
+        if (!wait_for_lock(j->running))
+            return errno == EWOULDBLOCK
+                       ? complain(error, LAM_BAD_ARGUMENT, "%s: the journal is in use by another run", j->path)
+                       : complain(error, LAM_CANNOT_WRITE, "%s: cannot lock: %s", j->running_path, strerror(errno));
+        if (fstat(j->running, &about) != 0)
+            return complain(error, LAM_CANNOT_WRITE, "%s: cannot lock: %s", j->running_path, strerror(errno));
+    }
+    return true;
+}
+
 static bool open_running(struct journal *j, int slots, lam_error *error)
 {
-    j->running = open(j->running_path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (j->running < 0)
-        return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", j->running_path, strerror(errno));
-    if (flock(j->running, LOCK_EX | LOCK_NB) != 0)
-        return complain(error, LAM_BAD_ARGUMENT, "%s: the journal is in use by another run", j->path);
+    if (!lock_running(j, error))
+        return false;
     size_t size;
     j->was_running = journal_read(j->running_path, &size);
     j->was_slots = j->was_running ? size / SLOT : 0;

@@ -276,6 +276,15 @@ class Pictures(Batch):
         self.assertIn("in/b/m1.stl", done.stderr.decode())
         [failed] = [r for r in self.journal() if r["class"] != "ok"]
         self.assertEqual((failed["class"], failed["exit"], failed["attempt"]), ("cannot-read", 2, 1))
+        for more in ([], ["--resume"], ["--isolate"], ["--retry-failed", "1"]):
+            done = self.batch("in", "-o", "out/", "--failures-ok", *more)
+            self.assertIn("1 failed", done.stderr.decode())
+        self.good("in/b/m1.stl", names[0], "-s", 24, "-o", "out/", "--failures-ok")
+        # Only failures of models are fine.
+        self.batch("in", "-o", "out/", "--failures-ok", "--journal", "/proc/none", code=5)
+        self.batch("in", "none", "-o", "out/", "--failures-ok", "--resume", "--tone", "aces", code=1)
+        self.batch("in", "-o", "out/", code=7)
+        self.assertIn("in/b/m1.stl", failed["error"])
         self.assertEqual(len(self.journal()), 4)
 
 

@@ -309,6 +309,15 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     return ok && (!o->jobs || (b->jobs = batch_jobs_open(b, error)));
 }
 
+// False: a picture was neither drawn nor recorded, for want of memory.
+static bool has_every_outcome(const struct batch *b)
+{
+    size_t pictures = b->plan->count * (size_t)b->plan->view_count, i = 0;
+    while (i < pictures && b->pictures[i].outcome != PICTURE_OPEN)
+        i++;
+    return i == pictures;
+}
+
 // Names the pictures that failed again and again.
 static void name_poison(const struct batch *b)
 {
@@ -396,7 +405,10 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
         finish(&b);
     journal_close(b.journal, ok && !interrupted() && !b.failed);
     int code = ok ? b.code : report_failure(&error, plan->options);
-    if (ok && is_batch && b.tally.failed + b.tally.failed_before && !b.failed)
+    bool some_failed = ok && !b.failed && b.tally.failed + b.tally.failed_before;
+    if (some_failed && b.options->failures_ok && has_every_outcome(&b))
+        code = 0;
+    else if (some_failed && is_batch)
         code = EXIT_SOME_FAILED;
     batch_jobs_close(b.jobs);
     // A model alone says so itself, unless it had not been begun.

@@ -823,6 +823,11 @@ const struct option option_table[] = {
      "They are tried at the end of the run, and with `--resume` also those that failed in earlier runs; a line of the "
      "journal counts as one try. What still fails is named at the end.",
      .store = store_integer, .others = "retries retry attempts", FIELD(retry_failed), .max = 1000},
+    {"failures-ok", 0, GROUP_BATCH, NULL, NULL, "Exit with 0 although models failed, if each has its outcome.",
+     "Open MPI stops all ranks if one exits with another code, and other engines repeat its task. The failures are in "
+     "the journal and in the messages. A run that did not reach every model still exits with its code: a wrong "
+     "option, a journal that cannot be written, an interrupt.",
+     .store = store_switch, .others = "keep-going ignore-failures ignore-errors", FIELD(failures_ok)},
     {"skip-same", 0, GROUP_BATCH, NULL, NULL, "Draw only what has changed since the journal was written.",
      "A picture is left as it is if it still has the journal's hash, and its key is the journal's: a hash of all files "
      "that reading the model looked for (textures and material libraries too), the options with their defaults, and "

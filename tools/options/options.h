@@ -126,7 +126,7 @@ struct options {
     const char *shard;       // as written (batch_shard.h); NULL: all models
     const char *report_page; // NULL: none
     int retry_failed;
-    bool resume, skip_same, isolate;
+    bool resume, skip_same, isolate, failures_ok;
     const char *jobs;          // "-" or a file; NULL: none come
     int ahead;                 // 0: the default
     uint64_t line_limit_bytes; // 0: the default

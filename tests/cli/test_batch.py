@@ -431,6 +431,39 @@ class SkipSame(Batch):
         (self.folder / "sky.ppm").write_bytes(b"P6\n2 1\n255\nabcdeg")
         self.assertEqual(len(self.drawn(*words)), 2)
 
+    def test_spellings(self):
+        """However paths are spelled, and from whichever folder, the same pictures are recognised."""
+        os.rename(self.folder / "in/m.stl", os.fsencode(self.folder) + b"/in/\xe9.stl")
+        (self.folder / "sky.ppm").write_bytes(b"P6\n2 1\n255\nabcdef")
+        (self.folder / "else").mkdir()
+        time.sleep(0.02)
+        whole = self.folder
+        spellings = [("in", "out/", "sky.ppm"), (whole / "in", f"{whole}/out/{{stem}}.png", whole / "sky.ppm"), ("./in/", "./out", "./sky.ppm"),
+                     ("../in", "../out/", "../sky.ppm")]
+        self.batch("in", "-o", "out/", "--environment", "sky.ppm")
+
+        def expect(counts, *more):
+            for source, output, sky in spellings:
+                self.folder = whole / "else" if "../in" == source else whole
+                done = self.batch(source, "-o", output, "--environment", sky, "--skip-same", *more)
+                self.folder = whole
+                self.assertIn(counts, done.stderr.decode(), (source, output))
+        expect("0 of 2 pictures written, 2 unchanged")
+        self.good("journal", "out", "-o", "merged")
+        os.rename(whole / "merged", whole / "out/lambent.jsonl")
+        expect("0 of 2 pictures written, 2 unchanged", "--isolate")
+        self.texture(b"\0\xff\0")
+        spellings = spellings[1:2]
+        expect("1 of 2 pictures written, 1 unchanged")
+
+    def test_another_model_of_the_same_name(self):
+        self.batch("in/t.obj", "-o", "out/")
+        shutil.copytree(self.folder / "in", self.folder / "in2")
+        for sandbox in ("auto", "off"):
+            self.assertIn("1 unchanged", self.batch("in2/t.obj", "-o", "out/", "--skip-same", "--sandbox", sandbox).stderr.decode())
+        (self.folder / "in2/t.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.assertIn("1 of 1 pictures written", self.batch("in2/t.obj", "-o", "out/", "--skip-same", "--sandbox", "off").stderr.decode())
+
     def test_failures_are_drawn_again(self):
         (self.folder / "in/bad.stl").write_bytes(b"")
         self.assertEqual(len(self.drawn(code=7)), 3)

@@ -303,8 +303,11 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     char shard[32] = "";
     if (b->plan->shard.count)
         snprintf(shard, sizeof shard, "%d/%d", b->plan->shard.number, b->plan->shard.count);
-    struct journal_run run = {all, *shard ? shard : NULL, pictures};
+    char *folder = journal ? batch_plan_folder(b->plan) : NULL;
+    ok = ok && (!journal || folder || complain(error, LAM_LIMIT, "out of memory"));
+    struct journal_run run = {all, folder, *shard ? shard : NULL, pictures};
     ok = ok && (!journal || (b->journal = journal_open(journal, b->way, &run, b->workers, error)));
+    free(folder);
     free(all);
     return ok && (!o->jobs || (b->jobs = batch_jobs_open(b, error)));
 }

@@ -30,6 +30,7 @@ struct entry {
 
 struct journal {
     char *path, *running_path;
+    char *folder; // journal_run.folder
     int file, running;
     char *text; // of the journal as it was, its lines ended by zeros
     struct entry *entries;
@@ -74,12 +75,21 @@ char *journal_path(const char *text)
     return out;
 }
 
-static uint64_t hash_of(const char *output)
+// A picture is found by its path, and by its path below the folder of the pictures: that may be absolute in one run and relative
+// in the next. `folder`: the text that both begin with; NULL: the whole path is meant.
+static uint64_t hash_of(const char *folder, const char *output)
 {
     struct xxh64 hash;
     xxh64_start(&hash);
-    xxh64_add_text(&hash, output);
+    if (folder)
+        xxh64_add_text(&hash, "");
+    xxh64_add_text(&hash, output + (folder ? strlen(folder) : 0));
     return xxh64_end(&hash);
+}
+
+static bool is_below(const char *folder, const char *output)
+{
+    return folder && strncmp(output, folder, strlen(folder)) == 0;
 }
 
 // --- reading
@@ -92,7 +102,7 @@ static struct entry *find_entry(const struct journal *j, uint64_t output)
     return &j->entries[at];
 }
 
-static bool keep_line(struct journal *j, const char *output, const char *line)
+static bool keep_line(struct journal *j, uint64_t output, const char *line)
 {
     if (2 * (j->count + 1) > j->capacity) {
         struct journal larger = *j;
@@ -106,10 +116,9 @@ static bool keep_line(struct journal *j, const char *output, const char *line)
         free(j->entries);
         *j = larger;
     }
-    uint64_t hash = hash_of(output);
-    struct entry *entry = find_entry(j, hash);
+    struct entry *entry = find_entry(j, output);
     j->count += !entry->line;
-    *entry = (struct entry){hash, line};
+    *entry = (struct entry){output, line};
     return true;
 }
 
@@ -140,23 +149,30 @@ static const char *options_of(const json_t *line) { return json_string_value(jso
 // A line that is not JSON is a torn one, or of a run that went on after one: nobody counts on it.
 static bool read_lines(struct journal *j, size_t size, const char **options, json_t **last_run, lam_error *error)
 {
+    json_t *folder = NULL; // of the latest line that names one
+    bool ok = true;
     *options = NULL; // of the latest run
     j->torn = size && j->text[size - 1] != '\n';
-    for (char *line = j->text, *end; (end = memchr(line, '\n', size - (size_t)(line - j->text))); line = end + 1) {
+    for (char *line = j->text, *end; ok && (end = memchr(line, '\n', size - (size_t)(line - j->text)));
+         line = end + 1) {
         *end = 0;
-        json_t *record = json_loads(line, 0, NULL);
-        const char *output = json_string_value(json_object_get(record, "output"));
-        bool ok = !output || keep_line(j, output, line);
+        json_t *record = json_loads(line, 0, NULL), *named = json_object_get(record, "folder");
+        const char *output = json_string_value(json_object_get(record, "output")), *below = json_string_value(folder);
+        ok = !output || (keep_line(j, hash_of(NULL, output), line) &&
+                         (!is_below(below, output) || keep_line(j, hash_of(below, output), line)));
         if (record && options_of(record)) {
             json_decref(*last_run);
             *last_run = json_incref(record);
             *options = options_of(record);
         }
+        if (json_is_string(named)) {
+            json_decref(folder);
+            folder = json_incref(named);
+        }
         json_decref(record);
-        if (!ok)
-            return complain(error, LAM_LIMIT, "out of memory");
     }
-    return true;
+    json_decref(folder);
+    return ok || complain(error, LAM_LIMIT, "out of memory");
 }
 
 // --- opening
@@ -177,8 +193,9 @@ static bool write_all(int file, const char *text, size_t size)
 static bool begin_run(struct journal *j, const struct journal_run *about, lam_error *error)
 {
     char *clean = journal_text(about->options);
-    json_t *run = clean ? json_pack("{s:s, s:s, s:s, s:s*, s:I}", "lambent", lam_version(), "build", lam_build_info(),
-                                    "options", clean, "shard", about->shard, "pictures", (json_int_t)about->pictures)
+    json_t *run = clean ? json_pack("{s:s, s:s, s:s, s:s, s:s*, s:I}", "lambent", lam_version(), "build",
+                                    lam_build_info(), "options", clean, "folder", j->folder, "shard", about->shard,
+                                    "pictures", (json_int_t)about->pictures)
                         : NULL;
     bool ok = run || complain(error, LAM_LIMIT, "out of memory");
     ok = ok && journal_add(j, run, error);
@@ -293,8 +310,8 @@ struct journal *journal_open(const char *path, enum journal_way way, const struc
 {
     struct journal *j = calloc(1, sizeof *j);
     if (j)
-        *j = (struct journal){.path = strdup(path), .file = -1, .running = -1};
-    bool ok = j && j->path && asprintf(&j->running_path, "%s.running", path) >= 0;
+        *j = (struct journal){.path = strdup(path), .folder = journal_text(run->folder), .file = -1, .running = -1};
+    bool ok = j && j->path && j->folder && asprintf(&j->running_path, "%s.running", path) >= 0;
     if (!ok)
         complain(error, LAM_LIMIT, "out of memory");
     ok = ok && output_make_folder(path, error) && open_running(j, slots, error) &&
@@ -318,7 +335,9 @@ struct journal *journal_open(const char *path, enum journal_way way, const struc
 json_t *journal_find(const struct journal *j, const char *output)
 {
     char *clean = j->count ? journal_text(output) : NULL;
-    const struct entry *entry = clean ? find_entry(j, hash_of(clean)) : NULL;
+    const struct entry *entry = clean ? find_entry(j, hash_of(NULL, clean)) : NULL;
+    if (entry && !entry->line && is_below(j->folder, clean))
+        entry = find_entry(j, hash_of(j->folder, clean));
     json_t *record = entry && entry->line ? json_loads(entry->line, 0, NULL) : NULL;
     free(clean);
     return record;
@@ -402,6 +421,7 @@ void journal_close(struct journal *j, bool done)
         close(j->running);
     free(j->path);
     free(j->running_path);
+    free(j->folder);
     free(j->text);
     free(j->entries);
     free(j->was_running);

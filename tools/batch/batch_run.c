@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <malloc.h>
 #include <signal.h>
 #include <stdio.h>
@@ -266,6 +267,8 @@ static char *pictures_text(const struct batch *b)
             plan->pattern        ? plan->pattern
             : b->options->output ? b->options->output
                                  : "");
+    if (plan->by_list) // in a list of another size, models are in other shards
+        fprintf(out, "shard-by=list of %" PRIu64 " bytes\n", plan->list_bytes);
     for (int i = 0; i < plan->view_count; i++) {
         const struct job_view *v = &plan->views[i];
         fprintf(out, "picture=%s %dx%d\n", lam_side_name((lam_side)(v->side >= 0 ? v->side : b->options->view)),

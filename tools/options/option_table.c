@@ -46,6 +46,10 @@ static const struct word sandbox_words[] = {{"auto", SANDBOX_AUTO, "what the ker
                                             {"off", SANDBOX_OFF, "none"},
                                             {NULL, 0, NULL}};
 
+static const struct word shard_by_words[] = {
+    {"name", SHARD_BY_NAME, "from the hash of a model's name: one that is added moves no other"},
+    {"list", SHARD_BY_LIST, "consecutive models of one sorted list: a shard reads only its part"},
+    {NULL, 0, NULL}};
 static const struct word light_frame_words[] = {
     {"object", LAM_FRAME_OBJECT, "in object space: the model-view matrix transforms it, like the vertices"},
     {"camera", LAM_FRAME_CAMERA, "in eye space: used as given"},
@@ -847,6 +851,12 @@ const struct option option_table[] = {
      "nothing. The journal and the page of each part have names of their own: `lambent-2-of-4.jsonl` "
      "(`docs/batch.md`), and `lambent journal` sums them up.",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(shard)},
+    {"shard-by", 0, GROUP_BATCH, "HOW", "name", "How `--shard` parts the models: by name or list.",
+     "With `name` each shard reads all names, which takes a second or two for a million. With `list` it reads the K-th "
+     "of N parts of one list (`@FILE`), by its bytes. The models must be in the order of the names of their pictures "
+     "(`LC_ALL=C sort`), so that no two pictures can have one name. If the list changes, models move to other shards: "
+     "`--resume` is refused then.",
+     shard_by_words, .store = store_word, .others = "partition split-by", FIELD(shard_by)},
     {"jobs", 0, GROUP_BATCH, "-", NULL, "`batch`: Take jobs, a line of JSON each, and answer each with a line of JSON.",
      "For servers: one process draws whatever comes until its standard input ends (`docs/worker.md`). A job has an "
      "`id`, a "

@@ -205,7 +205,7 @@ class Shards(Batch):
         path = os.path.dirname(PROGRAM) + ":" + os.environ["PATH"]
         subprocess.run(make, shell=True, cwd=self.folder, check=True, env={**os.environ, "PATH": path})
         self.assertEqual(sorted((self.folder / "list").read_text().split()), sorted(names))
-        found = [self.models(*draw.replace("auto/2000", f"{k}/3").replace("'", "").split()[2:]) for k in (1, 2, 3)]
+        found = [self.models(*draw.replace("17/2000", f"{k}/3").replace("'", "").split()[2:]) for k in (1, 2, 3)]
         self.assertEqual(sorted(sum(found, [])), sorted(names))
 
     def test_a_list_that_has_changed(self):

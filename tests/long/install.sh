@@ -12,7 +12,7 @@ for prefix in /usr/local /usr; do
     /tmp/render tests/models/cube.obj /tmp/render.png
     $prefix/bin/lambent teapot -s 64 -o /tmp/lambent.png --quiet
     head -c 4 /tmp/render.png /tmp/lambent.png | grep -c PNG | grep -qx 2
-    make uninstall prefix=$prefix
+    make uninstall prefix=$prefix >/dev/null
     list >/tmp/after
     diff /tmp/before /tmp/after
     if pkg-config --exists lambent || /tmp/render tests/models/cube.obj /tmp/again.png 2>/dev/null; then

@@ -80,12 +80,11 @@ static char *path_now(const char *recorded, const char *recorded_model, const ch
     char *path = journal_path(recorded), *then = journal_path(recorded_model), *now = NULL;
     const char *slash = then ? strrchr(then, '/') : NULL, *own = strrchr(model, '/');
     size_t folder = slash ? (size_t)(slash - then) + 1 : 0;
-    if (!path || !then)
-        now = NULL;
-    else if (strcmp(path, then) == 0)
+    bool beside = path && then && strncmp(path, then, folder) == 0 && (folder || *path != '/');
+    if (beside && strcmp(path, then) == 0)
         now = strdup(model);
-    else if (strncmp(path, then, folder) != 0 || (!folder && *path == '/'))
-        now = strdup(path);
+    else if (!beside)
+        now = path ? strdup(path) : NULL;
     else if (asprintf(&now, "%.*s%s", own ? (int)(own - model) + 1 : 0, model, path + folder) < 0)
         now = NULL;
     free(path);

@@ -851,7 +851,7 @@ const struct option option_table[] = {
      "nothing. The journal and the page of each part have names of their own: `lambent-2-of-4.jsonl` "
      "(`docs/batch.md`), and `lambent journal` sums them up.",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(shard)},
-    {"shard-by", 0, GROUP_BATCH, "HOW", "name", "How `--shard` parts the models: by name or list.",
+    {"shard-by", 0, GROUP_BATCH, "HOW", "name", "How `--shard` divides the models: by name or list.",
      "With `name` each shard reads all names, which takes a second or two for a million. With `list` it reads the K-th "
      "of N parts of one list (`@FILE`), by its bytes. The models must be in the order of the names of their pictures "
      "(`LC_ALL=C sort`), so that no two pictures can have one name. If the list changes, models move to other shards: "

@@ -31,6 +31,7 @@ struct entry {
 struct journal {
     char *path, *running_path;
     char *folder; // journal_run.folder
+    enum journal_way way;
     int file, running;
     char *text; // of the journal as it was, its lines ended by zeros
     struct entry *entries;
@@ -260,30 +261,31 @@ static bool set_aside(const struct journal *j, lam_error *error)
     return ok;
 }
 
-// Waits two seconds for the lock: the processes of a run that was killed hold it until they have ended too.
-static bool wait_for_lock(int file)
+static bool wait_for_lock(int file, double until_ms)
 {
-    const double until = clock_ms() + 2000;
-    while (flock(file, LOCK_EX | LOCK_NB) != 0) {
-        if ((errno != EWOULDBLOCK && errno != EINTR) || clock_ms() > until || interrupted())
+    for (; clock_ms() < until_ms; nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL)) {
+        if (flock(file, LOCK_EX | LOCK_NB) == 0)
+            return true;
+        if ((errno != EWOULDBLOCK && errno != EINTR) || interrupted())
             return false;
-        nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
     }
-    return true;
+    errno = EWOULDBLOCK;
+    return false;
 }
 
-// Only one run at a time writes a journal: the lock is that of FILE.running, and ends with the process and its children.
+// Only one run at a time writes a journal: the lock is that of FILE.running. The processes of a run that was killed hold it until they
+// have ended too, so this waits two seconds. If the other run removes the file at its end, the lock is of no use, and a new file is locked.
 static bool lock_running(struct journal *j, lam_error *error)
 {
+    const double until_ms = clock_ms() + 2000;
     struct stat about = {0};
-    // A run that has just ended removes the file that it held: then a new one is locked.
     while (about.st_nlink == 0) {
         if (j->running >= 0)
             close(j->running);
         j->running = open(j->running_path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (j->running < 0)
             return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", j->running_path, strerror(errno));
-        if (!wait_for_lock(j->running))
+        if (!wait_for_lock(j->running, until_ms))
             return errno == EWOULDBLOCK
                        ? complain(error, LAM_BAD_ARGUMENT, "%s: the journal is in use by another run", j->path)
                        : complain(error, LAM_CANNOT_WRITE, "%s: cannot lock: %s", j->running_path, strerror(errno));
@@ -310,7 +312,8 @@ struct journal *journal_open(const char *path, enum journal_way way, const struc
 {
     struct journal *j = calloc(1, sizeof *j);
     if (j)
-        *j = (struct journal){.path = strdup(path), .folder = journal_text(run->folder), .file = -1, .running = -1};
+        *j = (struct journal){
+            .path = strdup(path), .folder = journal_text(run->folder), .way = way, .file = -1, .running = -1};
     bool ok = j && j->path && j->folder && asprintf(&j->running_path, "%s.running", path) >= 0;
     if (!ok)
         complain(error, LAM_LIMIT, "out of memory");
@@ -336,7 +339,8 @@ json_t *journal_find(const struct journal *j, const char *output)
 {
     char *clean = j->count ? journal_text(output) : NULL;
     const struct entry *entry = clean ? find_entry(j, hash_of(NULL, clean)) : NULL;
-    if (entry && !entry->line && is_below(j->folder, clean))
+    // --skip-same checks the contents of all files. --resume goes by the line alone, which has to be of this very path.
+    if (entry && !entry->line && j->way == JOURNAL_SAME && is_below(j->folder, clean))
         entry = find_entry(j, hash_of(j->folder, clean));
     json_t *record = entry && entry->line ? json_loads(entry->line, 0, NULL) : NULL;
     free(clean);

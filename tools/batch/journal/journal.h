@@ -29,8 +29,8 @@ struct journal_run {
 struct journal *journal_open(const char *path, enum journal_way way, const struct journal_run *run, int slots,
                              lam_error *error);
 
-// The latest line of a picture, by its path, or by its path below the run's folder, however that was spelled then; NULL: none. The
-// caller calls json_decref.
+// The latest line of a picture, by its path; for SAME also by its path below the folder of the pictures, however that was spelled
+// then. NULL: none. The caller calls json_decref.
 json_t *journal_find(const struct journal *journal, const char *output);
 
 // Adds a record. One thread at a time. Error: LAM_CANNOT_WRITE.

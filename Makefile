@@ -5,6 +5,9 @@ prefix  ?= /usr/local
 DESTDIR ?=
 time    ?= 60
 MAKEFLAGS += --no-print-directory
+# Meson asks dpkg-architecture for Debian's folder of libraries, and takes lib64 if it is missing: neither the loader nor pkg-config
+# looks there. The compiler knows the folder too; it prints nothing where there is none.
+folders  = --prefix=$(prefix) $$(gcc -print-multiarch 2>/dev/null | sed 's:.:--libdir=lib/&:')
 
 .PHONY: all demo web site test test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall clean help
 
@@ -32,7 +35,7 @@ help:
 
 $(build)/build.ninja:
 	@scripts/setup.sh build
-	meson setup $(build) --buildtype=release --prefix=$(prefix) -Dtests=false
+	meson setup $(build) --buildtype=release $(folders) -Dtests=false
 
 .PHONY: $(build)/lambent
 $(build)/lambent: $(build)/build.ninja
@@ -79,7 +82,7 @@ fuzz:
 	@python3 tests/fuzz/fuzz.py time=$(time) $(targets)
 
 test-debian13:
-	@scripts/test_debian13.sh
+	@scripts/fresh_root.sh trixie build-debian13 'make demo; sha256sum out/demo.png; make test'
 
 # A build of its own, of the release kind whatever $(build) is; models and pictures lie there too.
 bench:
@@ -95,15 +98,22 @@ bench-check bench-check-record: $(build)/lambent
 # The prefix is baked into lambent.pc: configured before the build that makes it. The page of `make web` is installed where it is there by now.
 install: $(build)/build.ninja
 	@scripts/setup.sh build
-	meson setup --reconfigure $(build) --prefix=$(prefix)
+	meson setup --reconfigure $(build) $(folders)
 	ninja -C $(build)
 	DESTDIR=$(DESTDIR) meson install -C $(build)
+	@test -n '$(DESTDIR)' || $(ldconfig)
+	@test -n '$(DESTDIR)' || pkg-config --exists lambent || find '$(prefix)' -name lambent.pc -printf \
+	    'To use the library: export PKG_CONFIG_PATH=%h LD_LIBRARY_PATH=%h/..\n'
 
-# Removes exactly the files that an install with the same DESTDIR and prefix puts there.
+# The loader finds libraries by a list, which only root can write.
+ldconfig = PATH=$$PATH:/usr/sbin:/sbin ldconfig 2>/dev/null || true
+
+# Removes exactly the files that an install with the same DESTDIR and prefix puts there, and folders that are empty then.
 uninstall: $(build)/build.ninja
-	@meson configure $(build) --prefix=$(prefix)
+	@meson configure $(build) $(folders)
 	@ninja -C $(build) >/dev/null
-	@meson introspect --installed $(build) | python3 scripts/uninstall.py '$(DESTDIR)'
+	@meson introspect --installed $(build) | python3 scripts/uninstall.py '$(DESTDIR)' '$(prefix)'
+	@test -n '$(DESTDIR)' || $(ldconfig)
 
 docs: $(build)/lambent
 	@ninja -C $(build) docs/reference.md

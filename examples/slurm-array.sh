@@ -17,7 +17,7 @@ set -eu
 shards=${SHARDS:-12}
 models=$1 pictures=$2
 
-# exec: lambent is the process that Slurm signals before the time is over, and it ends within a second. Exit code 7, some models cannot be
-# drawn, which the journal names, makes the task a failed one (sacct); it is not requeued for that.
+# exec: lambent is the process that Slurm signals before the time is over, and it ends within a second. --failures-ok: models that cannot be
+# drawn are in the journal, and do not make the task a failed one (sacct). `lambent journal PICTURES` sums up all tasks.
 exec lambent batch "$models" -o "$pictures/{dir}/{stem}.png" -s 256 \
-    --shard "auto/$shards" --resume --retry-failed 1 -j "${SLURM_CPUS_PER_TASK:-1}"
+    --shard "auto/$shards" --resume --retry-failed 1 --failures-ok -j "${SLURM_CPUS_PER_TASK:-1}"

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""uninstall.py DESTDIR: removes the files that `meson introspect --installed` lists on standard input, below DESTDIR, and the folders
-named lambent that are empty then."""
+"""uninstall.py DESTDIR PREFIX: removes the files that `meson introspect --installed` lists on standard input, below DESTDIR, and the
+folders that are empty then. The folders that every system has in PREFIX (bin, share, share/man …) stay."""
 import json
 import os
 import sys
 
-destination = sys.argv[1]
+destination, prefix = sys.argv[1], sys.argv[1] + os.path.normpath(sys.argv[2])
 folders = set()
 removed = 0
 
@@ -34,7 +34,9 @@ for source, target in json.load(sys.stdin).items():
                 if other == stem or other.startswith(stem + "."):
                     remove(os.path.join(folder, other))
 for folder in folders:
-    if os.path.basename(folder) == "lambent" and os.path.isdir(folder) and not os.listdir(folder):
+    below = os.path.relpath(folder, prefix)
+    while "/" in below and not below.startswith("..") and below != "share/man" and os.path.isdir(folder) and not os.listdir(folder):
         os.rmdir(folder)
+        folder, below = os.path.dirname(folder), os.path.dirname(below)
 if not removed:
     sys.exit("nothing of Lambent is installed there")

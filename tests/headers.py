@@ -2,6 +2,7 @@
 """headers.py BUILD: the library as its users get it: each public header compiles alone as C11 and as C++17; the library installs;
 the examples compile with pkg-config, run, and write a picture; the exported symbols of the shared library are checked."""
 import glob
+import json
 import os
 import subprocess
 import sys
@@ -44,6 +45,25 @@ def installed(folder):
         return None
     return {**os.environ, "PKG_CONFIG_PATH": os.path.dirname(found[0]), "PKG_CONFIG_SYSROOT_DIR": stage,
             "LD_LIBRARY_PATH": os.path.dirname(os.path.dirname(found[0]))}
+
+
+def uninstalled(stage):
+    """Nothing is left but the folders that every system has; and `make` names Debian's folder of libraries itself."""
+    files = run(["meson", "introspect", "--installed", BUILD])
+    prefix = next(option["value"] for option in json.loads(run(["meson", "introspect", "--buildoptions", BUILD]).stdout)
+                  if option["name"] == "prefix")
+    done = run([sys.executable, os.path.join(ROOT, "scripts", "uninstall.py"), stage, prefix], input=files.stdout)
+    left = [os.path.relpath(os.path.join(path, name), stage + prefix) for path, folders, names in os.walk(stage + prefix) for name in folders + names]
+    check("uninstall leaves nothing", done.returncode == 0 and set(left) <= {"bin", "include", "lib", "lib64", "share", "share/man"},
+          done.stdout + str(left))
+    for name in ("meson", "ninja"):  # only what they are asked for is wanted
+        with open(os.path.join(stage, name), "w") as program:
+            program.write("#!/bin/sh\necho %s \"$@\"\n" % name)
+        os.chmod(program.name, 0o755)
+    multiarch = run(["gcc", "-print-multiarch"]).stdout.strip()
+    done = run(["make", "-C", ROOT, "install", "build=" + stage, "-o", stage + "/build.ninja", "DESTDIR=" + stage],
+               env={**os.environ, "PATH": stage + ":" + os.environ["PATH"]})
+    check("make install names the folder of libraries", not multiarch or "--prefix=/usr/local --libdir=lib/%s\n" % multiarch in done.stdout, done.stdout)
 
 
 def installed_example(environment, name):
@@ -173,6 +193,7 @@ def main():
             static(folder, environment)
             check_library(folder, environment)
             documentation(folder)
+            uninstalled(environment["PKG_CONFIG_SYSROOT_DIR"])
         symbols()
     print("1..%d" % len(results))
     return 0 if all(results) else 1

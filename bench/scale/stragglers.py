@@ -3,8 +3,8 @@
 other, as a job array does, and writes docs/pictures/scale-shards.svg and the tables of docs/scale.md; --check compares instead.
 
 The time of each model is drawn from those measured over 437 models (times-256.txt and times-1024.txt beside this file: milliseconds on one
-core, the journals of `lambent batch -j 1`). Models belong to shards at random, as a hash deals them. Every shard costs a start; five machines in a
-hundred have half the speed. Nothing depends on the machine that runs this: the same numbers, and the same picture, everywhere."""
+core, the journals of `lambent batch -j 1`). Models belong to shards at random, as a hash deals them. Every shard costs a start and its plan: of all
+models (`--shard-by name`), or of its own (`--shard-by list`); five machines in a hundred have half the speed. Nothing depends on the machine that runs this: the same numbers, and the same picture, everywhere."""
 import heapq
 import pathlib
 import random
@@ -14,8 +14,10 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 DOCS = HERE.parents[1] / "docs"
 MACHINES, CORES, SLOW, START_S = 100, 4, 5, 5.0
+PLAN_S = 1.4e-6  # of a model, measured with a list of a million in random order
+WAYS = ("name", "list")
 SHARDS = (1, 2, 4, 8, 16, 32, 64)  # for each machine
-COUNTS = {10 ** 4: 20, 10 ** 5: 5, 10 ** 6: 1, 10 ** 7: 20}  # models: simulations whose mean is taken
+COUNTS = {10 ** 4: 20, 10 ** 5: 5, 10 ** 6: 1, 10 ** 7: 20, 10 ** 8: 20}  # models: simulations whose mean is taken
 MANY = 10 ** 7  # from here on the work of a shard is drawn from the normal distribution that it is near to
 CORE_HOUR, GIB = 0.05, 2.0 ** 30  # dollars: about a virtual core of a large cloud, 2026
 PICTURE_BYTES, LINE_BYTES = {256: 27300, 1024: 262000}, 885  # means of the same runs
@@ -49,28 +51,38 @@ def deal(count, shard_count, measured, rng):
 
 
 def simulate(count, per_machine, seed, measured):
-    """The time until the last shard is done, by the time of all work evenly shared."""
+    """For each way of parting the models, the time until the last shard is done, by the time of all work evenly shared."""
     shards, total = deal(count, MACHINES * per_machine, measured, random.Random(seed))
+    even = total / CORES / (MACHINES - SLOW / 2)
+    return [last_end(shards, PLAN_S * planned) / even for planned in (count, count / len(shards))]
+
+
+def last_end(shards, plan_s):
     machines = [(0.0, i) for i in range(MACHINES)]  # slow ones: the first, which is as good as any
     heapq.heapify(machines)
     last = 0.0
     for seconds in shards:
         start, machine = heapq.heappop(machines)
-        end = start + START_S + seconds * (2 if machine < SLOW else 1)
+        end = start + START_S + (plan_s + seconds) * (2 if machine < SLOW else 1)
         last = max(last, end)
         heapq.heappush(machines, (end, machine))
-    return last / (total / CORES / (MACHINES - SLOW / 2))
+    return last
 
 
 def results():
     measured = times_s(256)
-    return {count: [sum(simulate(count, k, seed, measured) for seed in range(tries)) / tries for k in SHARDS] for count, tries in COUNTS.items()}
+    found = {}
+    for count, tries in COUNTS.items():
+        runs = [[simulate(count, k, seed, measured) for seed in range(tries)] for k in SHARDS]
+        for i, way in enumerate(WAYS):
+            found[count, way] = [sum(run[i] for run in of_k) / tries for of_k in runs]
+    return found
 
 
 # --- the picture
 
-WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 640, 420, 70, 130, 24, 56
-COLORS = {10 ** 4: "#c05020", 10 ** 5: "#2a8040", 10 ** 6: "#1a56a0", 10 ** 7: "#7030a0"}
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 680, 420, 70, 170, 24, 56
+COLORS = {10 ** 4: "#c05020", 10 ** 5: "#2a8040", 10 ** 6: "#1a56a0", 10 ** 7: "#7030a0", 10 ** 8: "#606060"}
 LOW, HIGH = 1.0, 16.0
 
 
@@ -94,12 +106,14 @@ def svg(found):
         parts.append(text(across(k), HEIGHT - BOTTOM + 18, str(k)))
     parts.append('<rect x="%d" y="%d" width="%d" height="%d" fill="none" stroke="#aaaaaa"/>' % (LEFT, TOP, WIDTH - LEFT - RIGHT,
                                                                                               HEIGHT - TOP - BOTTOM))
-    for count, values in found.items():
+    for (count, way), values in found.items():
         points = [(across(k), up(value)) for k, value in zip(SHARDS, values) if value <= HIGH]
-        parts.append('<polyline points="%s" fill="none" stroke="%s" stroke-width="2"/>' % (
-            " ".join("%.1f,%.1f" % point for point in points), COLORS[count]))
+        parts.append('<polyline points="%s" fill="none" stroke="%s" stroke-width="2"%s/>' % (
+            " ".join("%.1f,%.1f" % point for point in points), COLORS[count], ' stroke-dasharray="6 4"' if way == "list" else ""))
         parts += ['<circle cx="%.1f" cy="%.1f" r="3.5" fill="%s"/>' % (*point, COLORS[count]) for point in points]
-        parts.append(text(points[-1][0] + 10, points[-1][1] + 4, power(count) + " models", "start", COLORS[count]))
+        if count >= MANY or way == "name":  # of fewer models both curves are nearly one
+            label = power(count) + " models" + (", by list" if way == "list" else "")
+            parts.append(text(points[-1][0] + 10, points[-1][1] + 4, label, "start", COLORS[count]))
     parts.append(text((LEFT + WIDTH - RIGHT) / 2, HEIGHT - 14, "shards for each of 100 machines"))
     middle = (TOP + HEIGHT - BOTTOM) / 2
     parts.append(text(18, middle, "time, 1: all work evenly shared", more=' transform="rotate(-90 18 %.0f)"' % middle))
@@ -153,8 +167,9 @@ def cost_table():
 
 
 def shard_table(found):
-    lines = ["| models | " + " | ".join(str(k) for k in SHARDS) + " |", "|---|" + "---|" * len(SHARDS)]
-    return lines + ["| %s | %s |" % (power(count), " | ".join("%.2f" % value for value in values)) for count, values in found.items()]
+    lines = ["| models | `--shard-by` | " + " | ".join(str(k) for k in SHARDS) + " |", "|---|---|" + "---|" * len(SHARDS)]
+    return lines + ["| %s | `%s` | %s |" % (power(count), way, " | ".join("%.2f" % value for value in values))
+                    for (count, way), values in found.items()]
 
 
 def main():

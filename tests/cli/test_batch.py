@@ -276,6 +276,14 @@ class Pictures(Batch):
         self.assertIn("in/b/m1.stl", done.stderr.decode())
         [failed] = [r for r in self.journal() if r["class"] != "ok"]
         self.assertEqual((failed["class"], failed["exit"], failed["attempt"]), ("cannot-read", 2, 1))
+        for more in ([], ["--resume"], ["--isolate"], ["--retry-failed", "1"]):
+            done = self.batch("in", "-o", "out/", "--failures-ok", *more)
+            self.assertIn("1 failed", done.stderr.decode())
+        self.good("in/b/m1.stl", names[0], "-s", 24, "-o", "out/", "--failures-ok")
+        # Only failures of models are fine.
+        self.batch("in", "-o", "out/", "--failures-ok", "--journal", "/proc/none", code=5)
+        self.batch("in", "none", "-o", "out/", "--failures-ok", "--resume", "--tone", "aces", code=1)
+        self.batch("in", "-o", "out/", code=7)
         self.assertIn("in/b/m1.stl", failed["error"])
         self.assertEqual(len(self.journal()), 4)
 
@@ -423,6 +431,39 @@ class SkipSame(Batch):
         (self.folder / "sky.ppm").write_bytes(b"P6\n2 1\n255\nabcdeg")
         self.assertEqual(len(self.drawn(*words)), 2)
 
+    def test_spellings(self):
+        """However paths are spelled, and from whichever folder, the same pictures are recognised."""
+        os.rename(self.folder / "in/m.stl", os.fsencode(self.folder) + b"/in/\xe9.stl")
+        (self.folder / "sky.ppm").write_bytes(b"P6\n2 1\n255\nabcdef")
+        (self.folder / "else").mkdir()
+        time.sleep(0.02)
+        whole = self.folder
+        spellings = [("in", "out/", "sky.ppm"), (whole / "in", f"{whole}/out/{{stem}}.png", whole / "sky.ppm"), ("./in/", "./out", "./sky.ppm"),
+                     ("../in", "../out/", "../sky.ppm")]
+        self.batch("in", "-o", "out/", "--environment", "sky.ppm")
+
+        def expect(counts, *more):
+            for source, output, sky in spellings:
+                self.folder = whole / "else" if "../in" == source else whole
+                done = self.batch(source, "-o", output, "--environment", sky, "--skip-same", *more)
+                self.folder = whole
+                self.assertIn(counts, done.stderr.decode(), (source, output))
+        expect("0 of 2 pictures written, 2 unchanged")
+        self.good("journal", "out", "-o", "merged")
+        os.rename(whole / "merged", whole / "out/lambent.jsonl")
+        expect("0 of 2 pictures written, 2 unchanged", "--isolate")
+        self.texture(b"\0\xff\0")
+        spellings = spellings[1:2]
+        expect("1 of 2 pictures written, 1 unchanged")
+
+    def test_another_model_of_the_same_name(self):
+        self.batch("in/t.obj", "-o", "out/")
+        shutil.copytree(self.folder / "in", self.folder / "in2")
+        for sandbox in ("auto", "off"):
+            self.assertIn("1 unchanged", self.batch("in2/t.obj", "-o", "out/", "--skip-same", "--sandbox", sandbox).stderr.decode())
+        (self.folder / "in2/t.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.assertIn("1 of 1 pictures written", self.batch("in2/t.obj", "-o", "out/", "--skip-same", "--sandbox", "off").stderr.decode())
+
     def test_failures_are_drawn_again(self):
         (self.folder / "in/bad.stl").write_bytes(b"")
         self.assertEqual(len(self.drawn(code=7)), 3)
@@ -460,7 +501,8 @@ class Kills(Batch):
             except subprocess.TimeoutExpired:
                 process.send_signal(signal.SIGKILL)
                 killed += 1
-            process.communicate()
+            text = process.communicate()[1].decode()
+            self.assertIn(process.returncode, (7, -signal.SIGKILL), text)
             if process.returncode == 7:  # done: the same again
                 self.check_outputs(expected)
                 shutil.rmtree(self.folder / "out")
@@ -491,6 +533,21 @@ class Kills(Batch):
     @long
     def test_kill_isolated(self):
         self.kill_test("--isolate")
+
+    def test_resumed_at_once(self):
+        """The processes of a killed run hold its lock for some milliseconds more."""
+        for round in range(4 * KILLS):
+            with open(self.folder / "said", "wb") as said:  # a pipe would only end with all processes
+                process = subprocess.Popen([PROGRAM, *self.words("--resume", "--isolate")], cwd=self.folder, stderr=said)
+            children, done = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children"), False
+            while not done and not children.read_text():
+                done = process.poll() is not None
+            time.sleep(random.uniform(0, 0.01))
+            process.kill()
+            process.wait()  # its processes may still be there
+            self.assertIn(process.returncode, (7, -signal.SIGKILL), f"round {round}: {(self.folder / 'said').read_text()}")
+            if process.returncode == 7:
+                shutil.rmtree(self.folder / "out")
 
     def test_temporary_files_of_a_killed_run(self):
         """A picture that was being replaced when the process was killed leaves a file, which the next run removes."""

@@ -202,7 +202,7 @@ NOT_VALUES = {"output", "quality", "color", "view", "camera", "light", "material
 # What else to give so that the option matters, and another value of it.
 CONTEXT = {
     "turntable-light": (["--turntable", "3"], "model"), "frames": (["--sweep", "zoom=1..2"], "4"), "fps": (["--turntable", "3"], "12"),
-    "sandbox": ([], None), "retry-failed": ([], None), "shard": ([], None), "size": ([], "64"), "samples": ([], "16"), "exposure": ([], "1"), "tone": ([], "aces"), "crease-angle": ([], "20"), "compress": ([], None), "term": ([], None),
+    "sandbox": ([], None), "retry-failed": ([], None), "shard": ([], None), "shard-by": ([], None), "size": ([], "64"), "samples": ([], "16"), "exposure": ([], "1"), "tone": ([], "aces"), "crease-angle": ([], "20"), "compress": ([], None), "term": ([], None),
     "background": ([], "white"), "color-mode": ([], "raw"), "azimuth": ([], "31"), "elevation": ([], "21"), "zoom": ([], "1.1"),
     "projection": ([], "orthographic"), "rig": ([], "headlight"), "ambient": ([], "0.1"), "light-cutoff": (["lights.json"], "0.1"),
     "light-scale": ([], "1.1"), "shading": ([], "flat"), "stage": ([], None), "flat-normal": (["--shading", "flat"], "vertex"),

@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import urllib.parse
 
-from harness import PROGRAM
+from harness import PROGRAM, ROOT
 from test_batch import Batch, xxh64
 
 VARIABLES = ("SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_MAX", "SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_STEP",
@@ -135,6 +135,90 @@ class Shards(Batch):
         self.assertIn("both", self.auto(both, code=1))
         self.assertEqual(len(self.models("in", "-o", "out/", env=both)), 30)
 
+    def test_kubernetes_example(self):
+        """Its command draws every model once, and a model that cannot be drawn does not make a pod fail."""
+        text = (ROOT / "examples" / "kubernetes-job.yaml").read_text()
+        words = [word.strip().strip('"') for word in re.search(r"(?s)command: \[(.*?)\]", text).group(1).split(",")]
+        completions = int(re.search(r"completions: (\d+)", text).group(1))
+        self.assertEqual(words[words.index("--shard") + 1], f"auto/{completions}")
+        for field in ("completionMode: Indexed", "backoffLimitPerIndex: ", "action: Ignore", "type: DisruptionTarget", "restartPolicy: Never"):
+            self.assertIn(field, text)
+        names = self.tree(20)
+        (self.folder / names[4]).write_bytes(b"")
+        words = [re.sub("^/(?=models|pictures)", f"{self.folder}/", word).replace("/models", "/in") for word in words]
+        for i in range(completions):
+            done = self.run_program(*words[1:], env={"JOB_COMPLETION_INDEX": str(i)})
+            self.assertEqual(done.returncode, 0, done.stderr.decode())
+        self.assertEqual(len(self.pictures("pictures")), 19)
+
+    # --- parts of a list
+
+    def parts(self, count, *words, code=0):
+        return [self.models("@list", "-o", "out/{dir}/{stem}.png", "--shard", f"{k}/{count}", "--shard-by", "list", *words, code=code)
+                for k in range(1, count + 1)]
+
+    def test_parts_of_a_list(self):
+        """Each name is in one part, in the list's order, wherever the parts' borders are; empty lines count for nothing."""
+        names = sorted(f"{folder}/{'m' * (i % 7)}{i:02}.stl" for folder in ("a", "b") for i in range(20))
+        for text in ("".join(n + "\n" for n in names), "\r\n".join(names), "\n\n" + "\n\n\n".join(names) + "\n\n"):
+            (self.folder / "list").write_text(text, newline="")
+            for count in (1, 2, 7, 39):
+                found = self.parts(count)
+                self.assertEqual(sum(found, []), names)
+                self.assertLessEqual(max(map(len, found)), len(names) / count * 2 + 1)
+        (self.folder / "list").write_text("")
+        self.assertEqual(self.parts(2), [[], []])
+
+    def test_a_part_reads_only_its_bytes(self):
+        """A sparse file of 8 GB: nobody reads all of it in the time of a test."""
+        lines, part = [b"a/%05d.stl\n" % i for i in range(6000)], 1 << 14  # bytes
+        with open(self.folder / "list", "wb") as file:
+            file.seek((4 << 30) - 2 * part)
+            file.write(b"\n" + b"".join(lines))
+            file.truncate(8 << 30)
+        drawn = self.models("@list", "-o", "out/{stem}.png", "--shard", f"{(1 << 18) + 1}/{1 << 19}", "--shard-by", "list")
+        first = -(-(2 * part - 1) // len(lines[0]))  # the first line that begins in the part
+        self.assertEqual(drawn, [line[:-1].decode() for line in lines[first:-(-(3 * part - 1) // len(lines[0]))]])
+
+    def test_the_order_of_a_list(self):
+        """No shard sees all names; that no two pictures have one follows from their order, also at the borders of parts."""
+        for lines, says in ((["a/1.stl", "a/3.stl", "a/2.stl", "a/4.stl"], "'out/a/2.png' comes after 'out/a/3.png'"),
+                            (["a/1.stl", "a/2.obj", "a/2.stl", "a/4.stl"], "would both be written to 'out/a/2.png'")):
+            (self.folder / "list").write_text("\n".join(lines))
+            for count in (1, 2, 4):
+                done = [self.run_program("batch", "@list", "-o", "out/{dir}/{stem}.png", "--shard", f"{k}/{count}", "--shard-by", "list", "--dry-run")
+                        for k in range(1, count + 1)]
+                self.assertEqual(sum(d.returncode == 1 and says in d.stderr.decode() for d in done), 1, (lines, count))
+        (self.folder / "list").write_text("a/1.stl\n")
+        self.assertIn("shares one list", self.models("b/2.stl", "@list", "--shard", "1/2", "--shard-by", "list", code=1))
+        self.assertIn("shares one list", self.models("@list", "@list", "--shard", "1/2", "--shard-by", "list", code=1))
+        self.assertIn("not a regular file", self.models("-", "--shard", "1/2", "--shard-by", "list", code=1))
+        self.assertIn("goes with --shard", self.models("@list", "--shard-by", "list", code=1))
+
+    def test_the_list_of_the_documentation(self):
+        """Its line sorts any names by their pictures; shards of that list draw each once."""
+        names = ["models/b/bolt.stl", "models/b/bolt.m5.stl", "models/b/bolt.a.stl", "models/b/bolt.z.stl", "models/b-c/x.stl", "models/b/bolt-2.stl", "models/a.stl"]
+        for name in names:
+            self.cube(name)
+        page = (ROOT / "docs" / "scale.md").read_text()
+        make, draw = re.search(r"    (lambent batch models .* > list)\n    (lambent batch @list .*)\n", page).groups()
+        path = os.path.dirname(PROGRAM) + ":" + os.environ["PATH"]
+        subprocess.run(make, shell=True, cwd=self.folder, check=True, env={**os.environ, "PATH": path})
+        self.assertEqual(sorted((self.folder / "list").read_text().split()), sorted(names))
+        found = [self.models(*draw.replace("17/2000", f"{k}/3").replace("'", "").split()[2:]) for k in (1, 2, 3)]
+        self.assertEqual(sorted(sum(found, [])), sorted(names))
+
+    def test_a_list_that_has_changed(self):
+        names = self.tree(6)
+        (self.folder / "list").write_text("\n".join(sorted(names)))
+        words = ["@list", "-o", "out/{dir}/{stem}.png", "--shard-by", "list"]
+        for k in (1, 2):
+            self.batch(*words, "--shard", f"{k}/2")
+        self.assertEqual(len(self.pictures()), 6)
+        self.assertIn("0 of 3 pictures written, 3 done before", self.batch(*words, "--shard", "2/2", "--resume").stderr.decode())
+        (self.folder / "list").write_text("\n".join(sorted(names + ["in/a/m00.stl"])))
+        self.assertIn("--shard-by list of", self.batch(*words, "--shard", "2/2", "--resume", code=1).stderr.decode())
+
     # --- the run
 
     def header(self, path):
@@ -262,7 +346,7 @@ class Merge(Batch):
         self.assertEqual(sorted(r["model"] for r in self.journal()), sorted(names))
         self.assertIn("0 of 9 pictures written, 9 done before", self.batch("in", "-o", "out/{dir}/{stem}.png", "--resume").stderr.decode())
         self.assertIn("9 unchanged", self.batch("in", "-o", "out/{dir}/{stem}.png", "--skip-same").stderr.decode())
-        self.assertEqual(len(self.sum("out", "-o", "-").splitlines()), 11)  # of the shards, not of what they were merged into
+        self.assertEqual(self.sum("out", "-o", "-").count('"output"'), 9)  # of the shards, not of what they were merged into
         self.assertIn("9 of 9", self.sum("out/lambent.jsonl"))
 
     def test_latest_line_counts(self):

@@ -295,14 +295,13 @@ def array_survives_a_node(folder, expected):
             fields["JobState"] in done for fields in slurm.tasks(job).values()))
         tasks = slurm.tasks(job)
         check_whole(folder / "slurm", expected, 2)  # the script has --retry-failed 1
-        runs, pictures = records_of(folder / "slurm")
+        runs, _ = records_of(folder / "slurm")
         again = sorted(i for i, fields in tasks.items() if fields["Restarts"] != "0")
         check(again == [task], "requeued: %s" % again)
         check(sum(run["shard"] == "%d/%d" % (task + 1, TASKS) for run in runs if "shard" in run) == 2, "the requeued task did not run twice")
         check(at_kill < journal_of(folder, task), "task %d had drawn all when its node was killed" % task)
-        for i, fields in tasks.items():  # 7: its part has a broken model
-            broken = any(p["class"] != "ok" for p in pictures if p["journal"] == "lambent-%02d-of-%d.jsonl" % (i + 1, TASKS))
-            check(fields["ExitCode"] == ("7:0" if broken else "0:0"), "task %d: %s" % (i, fields["ExitCode"]))
+        for i, fields in tasks.items():  # the script has --failures-ok
+            check(fields["ExitCode"] == "0:0" and fields["JobState"] == "COMPLETED", "task %d: %s" % (i, fields["ExitCode"]))
         print("# %d models, %d tasks on %d nodes in %.0f s; node %s killed with task %d after %d of its pictures (%d processes), requeued" % (
             MODELS, TASKS, len(NODES), time.time() - start, node, task, at_kill, killed))
     except Exception:
@@ -314,11 +313,11 @@ def array_survives_a_node(folder, expected):
 
 
 def two_ranks(folder, expected):
-    """Open MPI sets its variables for programs that know nothing of it."""
+    """Open MPI sets its variables for programs that know nothing of it. It would end the other rank if one exited with 7."""
     done = subprocess.run([find("mpirun"), "--allow-run-as-root", "--oversubscribe", "-n", "2", PROGRAM, "batch", str(folder / "models"), "-o",
-                           str(folder / "mpi" / "{dir}" / "{stem}.png"), "-s", "256", "--shard", "auto"], capture_output=True, text=True,
+                           str(folder / "mpi" / "{dir}" / "{stem}.png"), "-s", "256", "--shard", "auto", "--failures-ok"], capture_output=True, text=True,
                           timeout=300)
-    check(done.returncode == 7, done.stderr[-2000:])
+    check(done.returncode == 0, done.stderr[-2000:])
     check_whole(folder / "mpi", expected, 1)
     journals = sorted(path.name for path in (folder / "mpi").glob("*.jsonl"))
     check(journals == ["lambent-1-of-2.jsonl", "lambent-2-of-2.jsonl"], "journals: %s" % journals)

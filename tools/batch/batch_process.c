@@ -7,11 +7,11 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "interrupt.h"
 #include "progress.h"
 
 enum { PROCESSES_MAX = 1024 };
@@ -49,9 +49,10 @@ bool batch_process_start(struct batch_process *process, batch_work *work, void *
     *process = (struct batch_process){.from = -1};
     if (pipe2(pipes, O_CLOEXEC) != 0)
         return false;
+    pid_t parent = getpid();
     process->pid = fork();
     if (process->pid == 0) {
-        prctl(PR_SET_PDEATHSIG, SIGKILL); // dies with its parent
+        interrupt_with_parent(parent);
         setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
         close(pipes[0]);
         struct batch_answer answer = {0};

@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <malloc.h>
 #include <signal.h>
 #include <stdio.h>
@@ -266,6 +267,8 @@ static char *pictures_text(const struct batch *b)
             plan->pattern        ? plan->pattern
             : b->options->output ? b->options->output
                                  : "");
+    if (plan->by_list) // in a list of another size, models are in other shards
+        fprintf(out, "shard-by=list of %" PRIu64 " bytes\n", plan->list_bytes);
     for (int i = 0; i < plan->view_count; i++) {
         const struct job_view *v = &plan->views[i];
         fprintf(out, "picture=%s %dx%d\n", lam_side_name((lam_side)(v->side >= 0 ? v->side : b->options->view)),
@@ -303,10 +306,22 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     char shard[32] = "";
     if (b->plan->shard.count)
         snprintf(shard, sizeof shard, "%d/%d", b->plan->shard.number, b->plan->shard.count);
-    struct journal_run run = {all, *shard ? shard : NULL, pictures};
+    char *folder = journal ? batch_plan_folder(b->plan) : NULL;
+    ok = ok && (!journal || folder || complain(error, LAM_LIMIT, "out of memory"));
+    struct journal_run run = {all, folder, *shard ? shard : NULL, pictures};
     ok = ok && (!journal || (b->journal = journal_open(journal, b->way, &run, b->workers, error)));
+    free(folder);
     free(all);
     return ok && (!o->jobs || (b->jobs = batch_jobs_open(b, error)));
+}
+
+// False: a picture was neither drawn nor recorded, for want of memory.
+static bool has_every_outcome(const struct batch *b)
+{
+    size_t pictures = b->plan->count * (size_t)b->plan->view_count, i = 0;
+    while (i < pictures && b->pictures[i].outcome != PICTURE_OPEN)
+        i++;
+    return i == pictures;
 }
 
 // Names the pictures that failed again and again.
@@ -396,7 +411,10 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
         finish(&b);
     journal_close(b.journal, ok && !interrupted() && !b.failed, interrupted());
     int code = ok ? b.code : report_failure(&error, plan->options);
-    if (ok && is_batch && b.tally.failed + b.tally.failed_before && !b.failed)
+    bool some_failed = ok && !b.failed && b.tally.failed + b.tally.failed_before;
+    if (some_failed && b.options->failures_ok && has_every_outcome(&b))
+        code = 0;
+    else if (some_failed && is_batch)
         code = EXIT_SOME_FAILED;
     batch_jobs_close(b.jobs);
     // A model alone says so itself, unless it had not been begun.

@@ -73,11 +73,31 @@ static bool is_untouched(const json_t *record, const char *output)
     return xxh64_parse(text_of(record, "hash"), &recorded) && xxh64_file(output, &hash) && hash == recorded;
 }
 
+// The path of one of the record's files, from malloc: beside the model that is drawn now, if it lay beside the record's model. The
+// record may be of a run in another folder. NULL: out of memory.
+static char *path_now(const char *recorded, const char *recorded_model, const char *model)
+{
+    char *path = journal_path(recorded), *then = journal_path(recorded_model), *now = NULL;
+    const char *slash = then ? strrchr(then, '/') : NULL, *own = strrchr(model, '/');
+    size_t folder = slash ? (size_t)(slash - then) + 1 : 0;
+    bool beside = path && then && strncmp(path, then, folder) == 0 && (folder || *path != '/');
+    if (beside && strcmp(path, then) == 0)
+        now = strdup(model);
+    else if (!beside)
+        now = path ? strdup(path) : NULL;
+    else if (asprintf(&now, "%.*s%s", own ? (int)(own - model) + 1 : 0, model, path + folder) < 0)
+        now = NULL;
+    free(path);
+    free(then);
+    return now;
+}
+
 // Whether the files that the model was made of, and the options, give the record's key.
 static bool has_same_key(const json_t *record, const struct batch_unit *u, int view)
 {
     const json_t *files = json_object_get(record, "files"), *file;
     size_t count = json_array_size(files), i;
+    const char *model = u->task.plan->models[u->task.model].path;
     uint64_t recorded;
     char(*hashes)[XXH64_TEXT] = calloc(count + 1, sizeof *hashes);
     const char **texts = calloc(count + 1, sizeof *texts);
@@ -86,12 +106,14 @@ static bool has_same_key(const json_t *record, const struct batch_unit *u, int v
         json_array_foreach(files, i, file)
         {
             uint64_t hash;
+            char *path = path_now(text_of(file, "path"), text_of(record, "model"), model);
             texts[i] = hashes[i];
-            if (xxh64_file(text_of(file, "path"), &hash))
+            if (path && xxh64_file(path, &hash))
                 xxh64_print(hash, hashes[i]);
             else
                 strcpy(hashes[i], "absent");
-            same &= strcmp(hashes[i], text_of(file, "hash")) == 0;
+            same &= path && strcmp(hashes[i], text_of(file, "hash")) == 0;
+            free(path);
         }
     if (same) {
         const struct batch_plan *plan = u->task.plan;
@@ -99,7 +121,7 @@ static bool has_same_key(const json_t *record, const struct batch_unit *u, int v
         const char *dot = strrchr(u->outputs[view], '.'), *format = text_of(record, "format");
         struct batch_key_parts parts = {.options = u->task.options_text,
                                         .parsed = plan->options,
-                                        .model = plan->models[u->task.model].path,
+                                        .model = model,
                                         .format = strcmp(format, "shape") == 0 ? "" : format,
                                         .picture = dot ? dot + 1 : "",
                                         .side = v->side,

@@ -191,6 +191,18 @@ static void print_json(const struct journal_sum *sum, const struct batch_tally *
 
 // --- what it writes
 
+// The folder of the pictures that follow, of the line that names it.
+static void write_folder(FILE *out, const char *line)
+{
+    json_t *run = json_loadb(line, strcspn(line, "\n"), 0, NULL), *folder = json_object_get(run, "folder");
+    json_t *own = folder ? json_pack("{s:O}", "folder", folder) : NULL;
+    char *text = own ? journal_line(own) : NULL;
+    fputs(text ? text : "", out);
+    free(text);
+    json_decref(own);
+    json_decref(run);
+}
+
 // One journal of all pictures, as a run without shards would have written it: the latest line of each.
 static bool write_merged(const struct journal_sum *sum, size_t pictures, const char *path, lam_error *error)
 {
@@ -205,6 +217,8 @@ static bool write_merged(const struct journal_sum *sum, size_t pictures, const c
     if (ok)
         fputs(line, out);
     for (size_t i = 0; ok && i < sum->count; i++) {
+        if (sum->entries[i].folder && (i == 0 || sum->entries[i].folder != sum->entries[i - 1].folder))
+            write_folder(out, sum->entries[i].folder);
         fwrite(sum->entries[i].line, 1, sum->entries[i].length, out);
         putc('\n', out);
     }

@@ -19,8 +19,8 @@ const struct topic topics[] = {
      "'thumbs/{dir}/{stem}.png'`. `--dry-run` prints which picture each model becomes. Killed at any moment, the same "
      "command with `--resume` goes on; with `--skip-same` it draws only what has changed. The exit code is 7 where "
      "some "
-     "pictures failed. `docs/batch.md` has the details. With `--jobs -` it takes jobs from a server, a line of JSON "
-     "each, and answers them (`docs/worker.md`)."},
+     "pictures failed, and 0 with `--failures-ok`. `docs/batch.md` has the details. With `--jobs -` it takes jobs from "
+     "a server, a line of JSON each, and answers them (`docs/worker.md`)."},
     {"viewer", "The viewer", BIT(VIEWER), TOPIC_NO_TABLE,
      "`lambent view bunny.obj` shows a model in the browser, and again whenever its file changes; `lambent view "
      "models/` is a gallery of a "

@@ -3,6 +3,7 @@
 
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 static lam_cancel cancel;
@@ -34,4 +35,11 @@ void interrupt_finish(void)
     signal(caught, SIG_DFL);
     raise(caught);
     _exit(128 + caught); // reached only if the signal is blocked
+}
+
+void interrupt_with_parent(pid_t parent)
+{
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) // the parent ended before the signal was asked for, so that it never comes
+        _exit(1);
 }

@@ -46,6 +46,10 @@ static const struct word sandbox_words[] = {{"auto", SANDBOX_AUTO, "what the ker
                                             {"off", SANDBOX_OFF, "none"},
                                             {NULL, 0, NULL}};
 
+static const struct word shard_by_words[] = {
+    {"name", SHARD_BY_NAME, "from the hash of a model's name: one that is added moves no other"},
+    {"list", SHARD_BY_LIST, "consecutive models of one sorted list: a shard reads only its part"},
+    {NULL, 0, NULL}};
 static const struct word light_frame_words[] = {
     {"object", LAM_FRAME_OBJECT, "in object space: the model-view matrix transforms it, like the vertices"},
     {"camera", LAM_FRAME_CAMERA, "in eye space: used as given"},
@@ -823,6 +827,11 @@ const struct option option_table[] = {
      "They are tried at the end of the run, and with `--resume` also those that failed in earlier runs; a line of the "
      "journal counts as one try. What still fails is named at the end.",
      .store = store_integer, .others = "retries retry attempts", FIELD(retry_failed), .max = 1000},
+    {"failures-ok", 0, GROUP_BATCH, NULL, NULL, "Exit with 0 although models failed, if each has its outcome.",
+     "Open MPI stops all ranks if one exits with another code, and other engines repeat its task. The failures are in "
+     "the journal and in the messages. A run that did not reach every model still exits with its code: a wrong "
+     "option, a journal that cannot be written, an interrupt.",
+     .store = store_switch, .others = "keep-going ignore-failures ignore-errors", FIELD(failures_ok)},
     {"skip-same", 0, GROUP_BATCH, NULL, NULL, "Draw only what has changed since the journal was written.",
      "A picture is left as it is if it still has the journal's hash, and its key is the journal's: a hash of all files "
      "that reading the model looked for (textures and material libraries too), the options with their defaults, and "
@@ -842,6 +851,12 @@ const struct option option_table[] = {
      "nothing. The journal and the page of each part have names of their own: `lambent-2-of-4.jsonl` "
      "(`docs/batch.md`), and `lambent journal` sums them up.",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(shard)},
+    {"shard-by", 0, GROUP_BATCH, "HOW", "name", "How `--shard` divides the models: by name or list.",
+     "With `name` each shard reads all names, which takes a second or two for a million. With `list` it reads the K-th "
+     "of N parts of one list (`@FILE`), by its bytes. The models must be in the order of the names of their pictures "
+     "(`LC_ALL=C sort`), so that no two pictures can have one name. If the list changes, models move to other shards: "
+     "`--resume` is refused then.",
+     shard_by_words, .store = store_word, .others = "partition split-by", FIELD(shard_by)},
     {"jobs", 0, GROUP_BATCH, "-", NULL, "`batch`: Take jobs, a line of JSON each, and answer each with a line of JSON.",
      "For servers: one process draws whatever comes until its standard input ends (`docs/worker.md`). A job has an "
      "`id`, a "

@@ -124,9 +124,10 @@ struct options {
     int sizes[VIEWS_MAX][2], size_count;
     const char *journal;     // NULL: the command's default; "none"
     const char *shard;       // as written (batch_shard.h); NULL: all models
+    int shard_by;            // enum shard_by
     const char *report_page; // NULL: none
     int retry_failed;
-    bool resume, skip_same, isolate;
+    bool resume, skip_same, isolate, failures_ok;
     const char *jobs;          // "-" or a file; NULL: none come
     int ahead;                 // 0: the default
     uint64_t line_limit_bytes; // 0: the default
@@ -213,6 +214,7 @@ enum { RIG_DARK = 100 };
 enum turntable_light { TURNTABLE_LIGHT_CAMERA, TURNTABLE_LIGHT_MODEL };
 
 enum texture_filter { TEXTURE_FILTER_EXACT, TEXTURE_FILTER_HARDWARE };
+enum shard_by { SHARD_BY_NAME, SHARD_BY_LIST };
 enum device_name { DEVICE_AUTO, DEVICE_CPU, DEVICE_GL, DEVICE_GLES };
 
 enum sheet_name {

@@ -12,7 +12,8 @@ const struct exit_code exit_codes[] = {
     {EXIT_DIFFERS, -1, NULL,
      "`diff`: the pictures differ by more than the tolerance; `check`: the shader does not pass"},
     {EXIT_SOME_FAILED, -1, NULL,
-     "`batch`: some pictures failed; the messages and the journal name them; `journal`: or are missing"},
+     "`batch`: some pictures failed (0 with `--failures-ok`); the messages and the journal name them; `journal`: or "
+     "are missing"},
     {EXIT_CRASHED, -1, "crashed", "`--isolate`: the process that drew the model ended without an answer"},
     {130, LAM_CANCELLED, "cancelled", "interrupted (Ctrl-C); no partial files remain"},
     {0, -1, NULL, NULL},

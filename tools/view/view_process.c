@@ -6,12 +6,12 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "console.h"
+#include "interrupt.h"
 #include "progress.h"
 #include "sandbox_start.h"
 
@@ -32,9 +32,9 @@ static void close_others(int first, int second)
     }
 }
 
-static _Noreturn void run(const struct view_files *files, const struct options *options, int from, int to)
+static _Noreturn void run(const struct view_files *files, const struct options *options, pid_t server, int from, int to)
 {
-    prctl(PR_SET_PDEATHSIG, SIGKILL); // dies with the server
+    interrupt_with_parent(server);
     close_others(from, to);
     // The server's filter lets it have connections and processes; this one needs neither. Its folders are Landlock's already.
     if (sandbox_active()->filter && !sandbox_filter_install(SANDBOX_DRAWS))
@@ -53,9 +53,10 @@ bool view_process_start(struct view_process *process, const struct view_files *f
         close(requests[1]);
         return false;
     }
+    pid_t server = getpid();
     process->pid = fork();
     if (process->pid == 0)
-        run(files, options, requests[0], answers[1]);
+        run(files, options, server, requests[0], answers[1]);
     int reason = errno;
     close(requests[0]);
     close(answers[1]);

@@ -87,12 +87,15 @@ static void print_value(FILE *out, const struct option *option, const struct opt
         fputs(o->values[option - option_table], out);
 }
 
-// The hashes of the environment's files, which are read once and count for every model.
+// The names and the hashes of the environment's files, which are read once and count for every model. How their folder is spelled does
+// not matter.
 static bool print_environment(FILE *out, const struct options *o, lam_error *error)
 {
     const char *paths[LAM_FACE_COUNT] = {o->environment};
-    if (!o->environment || environment_option_built_in(o->environment))
+    if (!o->environment || environment_option_built_in(o->environment)) {
+        fputs(o->environment ? o->environment : "", out);
         return true;
+    }
     char *names = strchr(o->environment, ',') ? environment_option_faces(o->environment, paths, error) : NULL;
     if (!names && strchr(o->environment, ','))
         return false;
@@ -104,7 +107,8 @@ static bool print_environment(FILE *out, const struct options *o, lam_error *err
              complain(error, LAM_CANNOT_READ, "%s: cannot open: %s", paths[i], strerror(errno));
         if (ok) {
             xxh64_print(hash, text);
-            fprintf(out, "%s%s", i ? "," : " ", text);
+            const char *slash = strrchr(paths[i], '/');
+            fprintf(out, "%s%s %s", i ? "," : "", slash ? slash + 1 : paths[i], text);
         }
     }
     free(names);
@@ -122,9 +126,10 @@ char *batch_options_text(const struct options *o, lam_error *error)
                                          !*(const bool *)((const char *)o + option->has_field)))
             continue;
         fprintf(out, "%s=", option->name);
-        print_value(out, option, o);
         if (strcmp(option->name, "environment") == 0)
             ok = print_environment(out, o, error);
+        else
+            print_value(out, option, o);
         putc('\n', out);
     }
     if (out && fclose(out) != 0 && ok)

@@ -9,12 +9,15 @@
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "batch_key.h"
 #include "console.h"
 #include "host_name.h"
+#include "interrupt.h"
 #include "output.h"
+#include "progress.h"
 #include "xxh64.h"
 
 enum { SLOT = 8192 };
@@ -27,6 +30,8 @@ struct entry {
 
 struct journal {
     char *path, *running_path;
+    char *folder; // journal_run.folder
+    enum journal_way way;
     int file, running;
     char *text; // of the journal as it was, its lines ended by zeros
     struct entry *entries;
@@ -72,12 +77,21 @@ char *journal_path(const char *text)
     return out;
 }
 
-static uint64_t hash_of(const char *output)
+// A picture is found by its path, and by its path below the folder of the pictures: that may be absolute in one run and relative
+// in the next. `folder`: the text that both begin with; NULL: the whole path is meant.
+static uint64_t hash_of(const char *folder, const char *output)
 {
     struct xxh64 hash;
     xxh64_start(&hash);
-    xxh64_add_text(&hash, output);
+    if (folder)
+        xxh64_add_text(&hash, "");
+    xxh64_add_text(&hash, output + (folder ? strlen(folder) : 0));
     return xxh64_end(&hash);
+}
+
+static bool is_below(const char *folder, const char *output)
+{
+    return folder && strncmp(output, folder, strlen(folder)) == 0;
 }
 
 // --- reading
@@ -90,7 +104,7 @@ static struct entry *find_entry(const struct journal *j, uint64_t output)
     return &j->entries[at];
 }
 
-static bool keep_line(struct journal *j, const char *output, const char *line)
+static bool keep_line(struct journal *j, uint64_t output, const char *line)
 {
     if (2 * (j->count + 1) > j->capacity) {
         struct journal larger = *j;
@@ -104,10 +118,9 @@ static bool keep_line(struct journal *j, const char *output, const char *line)
         free(j->entries);
         *j = larger;
     }
-    uint64_t hash = hash_of(output);
-    struct entry *entry = find_entry(j, hash);
+    struct entry *entry = find_entry(j, output);
     j->count += !entry->line;
-    *entry = (struct entry){hash, line};
+    *entry = (struct entry){output, line};
     return true;
 }
 
@@ -138,23 +151,30 @@ static const char *options_of(const json_t *line) { return json_string_value(jso
 // A line that is not JSON is a torn one, or of a run that went on after one: nobody counts on it.
 static bool read_lines(struct journal *j, size_t size, const char **options, json_t **last_run, lam_error *error)
 {
+    json_t *folder = NULL; // of the latest line that names one
+    bool ok = true;
     *options = NULL; // of the latest run
     j->torn = size && j->text[size - 1] != '\n';
-    for (char *line = j->text, *end; (end = memchr(line, '\n', size - (size_t)(line - j->text))); line = end + 1) {
+    for (char *line = j->text, *end; ok && (end = memchr(line, '\n', size - (size_t)(line - j->text)));
+         line = end + 1) {
         *end = 0;
-        json_t *record = json_loads(line, 0, NULL);
-        const char *output = json_string_value(json_object_get(record, "output"));
-        bool ok = !output || keep_line(j, output, line);
+        json_t *record = json_loads(line, 0, NULL), *named = json_object_get(record, "folder");
+        const char *output = json_string_value(json_object_get(record, "output")), *below = json_string_value(folder);
+        ok = !output || (keep_line(j, hash_of(NULL, output), line) &&
+                         (!is_below(below, output) || keep_line(j, hash_of(below, output), line)));
         if (record && options_of(record)) {
             json_decref(*last_run);
             *last_run = json_incref(record);
             *options = options_of(record);
         }
+        if (json_is_string(named)) {
+            json_decref(folder);
+            folder = json_incref(named);
+        }
         json_decref(record);
-        if (!ok)
-            return complain(error, LAM_LIMIT, "out of memory");
     }
-    return true;
+    json_decref(folder);
+    return ok || complain(error, LAM_LIMIT, "out of memory");
 }
 
 // --- opening
@@ -175,8 +195,9 @@ static bool write_all(int file, const char *text, size_t size)
 static bool begin_run(struct journal *j, const struct journal_run *about, lam_error *error)
 {
     char *clean = journal_text(about->options);
-    json_t *run = clean ? json_pack("{s:s, s:s, s:s, s:s*, s:I}", "lambent", lam_version(), "build", lam_build_info(),
-                                    "options", clean, "shard", about->shard, "pictures", (json_int_t)about->pictures)
+    json_t *run = clean ? json_pack("{s:s, s:s, s:s, s:s, s:s*, s:I}", "lambent", lam_version(), "build",
+                                    lam_build_info(), "options", clean, "folder", j->folder, "shard", about->shard,
+                                    "pictures", (json_int_t)about->pictures)
                         : NULL;
     bool ok = run || complain(error, LAM_LIMIT, "out of memory");
     ok = ok && journal_add(j, run, error);
@@ -241,14 +262,44 @@ static bool set_aside(const struct journal *j, lam_error *error)
     return ok;
 }
 
-// Only one run at a time writes a journal: the lock is that of FILE.running, and ends with the process.
+static bool wait_for_lock(int file, double until_ms)
+{
+    for (; clock_ms() < until_ms; nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL)) {
+        if (flock(file, LOCK_EX | LOCK_NB) == 0)
+            return true;
+        if ((errno != EWOULDBLOCK && errno != EINTR) || interrupted())
+            return false;
+    }
+    errno = EWOULDBLOCK;
+    return false;
+}
+
+// Only one run at a time writes a journal: the lock is that of FILE.running. The processes of a run that was killed hold it until they
+// have ended too, so this waits two seconds. If the other run removes the file at its end, the lock is of no use, and a new file is locked.
+static bool lock_running(struct journal *j, lam_error *error)
+{
+    const double until_ms = clock_ms() + 2000;
+    struct stat about = {0};
+    while (about.st_nlink == 0) {
+        if (j->running >= 0)
+            close(j->running);
+        j->running = open(j->running_path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (j->running < 0)
+            return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", j->running_path, strerror(errno));
+        if (!wait_for_lock(j->running, until_ms))
+            return errno == EWOULDBLOCK
+                       ? complain(error, LAM_BAD_ARGUMENT, "%s: the journal is in use by another run", j->path)
+                       : complain(error, LAM_CANNOT_WRITE, "%s: cannot lock: %s", j->running_path, strerror(errno));
+        if (fstat(j->running, &about) != 0)
+            return complain(error, LAM_CANNOT_WRITE, "%s: cannot lock: %s", j->running_path, strerror(errno));
+    }
+    return true;
+}
+
 static bool open_running(struct journal *j, lam_error *error)
 {
-    j->running = open(j->running_path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (j->running < 0)
-        return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", j->running_path, strerror(errno));
-    if (flock(j->running, LOCK_EX | LOCK_NB) != 0)
-        return complain(error, LAM_BAD_ARGUMENT, "%s: the journal is in use by another run", j->path);
+    if (!lock_running(j, error))
+        return false;
     size_t size;
     j->was_running = journal_read(j->running_path, &size);
     j->was_slots = j->was_running ? size / SLOT : 0;
@@ -267,8 +318,9 @@ struct journal *journal_open(const char *path, enum journal_way way, const struc
 {
     struct journal *j = calloc(1, sizeof *j);
     if (j)
-        *j = (struct journal){.path = strdup(path), .file = -1, .running = -1};
-    bool ok = j && j->path && asprintf(&j->running_path, "%s.running", path) >= 0;
+        *j = (struct journal){
+            .path = strdup(path), .folder = journal_text(run->folder), .way = way, .file = -1, .running = -1};
+    bool ok = j && j->path && j->folder && asprintf(&j->running_path, "%s.running", path) >= 0;
     if (!ok)
         complain(error, LAM_LIMIT, "out of memory");
     ok = ok && output_make_folder(path, error) && open_running(j, error) &&
@@ -292,7 +344,10 @@ struct journal *journal_open(const char *path, enum journal_way way, const struc
 json_t *journal_find(const struct journal *j, const char *output)
 {
     char *clean = j->count ? journal_text(output) : NULL;
-    const struct entry *entry = clean ? find_entry(j, hash_of(clean)) : NULL;
+    const struct entry *entry = clean ? find_entry(j, hash_of(NULL, clean)) : NULL;
+    // --skip-same checks the contents of all files. --resume goes by the line alone, which has to be of this very path.
+    if (entry && !entry->line && j->way == JOURNAL_SAME && is_below(j->folder, clean))
+        entry = find_entry(j, hash_of(j->folder, clean));
     json_t *record = entry && entry->line ? json_loads(entry->line, 0, NULL) : NULL;
     free(clean);
     return record;
@@ -376,6 +431,7 @@ void journal_close(struct journal *j, bool done, bool interrupted)
         close(j->running);
     free(j->path);
     free(j->running_path);
+    free(j->folder);
     free(j->text);
     free(j->entries);
     free(j->was_running);

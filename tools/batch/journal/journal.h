@@ -19,6 +19,7 @@ enum journal_way { JOURNAL_START, JOURNAL_RESUME, JOURNAL_SAME };
 // The contents of the line that begins a run.
 struct journal_run {
     const char *options; // batch_options_text, and the names of the pictures
+    const char *folder;  // that the pictures lie below, with its '/', as `output` of their lines begins
     const char *shard;   // "2/3"; NULL: there are no shards
     size_t pictures;     // that the run will have, with those that are written already
 };
@@ -28,7 +29,8 @@ struct journal_run {
 struct journal *journal_open(const char *path, enum journal_way way, const struct journal_run *run, int slots,
                              lam_error *error);
 
-// The latest line of a picture, by its path; NULL: none. The caller calls json_decref.
+// The latest line of a picture, by its path; for SAME also by its path below the folder of the pictures, however that was spelled
+// then. NULL: none. The caller calls json_decref.
 json_t *journal_find(const struct journal *journal, const char *output);
 
 // Adds a record. One thread at a time. Error: LAM_CANNOT_WRITE.

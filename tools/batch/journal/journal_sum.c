@@ -115,15 +115,16 @@ static void begin_run(struct journal_part *part, const json_t *record)
 // A line that is not JSON was torn by a kill: its picture is drawn again by the next run, and has another line.
 static bool read_lines(struct journal_sum *s, int number, lam_error *error)
 {
-    const char *line = s->parts[number].text, *last = line + s->parts[number].size, *end;
+    const char *line = s->parts[number].text, *last = line + s->parts[number].size, *end, *folder = NULL;
     bool ok = true;
     for (; ok && line < last && (end = memchr(line, '\n', (size_t)(last - line))); line = end + 1) {
         json_t *record = json_loadb(line, (size_t)(end - line), 0, NULL);
         const char *output = json_string_value(json_object_get(record, "output"));
+        struct journal_entry entry = {.line = line, .length = (size_t)(end - line), .folder = folder, .part = number};
+        if (json_object_get(record, "folder"))
+            folder = line;
         if (output)
-            ok = add_picture(s, record, output,
-                             (struct journal_entry){.line = line, .length = (size_t)(end - line), .part = number},
-                             error);
+            ok = add_picture(s, record, output, entry, error);
         else if (json_is_string(json_object_get(record, "options")))
             begin_run(&s->parts[number], record);
         else if (json_is_true(json_object_get(record, "ended")))

@@ -22,6 +22,8 @@ struct journal_entry {
     uint64_t output;  // hash of its path; 0: free
     const char *line; // `length` bytes, without the line's end
     size_t length;
+    const char
+        *folder; // the last line before it that names the folder of the pictures; ends with a line end; NULL: none
     int part;
     float ms; // from the beginning of the work to its end; 0: it failed
 };

@@ -50,6 +50,8 @@ static bool check_together(const struct options *o, lam_error *error)
         return complain(error, LAM_BAD_ARGUMENT,
                         "options '--resume' and '--skip-same' cannot be used together; --skip-same goes on after a "
                         "killed run too");
+    if (o->shard_by == SHARD_BY_LIST && !o->shard)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--shard-by' goes with --shard K/N");
     if (o->size_count && option_given(o, "size"))
         return complain(error, LAM_BAD_ARGUMENT, "options '--sizes' and '--size' cannot be used together");
     if (o->save_scene && (o->view_count > 1 || o->size_count > 1))
@@ -62,6 +64,7 @@ bool batch_plan_start(struct batch_plan *plan, const struct options *o, lam_erro
     *plan = (struct batch_plan){.options = o};
     if (!check_together(o, error) || (o->shard && !batch_shard_of(o->shard, &plan->shard, error)))
         return false;
+    plan->by_list = o->shard_by == SHARD_BY_LIST;
     int views = o->view_count ? o->view_count : 1, sizes = o->size_count ? o->size_count : 1;
     for (int v = 0; v < views; v++)
         for (int s = 0; s < sizes; s++)
@@ -92,6 +95,13 @@ bool batch_plan_add(struct batch_plan *plan, const char *path, const char *root,
     free(model->path);
     free(model->root);
     return complain(error, LAM_LIMIT, "out of memory");
+}
+
+void batch_plan_drop_last(struct batch_plan *plan)
+{
+    struct batch_model *model = &plan->models[--plan->count];
+    free(model->path);
+    free(model->root);
 }
 
 char *batch_plan_output(const struct batch_plan *plan, size_t index, int view)
@@ -178,6 +188,9 @@ static bool keep_shard(struct batch_plan *plan, lam_error *error)
 
 bool batch_plan_check(struct batch_plan *plan, lam_error *error)
 {
+    if (plan->by_list && plan->listed < plan->count)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--shard-by list' shares one list; expected @FILE or --files-from FILE alone");
     size_t count = plan->count * (size_t)plan->view_count, used = 0;
     struct named_output *named = calloc(count + 1, sizeof *named);
     bool ok = named != NULL;
@@ -195,16 +208,13 @@ bool batch_plan_check(struct batch_plan *plan, lam_error *error)
     for (size_t i = 0; i < used; i++)
         free(named[i].output);
     free(named);
-    plan->all = plan->count;
-    return ok && (!plan->shard.count || keep_shard(plan, error));
+    return ok && (!plan->shard.count || plan->by_list || keep_shard(plan, error));
 }
 
 void batch_plan_free(struct batch_plan *plan)
 {
-    for (size_t i = 0; i < plan->count; i++) {
-        free(plan->models[i].path);
-        free(plan->models[i].root);
-    }
+    while (plan->count)
+        batch_plan_drop_last(plan);
     free(plan->models);
     free(plan->pattern);
     *plan = (struct batch_plan){0};

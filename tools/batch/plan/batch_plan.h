@@ -21,7 +21,9 @@ struct batch_plan {
     int view_count;
     char *pattern;            // of the names; NULL: that of the model
     struct batch_shard shard; // --shard
-    size_t all;               // models of all shards together
+    bool by_list;             // --shard-by list: only the models of this shard are added
+    size_t listed;            // models that came from lists
+    uint64_t list_bytes;      // with by_list: the size of the list
 };
 
 // A plan without models. Checks the options that belong together. Error: LAM_BAD_ARGUMENT.
@@ -29,6 +31,9 @@ bool batch_plan_start(struct batch_plan *plan, const struct options *options, la
 
 // Adds a model; `root` may be NULL. Both are copied. False: LAM_LIMIT.
 bool batch_plan_add(struct batch_plan *plan, const char *path, const char *root, lam_error *error);
+
+// Takes the last model away.
+void batch_plan_drop_last(struct batch_plan *plan);
 
 // Ends the adding. Finds two pictures of one name, of any shard, and names that cannot be written; then keeps the models of this
 // shard. Error: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED.

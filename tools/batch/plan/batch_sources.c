@@ -98,6 +98,54 @@ static bool add_folder(struct batch_plan *plan, const char *folder, const char *
     return ok;
 }
 
+// --- lists
+
+// With --shard-by list: goes to the first line that begins in this shard's part of the file. `at`: the byte at which it begins; `end`:
+// the byte at which the next shard's part begins.
+static bool find_part(struct batch_plan *plan, FILE *file, const char *path, uint64_t *at, uint64_t *end,
+                      lam_error *error)
+{
+    struct stat about;
+    const struct batch_shard *shard = &plan->shard;
+    if (fstat(fileno(file), &about) != 0 || !S_ISREG(about.st_mode))
+        return complain(error, LAM_BAD_ARGUMENT, "option '--shard-by list': %s is not a regular file", path);
+    if (plan->list_bytes)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--shard-by list' shares one list, and %s is another", path);
+    uint64_t size = (uint64_t)about.st_size, count = (uint64_t)shard->count;
+    plan->list_bytes = size;
+    *at = size * (uint64_t)(shard->number - 1) / count;
+    *end = size * (uint64_t)shard->number / count;
+    if (!*at)
+        return true;
+    // A line that begins before belongs to another shard.
+    bool ok = fseeko(file, (off_t)(*at - 1), SEEK_SET) == 0;
+    for (int c = 0; ok && c != '\n' && c != EOF;)
+        c = getc(file);
+    *at = (uint64_t)ftello(file);
+    return ok || complain(error, LAM_CANNOT_READ, "%s: cannot read the list: %s", path, strerror(errno));
+}
+
+// With --shard-by list: the last two models are in the order of their pictures' names. If that is so in every shard, no two pictures
+// of the whole list have one name, although no shard sees them all.
+static bool check_order(const struct batch_plan *plan, const char *path, lam_error *error)
+{
+    char *before = batch_plan_output(plan, plan->count - 2, 0), *now = batch_plan_output(plan, plan->count - 1, 0);
+    const char *model = plan->models[plan->count - 1].path;
+    int order = before && now ? strcmp(before, now) : -1;
+    bool ok = before && now ? true : complain(error, LAM_LIMIT, "out of memory");
+    if (order == 0)
+        ok = complain(error, LAM_BAD_ARGUMENT, "'%.120s' and '%.120s' would both be written to '%.120s'",
+                      plan->models[plan->count - 2].path, model, now);
+    else if (order > 0)
+        ok = complain(error, LAM_BAD_ARGUMENT,
+                      "option '--shard-by list': %.100s is not in the order of the pictures (LC_ALL=C sort): '%.120s' "
+                      "comes after '%.120s'",
+                      path, now, before);
+    free(before);
+    free(now);
+    return ok;
+}
+
 bool batch_add_list(struct batch_plan *plan, const char *path, lam_error *error)
 {
     bool standard = strcmp(path, "-") == 0;
@@ -107,15 +155,25 @@ bool batch_add_list(struct batch_plan *plan, const char *path, lam_error *error)
     char *line = NULL;
     size_t capacity = 0;
     ssize_t length;
-    bool ok = true;
-    while (ok && (length = getline(&line, &capacity, file)) > 0) {
+    size_t first = plan->count;
+    uint64_t at = 0, end = UINT64_MAX;
+    bool ok = !plan->by_list || find_part(plan, file, path, &at, &end, error), past = false;
+    while (ok && !past && (length = getline(&line, &capacity, file)) > 0) {
+        bool ours = at < end;
+        at += (uint64_t)length;
         while (length && (line[length - 1] == '\n' || line[length - 1] == '\r'))
             line[--length] = 0;
         if (strlen(line) != (size_t)length)
             ok = complain(error, LAM_CANNOT_READ, "%s: expected names, one on each line, found a zero byte", path);
-        else if (length)
-            ok = batch_plan_add(plan, line, NULL, error);
+        else if (length) {
+            ok = batch_plan_add(plan, line, NULL, error) &&
+                 (!plan->by_list || plan->count - first < 2 || check_order(plan, path, error));
+            past = !ours;
+        }
     }
+    if (ok && past) // the next shard's first model, read for its order alone
+        batch_plan_drop_last(plan);
+    plan->listed += plan->count - first;
     if (ok && ferror(file))
         ok = complain(error, LAM_CANNOT_READ, "%s: cannot read the list: %s", path, strerror(errno));
     free(line);

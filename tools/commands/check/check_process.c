@@ -14,7 +14,6 @@
 #include <string.h>
 #include <sys/auxv.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -137,7 +136,6 @@ static void bound_memory(const char *bytes)
 
 void check_worker(const char *memory)
 {
-    prctl(PR_SET_PDEATHSIG, SIGKILL); // dies with its parent
     setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
     bound_memory(memory);
     int answer = dup(STDOUT_FILENO), nowhere = open("/dev/null", O_WRONLY);
@@ -200,8 +198,10 @@ static bool start(struct child *child, const struct check_process *how, lam_erro
     int in[2] = {-1, -1}, out[2] = {-1, -1};
     *child = (struct child){-1, -1, -1};
     bool piped = pipe2(in, O_CLOEXEC) == 0 && pipe2(out, O_CLOEXEC) == 0;
+    pid_t parent = getpid();
     child->pid = piped ? fork() : -1;
     if (child->pid == 0) {
+        interrupt_with_parent(parent); // the worker's program inherits it
         bound_time(how->time_limit_s);
         if (dup2(in[0], STDIN_FILENO) >= 0 && dup2(out[1], STDOUT_FILENO) >= 0)
             become_worker(memory, path ? path : "lambent");

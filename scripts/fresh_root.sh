@@ -1,19 +1,19 @@
 #!/bin/sh
-# test_debian13.sh [FOLDER]: the README's two commands on a fresh Debian 13 machine: a root made by mmdebstrap in FOLDER (default
-# build-debian13), the committed tree copied into it, `make demo` and `make test` there. Remove FOLDER for a new machine; needs root.
+# fresh_root.sh RELEASE FOLDER COMMAND: runs COMMAND on a fresh machine of a Debian release: a root made by mmdebstrap in FOLDER, with the
+# committed tree in /lambent, where COMMAND starts. Remove FOLDER for a new machine. Needs root. Exit code 77: no root can be made here.
 set -eu
 tree=$(cd "$(dirname "$0")/.." && pwd)
-folder=${1:-$tree/build-debian13}
+release=$1 folder=$2 command=$3
 mirror=${MIRROR:-http://deb.debian.org/debian}
 as_root=""
 [ "$(id -u)" -eq 0 ] || as_root=sudo
-"$tree/scripts/setup.sh" debian13
+"$tree/scripts/setup.sh" fresh || exit 77
 mkdir -p "$folder"
-root=$folder/root
+root=$(cd "$folder" && pwd)/root
 if [ ! -e "$folder/made" ]; then
-    echo "test-debian13: making a Debian 13 root in $root"
+    echo "fresh_root: making a root of $release in $root"
     $as_root rm -rf "$root"
-    $as_root mmdebstrap --quiet --variant=apt --include=make,ca-certificates trixie "$root" "$mirror"
+    $as_root mmdebstrap --quiet --variant=apt --include=make,ca-certificates "$release" "$root" "$mirror" || exit 77
     touch "$folder/made"
 fi
 $as_root rm -rf "$root/lambent"
@@ -30,5 +30,5 @@ $as_root unshare --mount --pid --fork sh -eu -c '
     fi
     cp -L /etc/resolv.conf "$root/etc/resolv.conf"
     exec chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 \
-        sh -eu -c "cat /etc/debian_version; cd /lambent; make demo; sha256sum out/demo.png; make test"
-' sh "$root" "$tree/../shared"
+        sh -eu -c "cat /etc/debian_version; cd /lambent; $3"
+' sh "$root" "$tree/../shared" "$command"

@@ -84,12 +84,10 @@ enum {
     WRITE_FILE = 1 << 1,
     READ_FILE = 1 << 2,
     READ_DIR = 1 << 3,
-    REMOVE_FILE = 1 << 5,
-    MAKE_DIR = 1 << 7,
-    MAKE_REG = 1 << 8,
     VERSION_1 = (1 << 13) - 1,
-    REFER = 1 << 13,     // 2
-    TRUNCATE = 1 << 14,  // 3
+    REFER = 1 << 13,    // 2
+    TRUNCATE = 1 << 14, // TRUNCATE_VERSION
+    TRUNCATE_VERSION = 3,
     IOCTL_DEV = 1 << 15, // 5
     OF_FILES = EXECUTE | WRITE_FILE | READ_FILE | TRUNCATE | IOCTL_DEV,
 };
@@ -135,7 +133,7 @@ struct sandbox_state sandbox_offered(void)
 
 static uint64_t rights_of(int version)
 {
-    return (uint64_t)VERSION_1 | (version >= 2 ? REFER : 0) | (version >= 3 ? TRUNCATE : 0) |
+    return (uint64_t)VERSION_1 | (version >= 2 ? REFER : 0) | (version >= TRUNCATE_VERSION ? TRUNCATE : 0) |
            (version >= 5 ? IOCTL_DEV : 0);
 }
 
@@ -143,14 +141,16 @@ static uint64_t rights_of(int version)
 static bool add_path(int rules, const struct sandbox_path *path, uint64_t handled)
 {
     struct stat about;
+    uint64_t allowed = 0;
+    if (!(path->access & (SANDBOX_READ | SANDBOX_WRITE)))
+        return true;
     int file = open(path->path, O_PATH | O_CLOEXEC);
     if (file < 0)
         return true;
-    uint64_t allowed = 0;
     if (path->access & SANDBOX_READ)
         allowed |= READ_FILE | READ_DIR;
     if (path->access & SANDBOX_WRITE)
-        allowed |= WRITE_FILE | TRUNCATE | MAKE_REG | MAKE_DIR | REMOVE_FILE | READ_DIR; // fsync() of a folder opens it
+        allowed |= WRITE_FILE;
     bool ok = fstat(file, &about) == 0;
     if (ok && !S_ISDIR(about.st_mode))
         allowed &= OF_FILES;
@@ -190,7 +190,11 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
         state->landlock = 0;
         state->reason = "the kernel refuses Landlock";
     }
-    if (state->filter && !sandbox_filter_install(paths->serves ? SANDBOX_SERVES : SANDBOX_DRAWS)) {
+    unsigned kind = paths->serves ? SANDBOX_SERVES : SANDBOX_DRAWS;
+    for (int i = 0; i < paths->count; i++)
+        kind |= paths->items[i].access & SANDBOX_WRITE ? SANDBOX_OPENS_PIPES : 0;
+    kind |= state->landlock < TRUNCATE_VERSION ? SANDBOX_NO_OPENAT2 : 0;
+    if (state->filter && !sandbox_filter_install(kind)) {
         state->filter = false;
         state->reason = state->landlock ? "the kernel refuses the seccomp filter"
                                         : "the kernel refuses Landlock and the seccomp filter";

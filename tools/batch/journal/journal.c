@@ -15,6 +15,7 @@
 #include "console.h"
 #include "host_name.h"
 #include "output.h"
+#include "writer.h"
 #include "xxh64.h"
 
 enum { SLOT = 8192 };
@@ -321,6 +322,8 @@ struct slot {
     char model[SLOT - sizeof(int) - HOST_SIZE]; // "": none
 };
 
+const char *journal_running_path(const struct journal *j) { return j->running_path; }
+
 void journal_begin(struct journal *j, int slot, int process, const char *model)
 {
     struct slot text = {.process = process};
@@ -365,7 +368,7 @@ void journal_close(struct journal *j, bool done)
     if (j->file >= 0)
         close(j->file);
     if (done && j->running >= 0)
-        unlink(j->running_path);
+        writer_remove(j->running_path);
     if (j->running >= 0)
         close(j->running);
     free(j->path);

@@ -67,6 +67,7 @@ const char *sandbox_text(const struct sandbox_state *state, char out[SANDBOX_TEX
 
 #if defined(__linux__) && (defined(__x86_64__) || defined(__aarch64__)) && !defined(SANITIZED)
 
+#include <linux/capability.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 
@@ -175,6 +176,22 @@ static bool enter_landlock(const struct sandbox_paths *paths, int version)
     return ok;
 }
 
+// Of root's privileges, those to read any file stay. CAP_PERFMON, for one, shows the environment of other processes in spite of Landlock.
+static void drop_capabilities(void)
+{
+    struct __user_cap_header_struct header = {_LINUX_CAPABILITY_VERSION_3, 0};
+    struct __user_cap_data_struct data[_LINUX_CAPABILITY_U32S_3];
+    if (syscall(SYS_capget, &header, data) != 0)
+        return;
+    const unsigned kept = 1U << CAP_DAC_OVERRIDE | 1U << CAP_DAC_READ_SEARCH;
+    for (int i = 0; i < _LINUX_CAPABILITY_U32S_3; i++) {
+        data[i].permitted &= i ? 0 : kept;
+        data[i].effective &= i ? 0 : kept;
+        data[i].inheritable = 0;
+    }
+    syscall(SYS_capset, &header, data); // giving up is always permitted
+}
+
 bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *state, lam_error *error)
 {
     *state = sandbox_offered();
@@ -186,6 +203,7 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
         *state = (struct sandbox_state){.reason = "the kernel does not let a process give up privileges"};
         return true;
     }
+    drop_capabilities();
     if (state->landlock && !enter_landlock(paths, state->landlock)) {
         state->landlock = 0;
         state->reason = "the kernel refuses Landlock";

@@ -33,7 +33,7 @@ static bool save_here(const char *path, const lam_bytes *bytes, bool durable, la
 #include <sys/wait.h>
 #include <time.h>
 
-enum { THREADS_MAX = 256, STACK = 256 << 10 };
+enum { THREADS_MAX = 256, STACK = 256 << 10, OWN_MAX = 65536 };
 
 enum action { SAVE, SAVE_DURABLY, REMOVE };
 
@@ -82,9 +82,9 @@ struct own_file {
 static struct {
     writer_rule *rule;
     void *user;
-    pthread_mutex_t lock; // of the rule and the list
-    struct own_file *own;
-    size_t own_count, own_capacity;
+    pthread_mutex_t lock;         // of the rule and the list
+    struct own_file own[OWN_MAX]; // the latest; earlier ones count for a stranger's
+    size_t own_count;
 } writing = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
 static bool own_of(const char *path, struct own_file *own)
@@ -104,7 +104,7 @@ static bool is_own(const char *path)
     if (!own_of(path, &file))
         return false;
     pthread_mutex_lock(&writing.lock);
-    for (size_t i = 0; i < writing.own_count && !found; i++)
+    for (size_t i = 0; i < writing.own_count && i < OWN_MAX && !found; i++)
         found = writing.own[i].device == file.device && writing.own[i].number == file.number &&
                 writing.own[i].changed.tv_sec == file.changed.tv_sec &&
                 writing.own[i].changed.tv_nsec == file.changed.tv_nsec;
@@ -112,21 +112,13 @@ static bool is_own(const char *path)
     return found;
 }
 
-// If memory is out, the file counts for a stranger's later.
 static void note_own(const char *path)
 {
     struct own_file file;
     if (lam_image_is_from_lambent(path) || !own_of(path, &file))
         return;
     pthread_mutex_lock(&writing.lock);
-    if (writing.own_count == writing.own_capacity) {
-        size_t capacity = writing.own_capacity ? 2 * writing.own_capacity : 64;
-        struct own_file *more = realloc(writing.own, capacity * sizeof *more);
-        writing.own = more ? more : writing.own;
-        writing.own_capacity = more ? capacity : writing.own_capacity;
-    }
-    if (writing.own_count < writing.own_capacity)
-        writing.own[writing.own_count++] = file;
+    writing.own[writing.own_count++ % OWN_MAX] = file;
     pthread_mutex_unlock(&writing.lock);
 }
 

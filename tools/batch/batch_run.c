@@ -229,6 +229,8 @@ static bool run_passes(struct batch *b, lam_error *error)
         else
             batch_isolate(b);
     }
+    if (!b->journal && !b->options->report_page)
+        writer_finish();
     if (workers)
         free_workers(b, workers);
     free(workers);

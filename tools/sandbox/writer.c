@@ -30,6 +30,7 @@ static bool save_here(const char *path, const lam_bytes *bytes, bool durable, la
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/uio.h>
 #include <sys/wait.h>
 #include <time.h>
 
@@ -58,14 +59,20 @@ static bool receive(int from, void *bytes, size_t size)
     return true;
 }
 
-static bool send_all(int to, const void *bytes, size_t size)
+// In one call if the other side is quick, so that it wakes once.
+static bool send_all(int to, struct iovec *parts, int count)
 {
-    for (const char *at = bytes; size;) {
-        ssize_t sent = write(to, at, size);
+    while (count) {
+        ssize_t sent = writev(to, parts, count);
         if (sent < 0 && errno != EINTR)
             return false;
-        at += sent > 0 ? sent : 0;
-        size -= sent > 0 ? (size_t)sent : 0;
+        size_t left = sent > 0 ? (size_t)sent : 0;
+        for (; count && left >= parts->iov_len; parts++, count--)
+            left -= parts->iov_len;
+        if (count) {
+            parts->iov_base = (char *)parts->iov_base + left;
+            parts->iov_len -= left;
+        }
     }
     return true;
 }
@@ -157,7 +164,7 @@ static bool answer(int connection)
     bool ok = data && receive(connection, data, request.size);
     if (ok) {
         act(&request, path, &(lam_bytes){data, request.size}, &error);
-        ok = send_all(connection, &error, sizeof error);
+        ok = send_all(connection, &(struct iovec){&error, sizeof error}, 1);
     }
     free(data);
     return ok;
@@ -291,12 +298,18 @@ bool writer_is_there(void) { return writer.count > 0; }
 
 pid_t writer_process(void) { return writer.count ? writer.process : getpid(); }
 
-pid_t writer_leave(void)
+void writer_finish(void)
 {
-    pid_t process = writer.count && writer.process > 0 ? writer.process : 0;
     for (int i = 0; i < writer.count; i++)
         close(writer.connections[i]);
     writer.count = 0;
+}
+
+pid_t writer_leave(void)
+{
+    pid_t process = writer.process > 0 ? writer.process : 0;
+    writer_finish();
+    writer.process = 0;
     return process;
 }
 
@@ -331,15 +344,16 @@ static void give(int i)
 
 static bool ask(enum action action, const char *path, const lam_bytes *bytes, lam_error *error)
 {
-    const struct request request = {action, (uint32_t)strlen(path) + 1, bytes->size};
+    struct request request = {action, (uint32_t)strlen(path) + 1, bytes->size};
+    struct iovec parts[] = {
+        {&request, sizeof request}, {(void *)(uintptr_t)path, request.path_size}, {bytes->data, bytes->size}};
     sigset_t all, pipe, before;
     sigfillset(&all);
     sigemptyset(&pipe);
     sigaddset(&pipe, SIGPIPE);
     pthread_sigmask(SIG_BLOCK, &all, &before);
     int i = take(), connection = writer.connections[i];
-    bool sent = send_all(connection, &request, sizeof request) && send_all(connection, path, request.path_size) &&
-                send_all(connection, bytes->data, bytes->size);
+    bool sent = send_all(connection, parts, 3);
     if (!sent && errno == EPIPE)
         sigtimedwait(&pipe, NULL, &(struct timespec){0});
     bool ok = sent && receive(connection, error, sizeof *error);
@@ -381,6 +395,8 @@ bool writer_is_there(void) { return false; }
 pid_t writer_process(void) { return getpid(); }
 
 pid_t writer_leave(void) { return 0; }
+
+void writer_finish(void) {}
 
 void writer_end(void) {}
 

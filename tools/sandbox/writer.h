@@ -32,7 +32,10 @@ pid_t writer_process(void);
 // Leaves the writer to a process that was made since, and returns its number, for waitpid(). 0: there was none.
 pid_t writer_leave(void);
 
-// Ends the writer and waits for its end, so that nothing of this run is left.
+// Nothing more is to be written: lets the writer end, while this process does other things.
+void writer_finish(void);
+
+// The same, and waits for its end, so that nothing of this run is left.
 void writer_end(void);
 
 // Writes a file whole or not at all, and makes its missing folder; without a writer, this process does it. Any thread. `durable` as in

@@ -1,4 +1,4 @@
-// attack.c: what code could try that a stranger's file has made run: a library that test_attack.py preloads into the program. Right
+// attack.c: system calls that injected code could try, in a library that test_attack.py preloads into the program. Right
 // after the program has entered its sandbox it makes system calls, from the main thread and from one that it starts, and later
 // from a thread that the program starts. It writes a line for each: "MODE THREAD NAME ERROR", with the number of the error, 0 if
 // the call worked.

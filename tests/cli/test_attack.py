@@ -1,5 +1,5 @@
-# test_attack.py: code that a stranger's file has made run: attack.c, built here and preloaded into the program, makes about 150 system calls
-# after the sandbox has started, from the main thread, from a new one and from one of the program's. None may work, in no command.
+# test_attack.py: injected code inside the sandbox. attack.c is built here and preloaded into the program. After the sandbox has started it makes about
+# 150 system calls from the main thread, from a new thread and from a thread of the program. None may work, in any command.
 import errno
 import os
 import pathlib
@@ -67,7 +67,7 @@ class Attack(Case):
                 pathlib.Path(f"/proc/{number}/limits").read_text(), pathlib.Path(f"/proc/{number}/stat").read_text().split()[4:7])
 
     def attempts(self):
-        """What was tried, by thread: {name: error}."""
+        """The attempts of each thread: {name: error}."""
         tried = {}
         for line in (self.folder / "log").read_text().splitlines():
             mode, thread, name, error = line.split(" ")

@@ -1,5 +1,4 @@
-// test_writer.c: the process that writes files for the one in the sandbox: what it writes, what it refuses, and what happens when one of the two
-// ends.
+// test_writer.c: the process that writes files for the one in the sandbox: its rights, several threads at once, and the end of either process.
 #include "writer.h"
 
 #include <dirent.h>

@@ -115,7 +115,7 @@ static bool is_picture(struct writes *w, const char *path)
     return false;
 }
 
-// What a run may write: the pictures of its plan, and its own page and scene file; a worker's jobs, whose names are not known before, any new
+// A run may write the pictures of its plan, its own page and its scene file; a worker's jobs, whose names are not known before, any new
 // picture or page below --allow-path.
 static enum writer_right right_of(void *user, const char *path)
 {

@@ -190,7 +190,7 @@ static const struct condition conditions[] = {
     {SYS_clone, LOW(0), CLONE_THREAD | NAMESPACES, EPERM, 1, {CLONE_THREAD}},
 };
 
-// Those of SANDBOX_SERVES, before the others: signals that end its processes or cancel their work (Landlock lets none out from
+// Conditions of SANDBOX_SERVES, tried before the others: signals that end its processes or cancel their work (Landlock lets none out from
 // version 6 on), what a new process does to itself, and its stricter filter. MSG_FASTOPEN would connect a socket.
 static const struct condition served_conditions[] = {
     {SYS_kill, LOW(1), ALL, ENOSYS, 2, {SIGKILL, SIGUSR1}},

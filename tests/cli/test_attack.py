@@ -5,14 +5,14 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import tempfile
 import unittest
-from unittest import mock
+import urllib.request
 
 import test_batch
 from harness import OWN_MODELS, PROGRAM, Case
-from test_view import PAGE, Server
 
 VERSION = subprocess.run([PROGRAM, "--version"], stdout=subprocess.PIPE).stdout.decode()
 LANDLOCK = int((re.search(r"(?m)^sandbox Landlock (\d+) and seccomp$", VERSION) or [0, 0])[1])
@@ -50,6 +50,8 @@ class Attack(Case):
         self.process = subprocess.Popen(["sh", "-c", "trap '' USR1 USR2; echo; exec sleep 600"], stdout=subprocess.PIPE)
         self.process.stdout.readline()
         self.addCleanup(self.end)
+        self.model = open(OWN_MODELS / "cube.stl")  # for "-"
+        self.addCleanup(self.model.close)
 
     def end(self):
         self.process.kill()
@@ -78,7 +80,7 @@ class Attack(Case):
     def attack(self, *words, threads=("main", "thread"), code=0, more=(), **orders):
         """Runs the program under attack in the folder `home`, which then has the files `more` besides its own."""
         before = self.state()
-        done = subprocess.run([PROGRAM, *map(str, words)], cwd=self.place, stdin=open(OWN_MODELS / "cube.stl"), capture_output=True, timeout=60,
+        done = subprocess.run([PROGRAM, *map(str, words)], cwd=self.place, stdin=self.model, capture_output=True, timeout=60,
                               env={**os.environ, **self.orders(**orders)})
         self.assertEqual(done.returncode, code, (words, done.stderr.decode()))
         self.check(before, words, threads, ["draws"])
@@ -206,19 +208,26 @@ class Attack(Case):
             (self.place / "a.png").unlink()
 
     def test_viewer(self):
-        self.page = self.folder / "page.html"
-        self.page.write_text(PAGE)
+        """Its server, and the process that draws for it."""
+        page = self.folder / "page.html"
+        page.write_text("<!doctype html>\n<html>\n<head>\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+                        "script-src 'sha256-x'; img-src blob: data:; base-uri 'none'; form-action 'none'\">\n</head>\n<body>\n</body>\n</html>\n")
         if b"libmicrohttpd" in self.run_program("view", "no-such-model.obj").stderr:
             self.skipTest("libmicrohttpd is not there")
         if LANDLOCK < 6:
             self.skipTest("Landlock 6 keeps the viewer's signals inside")
         before = self.state()
-        with mock.patch.dict(os.environ, self.orders(ATTACK_MODE="serves")):
-            server = Server(self, "home/cube.obj")
-        self.assertEqual(server.task("draw", "/cube.obj", "--size=16")[0], 200)
-        self.assertEqual(server.interrupt(), 0)
+        viewer = subprocess.Popen([PROGRAM, "view", "--no-open", "home/cube.obj"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                  env={**os.environ, **self.orders(ATTACK_MODE="serves"), "LAMBENT_PAGE": str(page)})
+        self.addCleanup(viewer.kill)
+        address = viewer.stdout.readline().decode().strip()
+        with urllib.request.urlopen(address + "draw?w=%2Fcube.obj&w=--size%3D16&c=test", timeout=60) as answer:
+            self.assertEqual(answer.status, 200)
+        viewer.send_signal(signal.SIGINT)
+        said = viewer.communicate()[1]
+        self.assertEqual(viewer.returncode, 0, said)
         with open(self.folder / "log", "ab") as log:
-            log.write(b"".join(line for line in server.process.stderr if line.startswith(b"drawing ")))
+            log.write(b"".join(line for line in said.splitlines(True) if line.startswith(b"drawing ")))
         self.check(before, "view", ("main", "thread"), ("serves", "drawing"))
 
 

@@ -101,6 +101,7 @@ int main(int count, char **words)
     option_table_fill();
     int code = run(count - (count > 0), words + (count > 0));
     lam_error error;
+    writer_end();
     if (!finish_output(&error) && code == 0) { // an earlier failure has been reported
         say_error(error.text);
         code = exit_code_of(error.code)->code;

@@ -622,7 +622,7 @@ static bool find_folder(struct scene_writer *w, const char *path, char folder[PA
            fail(w->error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%.200s': %s", path, given, strerror(errno));
 }
 
-static bool save(struct scene_writer *w, const lam_picture_settings *settings, const char *path)
+static bool encode(struct scene_writer *w, const lam_picture_settings *settings, const char *path, lam_bytes *out)
 {
     static const lam_picture_settings none;
     char folder[PATH_MAX];
@@ -637,26 +637,37 @@ static bool save(struct scene_writer *w, const lam_picture_settings *settings, c
         put(w, root, "up", word(up_words, (int)up));
     ok = ok && put_objects(w, root);
     put_lights(w, root, settings->draw.rig);
-    lam_bytes bytes = {0};
-    ok = memory_or(w, ok) && scene_print(root, &bytes, w->error) &&
-         file_write(path, bytes.data, bytes.size, false, NULL, w->error);
-    lam_bytes_free(&bytes);
+    ok = memory_or(w, ok) && scene_print(root, out, w->error);
     json_decref(root);
     return ok;
 }
 
-bool lam_scene_save(const lam_scene *scene, const lam_picture_settings *settings, const char *path, lam_error *error)
+bool lam_scene_encode(const lam_scene *scene, const lam_picture_settings *settings, const char *path, lam_bytes *out,
+                      lam_error *error)
 {
-    if (!scene || !path || !*path)
-        return fail(error, LAM_BAD_ARGUMENT, "lam_scene_save: the %s is missing", scene ? "path" : "scene");
+    if (!scene || !path || !*path || !out)
+        return fail(error, LAM_BAD_ARGUMENT, "a scene file: the %s missing",
+                    !scene ? "scene is"
+                    : out  ? "path is"
+                           : "place for its bytes is");
+    *out = (lam_bytes){0};
     if (settings && (!check_reserved("lam_picture_settings", settings, error) ||
                      !check_reserved("lam_picture_settings.camera", &settings->camera, error) ||
                      !check_reserved("lam_picture_settings.draw", &settings->draw, error)))
         return false;
     struct scene_writer writer = {.scene = scene, .path = path, .ok = true, .error = error};
     uint64_t state = float_state_enter();
-    bool ok = save(&writer, settings, path);
+    bool ok = encode(&writer, settings, path, out);
     float_state_leave(state);
+    return ok;
+}
+
+bool lam_scene_save(const lam_scene *scene, const lam_picture_settings *settings, const char *path, lam_error *error)
+{
+    lam_bytes bytes = {0};
+    bool ok = lam_scene_encode(scene, settings, path, &bytes, error) &&
+              file_write(path, bytes.data, bytes.size, false, NULL, error);
+    lam_bytes_free(&bytes);
     return ok;
 }
 

@@ -15,6 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 OWN_MODELS = ROOT / "tests" / "models"
 SHARED_MODELS = pathlib.Path(os.environ.get("LAMBENT_MODELS", ROOT.parent / "shared" / "models"))
 PROGRAM = os.environ.get("LAMBENT", str(ROOT / "build" / "lambent"))
+HAS_SANDBOX = b"sandbox off" not in subprocess.run([PROGRAM, "--version"], stdout=subprocess.PIPE).stdout
 
 
 def long(test):
@@ -32,6 +33,23 @@ def wait_until_caught(process, number):
             return
         time.sleep(0.01)
     raise TimeoutError("the program does not catch the signal")
+
+
+def writers_and_others(pid):
+    """The child processes of a process: those that write files for one in the sandbox, and the others, once each of them can be told."""
+    children = pathlib.Path(f"/proc/{pid}/task/{pid}/children")
+    for _ in range(1000):
+        try:
+            names = [(int(child), pathlib.Path(f"/proc/{child}/comm").read_text().strip()) for child in children.read_text().split()]
+        except OSError:
+            return [], []
+        writers = [child for child, name in names if name == "lambent-writer"]
+        others = [child for child, name in names if name != "lambent-writer"]
+        # A writer has its name a moment after it is made, and each process that draws to a file has a writer.
+        if not HAS_SANDBOX or len(others) <= len(writers):
+            break
+        time.sleep(0.001)
+    return writers, others
 
 
 class Case(unittest.TestCase):

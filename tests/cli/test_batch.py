@@ -14,7 +14,7 @@ import time
 import unittest
 import urllib.parse
 
-from harness import PROGRAM, Case, long, read_png, write_png, wait_until_caught
+from harness import PROGRAM, Case, long, read_png, write_png, wait_until_caught, writers_and_others
 
 KILLS = int(os.environ.get("LAMBENT_KILLS", "5"))  # of test_kill; `make test-long` has 50
 
@@ -555,12 +555,13 @@ class Kills(Batch):
         until = time.time() + 20
         while not self.pictures() and time.time() < until:
             time.sleep(0.002)
+        pid = next(iter(writers_and_others(process.pid)[0]), process.pid)
         process.send_signal(signal.SIGKILL)
         process.wait()
         host = socket.gethostname()
-        part = f".lambent-{process.pid}-{host}-12a.part"
+        part = f".lambent-{pid}-{host}-12a.part"
         # Of other runs, and of other machines that write to the same folder: their numbers of processes may be the same.
-        others = (f".lambent-1-{host}-12a.part", f".lambent-{process.pid}-{host}2-12a.part", f".lambent-{process.pid}-{host}-b-12a.part")
+        others = (f".lambent-1-{host}-12a.part", f".lambent-{pid}-{host}2-12a.part", f".lambent-{pid}-{host}-b-12a.part")
         for name in (part, *others):
             (self.folder / "out" / name).write_bytes(b"half")
         self.run_program(*self.words("--resume"))
@@ -597,8 +598,7 @@ class Crashes(Batch):
         child = None
         until = time.time() + 30
         while not child and time.time() < until:
-            children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
-            child = int(children[0]) if children else None
+            child = next(iter(writers_and_others(process.pid)[1]), None)
         os.kill(child, signal.SIGSEGV)
         text = process.communicate()[1].decode()
         self.assertEqual(process.returncode, 7, text)

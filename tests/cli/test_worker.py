@@ -14,17 +14,10 @@ import threading
 import time
 import unittest
 
-from harness import OWN_MODELS, PROGRAM, ROOT, Case, long, read_png, write_png, wait_until_caught
+from harness import OWN_MODELS, PROGRAM, ROOT, Case, long, read_png, write_png, wait_until_caught, writers_and_others
 from test_batch import xxh64
 
 JOBS = int(os.environ.get("LAMBENT_JOBS", "300"))  # of Many; `make test-long` has 10,000
-
-
-def children(pid):
-    try:
-        return [int(child) for child in pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
-    except OSError:
-        return []
 
 
 # AddressSanitizer would make an exit code of a signal.
@@ -424,9 +417,9 @@ class Flow(Jobs):
             worker = self.start("-j", "1", "--isolate", "--time-limit", "1" if number == signal.SIGSTOP else "60")
             worker.say({"id": 1, "model": "teapot", "options": {"size": 12000 if number != signal.SIGSTOP else 6000, "samples": 16}, "output": "out/x.png"})
             until = time.time() + 20
-            while not children(worker.process.pid) and time.time() < until:
+            while not writers_and_others(worker.process.pid)[1] and time.time() < until:
                 time.sleep(0.005)
-            os.kill(children(worker.process.pid)[0], number)
+            os.kill(writers_and_others(worker.process.pid)[1][0], number)
             answer = worker.answer(1, 20)
             self.assertEqual((answer["outcome"], answer["class"]), ("failed", outcome))
             self.assertIn(says, answer["error"])

@@ -21,6 +21,7 @@
 #include "exit_codes.h"
 #include "interrupt.h"
 #include "limit_options.h"
+#include "writer.h"
 
 // Milliseconds that a process has after an interrupt before it is killed.
 static const double interrupt_ms = 600;
@@ -48,12 +49,13 @@ struct sent_picture {
 struct work {
     struct batch *batch;
     struct batch_unit *unit;
+    bool draws; // else only thumbnails of earlier pictures are missing
 };
 
 static bool enter(const struct batch *b, const struct batch_task *task, lam_error *error)
 {
     if (!task->job)
-        return batch_reach_enter(b, b->journal_path, task->model, 1, error);
+        return batch_reach_enter(b, task->model, 1, error);
     int none = open("/dev/null", O_RDWR | O_CLOEXEC); // the jobs and the answers of others are none of its business
     bool ok = none >= 0 && dup2(none, STDIN_FILENO) >= 0 && dup2(none, STDOUT_FILENO) >= 0;
     return ok ? batch_reach_enter_job(task->job, error)
@@ -78,7 +80,11 @@ static void work(void *user, struct batch_answer *answer)
 {
     const struct work *w = user;
     struct batch_unit *u = w->unit;
-    draw_here(w->batch, u);
+    lam_error error;
+    if (w->draws)
+        draw_here(w->batch, u);
+    else if (!enter(w->batch, &u->task, &error))
+        _exit(1);
     batch_page_thumbnails(w->batch, u);
     struct sent sent = {u->code, u->warnings, u->interrupted, u->out ? strlen(u->out) : 0, u->err ? strlen(u->err) : 0};
     bool ok = batch_answer_add(answer, &sent, sizeof sent);
@@ -193,6 +199,20 @@ static void fail_process(struct batch *b, struct batch_unit *u, const struct bat
     batch_unit_fail(u, b, class, crashed ? EXIT_CRASHED : exit_code_of(LAM_LIMIT)->code, error.text);
 }
 
+static bool has_open(const struct batch_unit *u)
+{
+    bool open = false;
+    for (int i = 0; i < u->picture_count; i++)
+        open |= u->pictures[i].outcome == PICTURE_OPEN;
+    return open;
+}
+
+static void wait_for_writer(pid_t writer)
+{
+    while (writer > 0 && waitpid(writer, NULL, 0) < 0 && errno == EINTR)
+        continue;
+}
+
 static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_process *process, int status)
 {
     size_t size = (size_t)u->picture_count * sizeof *u->pictures;
@@ -200,13 +220,14 @@ static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_proc
     if (before)
         memcpy(before, u->pictures, size);
     bool whole = WIFEXITED(status) && WEXITSTATUS(status) == 0 && read_answer(u, &process->answer);
+    wait_for_writer(process->writer);
     if (!whole) {
         if (before)
             memcpy(u->pictures, before, size);
-        batch_remove_parts(u->task.plan, u->task.model, process->pid, NULL);
+        batch_remove_parts(u->task.plan, u->task.model, process->writer ? process->writer : process->pid, NULL);
         bool cancelled = u->task.job && u->task.job->cancelled;
         u->interrupted |= cancelled;
-        if (!interrupted() && !cancelled)
+        if (!interrupted() && !cancelled && has_open(u)) // else it only made thumbnails
             fail_process(b, u, process, status);
     }
     free(before);
@@ -221,29 +242,35 @@ static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_proces
     struct batch_task task;
     lam_error error = {0};
     while (batch_take(b, &task, false)) {
+        error.code = LAM_OK;
         if (!batch_unit_start(u, b, &task, &error)) {
             batch_stop(b, &error);
             return false;
         }
-        struct work w = {b, u};
         const char *path = task.plan->models[task.model].path;
         double limit_s = limits_time(task.plan->options);
         bool open = batch_unit_look(u, b);
+        struct work w = {b, u, open};
         fflush(stdout);
-        if (open && batch_process_start(process, work, &w)) {
+        bool started = (open || batch_page_lacks(b, u)) && batch_reach_write(b, &task, &error) &&
+                       batch_process_start(process, work, &w);
+        pid_t writer = writer_leave();
+        if (started) {
+            process->writer = writer;
             if (limit_s > 0)
                 process->stop_ms = clock_ms() + limit_s * 1e3 * u->picture_count + grace_ms(limit_s);
             if (b->journal)
-                journal_begin(b->journal, slot, process->pid, path);
+                journal_begin(b->journal, slot, writer ? writer : process->pid, path);
             return true;
         }
+        wait_for_writer(writer);
         if (open) {
-            complain(&error, LAM_LIMIT, "%.400s: cannot start a process: %s", path, strerror(errno));
+            if (!error.code)
+                complain(&error, LAM_LIMIT, "%.400s: cannot start a process: %s", path, strerror(errno));
             if (asprintf(&u->err, "lambent: %s\n", error.text) < 0)
                 u->err = NULL;
             batch_unit_fail(u, b, exit_code_of(LAM_LIMIT)->name, exit_code_of(LAM_LIMIT)->code, error.text);
         }
-        batch_page_thumbnails(b, u);
         batch_deliver(b, u);
         batch_unit_free(u);
     }

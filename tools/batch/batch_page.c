@@ -11,6 +11,7 @@
 #include "html.h"
 #include "journal.h"
 #include "output.h"
+#include "writer.h"
 #include "xxh64.h"
 
 enum { THUMBNAIL = 160 }; // pixels of the longer side
@@ -28,6 +29,16 @@ static char *thumbnail_path(const char *page, const char *output)
     int stem = (int)(dot ? (size_t)(dot - page) : strlen(page));
     return asprintf(&path, "%.*s-files/%016llx.png", stem, page, (unsigned long long)xxh64_end(&hash)) < 0 ? NULL
                                                                                                            : path;
+}
+
+bool batch_page_is_thumbnail(const char *page, const char *path)
+{
+    char *other = thumbnail_path(page, "");
+    size_t length = strlen(path), name = sizeof "0123456789abcdef.png" - 1;
+    bool is = other && length == strlen(other) && strncmp(path, other, length - name) == 0 &&
+              strspn(path + length - name, "0123456789abcdef") == 16 && strcmp(path + length - 4, ".png") == 0;
+    free(other);
+    return is;
 }
 
 static unsigned char encode(double linear)
@@ -73,19 +84,25 @@ static bool make_thumbnail(const char *output, const char *thumbnail)
     if (ok)
         shrink(&picture, &small);
     lam_save_params params = {.threads = 1};
-    ok = ok && output_make_folder(thumbnail, &error) && lam_image_save(&small, thumbnail, &params, &error);
+    lam_bytes png = {0};
+    ok = ok && lam_image_encode(&small, "png", &params, &png, &error) && writer_save(thumbnail, &png, false, &error);
+    lam_bytes_free(&png);
     lam_image_free(&picture);
     lam_image_free(&small);
     return ok;
 }
 
-void batch_page_thumbnail(const char *page, const char *output, bool is_new)
+static bool is_there(const char *thumbnail, const char *output)
 {
     struct stat picture, found;
+    return thumbnail && stat(thumbnail, &found) == 0 &&
+           (stat(output, &picture) != 0 || picture.st_mtime <= found.st_mtime);
+}
+
+void batch_page_thumbnail(const char *page, const char *output, bool is_new)
+{
     char *thumbnail = thumbnail_path(page, output);
-    bool there = thumbnail && !is_new && stat(thumbnail, &found) == 0 &&
-                 (stat(output, &picture) != 0 || picture.st_mtime <= found.st_mtime);
-    if (thumbnail && !there)
+    if (thumbnail && (is_new || !is_there(thumbnail, output)))
         make_thumbnail(output, thumbnail);
     free(thumbnail);
 }
@@ -101,6 +118,17 @@ void batch_page_thumbnails(const struct batch *b, const struct batch_unit *u)
     for (int i = 0; b->options->report_page && i < u->task.plan->view_count; i++)
         if (has_picture(&u->pictures[i]))
             batch_page_thumbnail(b->options->report_page, u->outputs[i], u->pictures[i].outcome == PICTURE_WRITTEN);
+}
+
+bool batch_page_lacks(const struct batch *b, const struct batch_unit *u)
+{
+    bool lacks = false;
+    for (int i = 0; b->options->report_page && !lacks && i < u->task.plan->view_count; i++) {
+        char *thumbnail = thumbnail_path(b->options->report_page, u->outputs[i]);
+        lacks = has_picture(&u->pictures[i]) && !is_there(thumbnail, u->outputs[i]);
+        free(thumbnail);
+    }
+    return lacks;
 }
 
 // --- the page
@@ -219,7 +247,7 @@ bool batch_page_write(const struct batch_page *page, lam_error *error)
     if (out)
         put_page(out, page);
     bool ok = (out && fclose(out) == 0) || complain(error, LAM_LIMIT, "out of memory");
-    ok = ok && output_replace(page->path, &(lam_bytes){text, size}, error);
+    ok = ok && writer_save(page->path, &(lam_bytes){text, size}, false, error);
     free(text);
     return ok;
 }

@@ -18,6 +18,7 @@ struct batch_process {
     struct batch_answer answer;
     double stop_ms; // clock_ms() at which it is killed; 0: never
     bool stopped;   // it was killed for that reason
+    pid_t writer;   // writes its files, and ends after it; 0: none
 };
 
 // Starts `work` in a copy of this process, which must have no other thread. What `work` returns is sent back. False: errno.

@@ -5,16 +5,19 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "animate.h"
 #include "batch_job.h"
+#include "batch_jobs.h"
+#include "batch_page.h"
 #include "console.h"
 #include "output.h"
 #include "page_file.h"
 #include "sandbox_start.h"
 
-// Pictures that are given to the sandbox one by one; more of them by their folder.
+// Older pictures that are read one by one; if there are more, their folder.
 enum { SINGLE = 64 };
 
-// Whether the pictures' folder as a whole is within reach: they are read again for the journal and the page.
+// Whether the pictures' folder as a whole may be read: the journal and the page need pictures again.
 static bool takes_folder(const struct batch *b)
 {
     return !b->options->jobs && (b->options_text || b->plan->count * (size_t)b->plan->view_count > SINGLE);
@@ -47,7 +50,7 @@ bool batch_reach_make(const struct batch *b, const char *journal, lam_error *err
 static void add_folder(struct sandbox_paths *paths, char *folder)
 {
     if (folder)
-        sandbox_add(paths, *folder ? folder : ".", SANDBOX_READ | SANDBOX_WRITE);
+        sandbox_add(paths, *folder ? folder : ".", SANDBOX_READ);
     paths->failed |= !folder;
     free(folder);
 }
@@ -76,9 +79,81 @@ static void add_page(struct sandbox_paths *paths)
     free(page);
 }
 
-bool batch_reach_enter(const struct batch *b, const char *journal, size_t first, size_t count, lam_error *error)
+// --- the files that are written
+
+struct writes {
+    const struct batch *batch;
+    const struct batch_plan *plan; // of the batch, or of a job
+    size_t first, count;           // its models
+    size_t latest;                 // whose picture was written last
+    bool whole;                    // else one model's process
+};
+
+static bool is_picture_of(const struct writes *w, size_t model, const char *path)
 {
-    struct sandbox_paths paths = {0};
+    bool is = false;
+    for (int k = 0; !is && k < w->plan->view_count; k++) {
+        char *output = batch_plan_output(w->plan, model, k);
+        is = output && (strcmp(output, path) == 0 ||
+                        (animation_wanted(w->plan->options) && animation_is_frame(w->plan->options, output, path)));
+        free(output);
+    }
+    return is;
+}
+
+// Models are drawn in about their order: the search begins at the latest, and goes outwards from there.
+static bool is_picture(struct writes *w, const char *path)
+{
+    for (size_t distance = 0; distance < w->count; distance++) {
+        size_t up = w->latest + distance, down = w->latest - distance;
+        bool above = up < w->first + w->count && is_picture_of(w, up, path);
+        if (above || (distance && distance <= w->latest - w->first && is_picture_of(w, down, path))) {
+            w->latest = above ? up : down;
+            return true;
+        }
+    }
+    return false;
+}
+
+// A run may write the pictures of its plan, its own page and its scene file; a worker's jobs, whose names are not known before, any new
+// picture or page below --allow-path.
+static enum writer_right right_of(void *user, const char *path)
+{
+    struct writes *w = user;
+    const struct batch *b = w->batch;
+    const struct options *o = b->options;
+    lam_error error;
+    lam_pixel_format format;
+    if (w->whole && b->journal && strcmp(path, journal_running_path(b->journal)) == 0)
+        return WRITER_REMOVES;
+    if ((w->whole && o->report_page && strcmp(path, o->report_page) == 0) ||
+        (o->save_scene && strcmp(path, o->save_scene) == 0))
+        return WRITER_ANY;
+    if (o->report_page && batch_page_is_thumbnail(o->report_page, path))
+        return WRITER_NEW_OR_OURS;
+    if (b->jobs && w->whole) {
+        bool named = lam_image_format_for(path, &format, NULL) || page_is_named(path);
+        return named && job_roots_have(batch_jobs_roots(b->jobs), path, true, &error) ? WRITER_NEW_OR_OURS
+                                                                                      : WRITER_NONE;
+    }
+    return !is_picture(w, path)                                        ? WRITER_NONE
+           : output_given(w->plan->options->output) == OUTPUT_BY_MODEL ? WRITER_NEW_OR_OURS
+                                                                       : WRITER_ANY;
+}
+
+bool batch_reach_write(const struct batch *b, const struct batch_task *task, lam_error *error)
+{
+    struct writes writes = {b, task->plan, task->model, 1, task->model, false};
+    bool writes_none = task->job && task->job->in_answer;
+    return writes_none || !sandbox_is_wanted(b->options) || writer_start(right_of, &writes, 1, error);
+}
+
+// --- the sandbox
+
+bool batch_reach_enter(const struct batch *b, size_t first, size_t count, lam_error *error)
+{
+    struct writes writes = {b, b->plan, first, count, first, true};
+    struct sandbox_paths paths = {.may_write = right_of, .user = &writes, .writers = b->workers};
     const struct batch_model *models = b->plan->models;
     for (size_t i = first; i < first + count; i++) {
         const char *before = i > first && !models[i - 1].leads_out ? models[i - 1].path : NULL;
@@ -88,16 +163,12 @@ bool batch_reach_enter(const struct batch *b, const char *journal, size_t first,
             char *output = batch_plan_output(b->plan, i, k);
             paths.failed |= !output;
             if (output)
-                sandbox_add_output(&paths, output);
+                sandbox_add_older(&paths, output);
             free(output);
         }
     }
     if (takes_folder(b))
         add_folder(&paths, batch_plan_folder(b->plan));
-    if (journal)
-        add_folder(&paths, folder_of(journal));
-    if (b->options->report_page)
-        add_folder(&paths, folder_of(b->options->report_page));
     if (b->options->jobs || page_is_named(b->options->output)) // a job may ask for one
         add_page(&paths);
     return sandbox_start(b->options, &paths, error);

@@ -29,6 +29,7 @@
 #include "exit_codes.h"
 #include "interrupt.h"
 #include "report.h"
+#include "writer.h"
 
 enum { WORKERS_MAX = 256 };
 
@@ -70,7 +71,7 @@ static void draw_next(struct worker *w, const struct batch_task *task)
     }
     if (batch_unit_look(&unit, b)) {
         if (b->journal)
-            journal_begin(b->journal, w->slot, (int)getpid(), task->plan->models[task->model].path);
+            journal_begin(b->journal, w->slot, (int)writer_process(), task->plan->models[task->model].path);
         batch_unit_draw(&unit, b, job ? &job->options : &w->options, w->device, job ? &job->cancel : NULL, !alone);
     }
     if (job)
@@ -222,14 +223,15 @@ static bool run_passes(struct batch *b, lam_error *error)
     if (!workers && !b->options->isolate)
         return complain(error, LAM_LIMIT, "out of memory");
     draw_suspects(b);
-    bool ok = !workers ||
-              (batch_reach_enter(b, b->journal_path, 0, b->plan->count, error) && make_workers(b, workers, error));
+    bool ok = !workers || (batch_reach_enter(b, 0, b->plan->count, error) && make_workers(b, workers, error));
     for (int pass = 0; ok && (b->jobs ? pass == 0 : batch_begin_pass(b, pass)); pass++) {
         if (workers)
             run_threads(b, workers);
         else
             batch_isolate(b);
     }
+    if (!b->journal && !b->options->report_page)
+        writer_finish();
     if (workers)
         free_workers(b, workers);
     free(workers);
@@ -393,7 +395,7 @@ static void keep_memory(void)
 
 static int run(const struct batch_plan *plan, const char *journal, bool is_batch)
 {
-    struct batch b = {.plan = plan, .options = plan->options, .is_batch = is_batch, .journal_path = journal};
+    struct batch b = {.plan = plan, .options = plan->options, .is_batch = is_batch};
     lam_error error = {0};
     pthread_condattr_t monotonic;
     pthread_condattr_init(&monotonic);

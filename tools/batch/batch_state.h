@@ -44,7 +44,6 @@ struct batch {
     struct batch_jobs *jobs; // --jobs (batch_jobs.h); NULL: the plan has all models
     enum journal_way way;
     struct journal *journal;
-    const char *journal_path;               // NULL: none
     int workers, threads;                   // threads of each worker
     struct environment_cache *environments; // of all models; NULL: each process has its own
 

@@ -567,7 +567,7 @@ int run_compare(int operand_count, char **operands, const struct options *option
     if (ok) {
         struct sandbox_paths paths = {0};
         sandbox_add_input(&paths, c.model);
-        sandbox_add_output(&paths, path);
+        sandbox_add_output(&paths, path, !output_is_named(options->output));
         struct options drawn = *options;
         if (c.sheet.mistakes && drawn.device == DEVICE_AUTO)
             drawn.device = DEVICE_GL;

@@ -132,7 +132,7 @@ int run_diff(int operand_count, char **operands, const struct options *options)
         for (int i = 0; i < 2; i++)
             sandbox_add_file(&paths, operands[i]);
         if (pair.output)
-            sandbox_add_output(&paths, pair.output);
+            sandbox_add_output(&paths, pair.output, !output_is_named(options->output));
         ok = sandbox_start(options, &paths, &error) && load_pair(&pair, options, &error) &&
              (!options->output || write_picture(&pair, options, &error));
     }

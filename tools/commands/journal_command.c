@@ -14,6 +14,8 @@
 #include "json.h"
 #include "output.h"
 #include "report.h"
+#include "sandbox_start.h"
+#include "writer.h"
 
 enum { LINES = 20 }; // of failures and of shards, at most
 
@@ -227,7 +229,7 @@ static bool write_merged(const struct journal_sum *sum, size_t pictures, const c
     if (out && !standard)
         ok = fclose(out) == 0 && ok;
     ok = ok || complain(error, LAM_LIMIT, "out of memory");
-    ok = ok && (standard || output_replace(path, &(lam_bytes){text, size}, error));
+    ok = ok && (standard || writer_save(path, &(lam_bytes){text, size}, false, error));
     json_decref(run);
     free(line);
     free(text);
@@ -249,6 +251,22 @@ static bool write_page(struct journal_sum *sum, const struct batch_tally *tally,
     struct batch_page page = {
         .path = path, .tally = tally, .record = record_of, .user = sum, .record_count = sum->count};
     return batch_page_write(&page, error);
+}
+
+// Thumbnails are made of pictures that the journals name, which may be anyone's.
+static enum writer_right right_of(void *user, const char *path)
+{
+    const char *page = user;
+    return strcmp(path, page) == 0               ? WRITER_ANY
+           : batch_page_is_thumbnail(page, path) ? WRITER_NEW_OR_OURS
+                                                 : WRITER_NONE;
+}
+
+static bool enter_sandbox(const struct options *o, lam_error *error)
+{
+    struct sandbox_paths paths = {.may_write = right_of, .user = (void *)(uintptr_t)o->report_page};
+    sandbox_add(&paths, "/", SANDBOX_READ);
+    return sandbox_start(o, &paths, error);
 }
 
 // --- the command
@@ -276,7 +294,7 @@ int run_journal(int operand_count, char **operands, const struct options *o)
     ok = ok && add_all(&sum, operand_count, operands, &error) && sum_classes(&sum, &tally, &error) &&
          sum_times(&sum, &times, &error);
     ok = ok && (!merges || write_merged(&sum, tally.total, o->output, &error));
-    ok = ok && (!o->report_page || write_page(&sum, &tally, o->report_page, &error));
+    ok = ok && (!o->report_page || (enter_sandbox(o, &error) && write_page(&sum, &tally, o->report_page, &error)));
     if (ok && o->json) {
         print_json(&sum, &tally, &times);
     } else if (ok && !o->quiet && !to_standard) {

@@ -99,9 +99,27 @@ static bool write_file(const char *output, const char *base, const char *ending,
     strcat(path, ending);
     lam_bytes bytes = {(void *)(uintptr_t)text, size};
     bool named = output_is_named(output) || access(path, F_OK) == 0;
-    bool ok = output_check(path, "", named, error) && output_replace(path, &bytes, error);
+    bool ok = output_check(path, "", named, error) && writer_save(path, &bytes, false, error);
     free(path);
     return ok;
+}
+
+static const char *const endings[] = {".vert", ".frag", ".application.c", ".c"};
+
+static void add_files(struct sandbox_paths *paths, const struct options *o, const char *model)
+{
+    char *base = base_of(o->output, model), *path = NULL;
+    size_t count = sizeof endings / sizeof *endings - !o->host;
+    paths->failed |= !base;
+    for (size_t i = 0; base && i < count; i++) {
+        if (asprintf(&path, "%s%s", base, endings[i]) < 0)
+            path = NULL;
+        paths->failed |= !path;
+        if (path)
+            sandbox_add_output(paths, path, false);
+        free(path);
+    }
+    free(base);
 }
 
 static bool write_files(const struct options *o, const lam_shader *shader, const char *model, lam_error *error)
@@ -110,17 +128,17 @@ static bool write_files(const struct options *o, const lam_shader *shader, const
     size_t host_size = 0;
     if (!base)
         return complain(error, LAM_LIMIT, "out of memory");
-    bool ok = write_file(o->output, base, ".vert", shader->vertex, strlen(shader->vertex), error) &&
-              write_file(o->output, base, ".frag", shader->fragment, strlen(shader->fragment), error);
+    bool ok = write_file(o->output, base, endings[0], shader->vertex, strlen(shader->vertex), error) &&
+              write_file(o->output, base, endings[1], shader->fragment, strlen(shader->fragment), error);
     if (ok && shader->application)
-        ok = write_file(o->output, base, ".application.c", shader->application, strlen(shader->application), error);
+        ok = write_file(o->output, base, endings[2], shader->application, strlen(shader->application), error);
     if (ok && o->host) {
         FILE *file = open_memstream(&host, &host_size);
         const char *name = strrchr(base, '/');
         if (file)
             shader_host(file, shader, name ? name + 1 : base, model);
         ok = (file && fclose(file) == 0) || complain(error, LAM_LIMIT, "out of memory");
-        ok = ok && write_file(o->output, base, ".c", host, host_size, error);
+        ok = ok && write_file(o->output, base, endings[3], host, host_size, error);
         free(host);
     }
     if (ok && !o->quiet)
@@ -224,7 +242,7 @@ int run_shader(int operand_count, char **operands, const struct options *given)
     struct sandbox_paths paths = {0};
     sandbox_add_input(&paths, job.model);
     if (to_files)
-        sandbox_add_output(&paths, options.output);
+        add_files(&paths, &options, job.model);
     lam_shader *shader = sandbox_start(&options, &paths, &error) ? job_shader(&job, &progress, &error) : NULL;
     progress_end(&progress);
     bool ok = shader && (!to_files || write_files(given, shader, job.model, &error));

@@ -78,13 +78,41 @@ static bool has_frame_names(const struct options *o)
     return output_name_is_pattern(o->output) && output_name_has(o->output, "frame");
 }
 
+static const char word[] = "{frame}";
+
+static int digits_of(int count)
+{
+    int digits = 1;
+    for (int last = count - 1; last >= 10; last /= 10)
+        digits++;
+    return digits;
+}
+
+int animation_count(const struct options *o)
+{
+    return o->turntable ? o->turntable : o->frames ? o->frames : FRAMES_DEFAULT;
+}
+
+bool animation_is_frame(const struct options *o, const char *pattern, const char *path)
+{
+    int count = animation_count(o), digits = digits_of(count);
+    char number[16];
+    for (const char *next; (next = strstr(pattern, word)); pattern = next + sizeof word - 1) {
+        size_t before = (size_t)(next - pattern);
+        if (strncmp(pattern, path, before) != 0 || (int)strspn(path + before, "0123456789") < digits)
+            return false;
+        snprintf(number, sizeof number, "%.*s", digits, path + before);
+        if (atoi(number) >= count)
+            return false;
+        path += before + (size_t)digits;
+    }
+    return strcmp(pattern, path) == 0;
+}
+
 // The name of a frame's file: the number takes the place of each {frame}.
 static char *path_of_frame(const struct animation *a, int frame)
 {
-    static const char word[] = "{frame}";
-    int digits = 1;
-    for (int last = a->count - 1; last >= 10; last /= 10)
-        digits++;
+    int digits = digits_of(a->count);
     char *path = NULL;
     size_t size;
     FILE *out = open_memstream(&path, &size);
@@ -356,7 +384,7 @@ static bool begin(struct job *job, const struct options *o, lam_error *error)
         a->loads |= a->sweeps[i].option && a->sweeps[i].option->loads;
     }
     a->sweep_count = o->sweeps.count;
-    a->count = o->turntable ? o->turntable : o->frames ? o->frames : FRAMES_DEFAULT;
+    a->count = animation_count(o);
     job->frames.count = a->count;
     job->frames.frames_per_second = o->fps > 0 ? o->fps : 24;
     if (has_frame_names(o) &&

@@ -6,6 +6,8 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include "writer.h"
+
 static lam_cancel cancel;
 static volatile sig_atomic_t caught;
 
@@ -32,6 +34,7 @@ bool interrupted(void) { return caught != 0; }
 
 void interrupt_finish(void)
 {
+    writer_end();
     signal(caught, SIG_DFL);
     raise(caught);
     _exit(128 + caught); // reached only if the signal is blocked

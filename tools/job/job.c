@@ -349,7 +349,7 @@ bool job_write(struct job *job, lam_error *error)
     bool ok;
     uint64_t bytes = 0;
     if (show_is_all(job->options)) {
-        ok = (job->picture_bytes || output_make_folder(job->output, error)) && show_all_write(job, &control, error);
+        ok = show_all_write(job, &control, error);
         bytes = ok ? output_size(job->output) : 0;
     } else if (job->picture_bytes) {
         ok = lam_image_encode(&job->image, job->format, &params, job->picture_bytes, error);

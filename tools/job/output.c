@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "console.h"
+#include "writer.h"
 
 static bool is_folder(const char *path)
 {
@@ -38,23 +39,14 @@ char *output_path(const char *output, const char *model, const char *ending)
     return path;
 }
 
-// The folder of a path, from malloc: "." if it names none.
-static char *folder_of(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    while (slash > path && slash[-1] == '/')
-        slash--;
-    return slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
-}
-
 // Checks that files can be made in the folder of `path`, or, if it is missing and `makes`, in the nearest folder above
 // it that exists.
 static bool check_folder(const char *path, bool makes, lam_error *error)
 {
-    char *folder = folder_of(path);
+    char *folder = output_folder_of(path);
     struct stat found;
     while (folder && makes && stat(folder, &found) != 0 && errno == ENOENT && strcmp(folder, ".") != 0) {
-        char *above = folder_of(folder);
+        char *above = output_folder_of(folder);
         free(folder);
         folder = above;
     }
@@ -67,26 +59,6 @@ static bool check_folder(const char *path, bool makes, lam_error *error)
         ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: '%s' is not a folder", path, folder);
     else if (access(folder, W_OK | X_OK) != 0)
         ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%s': %s", path, folder, strerror(errno));
-    free(folder);
-    return ok;
-}
-
-bool output_make_folder(const char *path, lam_error *error)
-{
-    char *folder = folder_of(path);
-    if (!folder)
-        return complain(error, LAM_LIMIT, "out of memory");
-    bool ok = true;
-    for (char *end = folder; ok && *end;) { // from the top down
-        end += 1 + strcspn(end + 1, "/");
-        char kept = *end;
-        struct stat found;
-        *end = 0;
-        if (stat(folder, &found) != 0 && mkdir(folder, 0777) != 0 && errno != EEXIST)
-            ok =
-                complain(error, LAM_CANNOT_WRITE, "%s: cannot make the folder '%s': %s", path, folder, strerror(errno));
-        *end = kept;
-    }
     free(folder);
     return ok;
 }
@@ -148,22 +120,25 @@ bool output_format(const char *path, lam_pixel_format *format, lam_error *error)
     return false;
 }
 
-static bool write_stream(const char *path, const lam_bytes *bytes, lam_error *error)
+static bool write_stdout(const lam_bytes *bytes, lam_error *error)
 {
-    bool to_stdout = strcmp(path, "-") == 0;
-    FILE *file = to_stdout ? stdout : fopen(path, "wb");
-    bool ok = file && fwrite(bytes->data, 1, bytes->size, file) == bytes->size && fflush(file) == 0;
-    if (!ok)
-        complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", to_stdout ? "standard output" : path,
-                 strerror(errno));
-    if (file && !to_stdout)
-        fclose(file);
-    return ok;
+    return (fwrite(bytes->data, 1, bytes->size, stdout) == bytes->size && fflush(stdout) == 0) ||
+           complain(error, LAM_CANNOT_WRITE, "standard output: cannot write: %s", strerror(errno));
 }
 
 static output_show_fn *shows;
 
 void output_show_with(output_show_fn *show) { shows = show; }
+
+static bool save(const lam_image *image, const char *path, const lam_save_params *params, uint64_t *size,
+                 lam_error *error)
+{
+    lam_bytes bytes = {0};
+    bool ok = lam_image_encode(image, output_is_stream(path) ? "png" : strrchr(path, '.') + 1, params, &bytes, error) &&
+              output_save_bytes(&bytes, path, params->durable, size, error);
+    lam_bytes_free(&bytes);
+    return ok;
+}
 
 // Writes a picture whose PNG is known.
 static bool save_shown(const lam_image *image, const lam_bytes *png, const char *path, const lam_save_params *params,
@@ -173,40 +148,25 @@ static bool save_shown(const lam_image *image, const lam_bytes *png, const char 
     *size = 0;
     if (output_is_stream(path) || (dot && strcmp(dot, ".png") == 0))
         return strcmp(path, "-") == 0 || output_save_bytes(png, path, params->durable, size, error);
-    bool ok = output_make_folder(path, error) && lam_image_save(image, path, params, error);
-    *size = ok ? output_size(path) : 0;
-    return ok;
+    return save(image, path, params, size, error);
 }
 
 bool output_save(const lam_image *image, const char *path, const lam_save_params *params, uint64_t *size,
                  lam_error *error)
 {
-    if (!output_is_stream(path) && !shows) {
-        bool ok = output_make_folder(path, error) && lam_image_save(image, path, params, error);
-        *size = ok ? output_size(path) : 0;
-        return ok;
-    }
-    lam_bytes bytes = {0};
-    bool ok = lam_image_encode(image, "png", params, &bytes, error);
-    if (ok && shows)
-        ok = save_shown(image, &bytes, path, params, size, error) && shows(&bytes, image, error);
-    else if (ok)
-        ok = output_save_bytes(&bytes, path, params->durable, size, error);
-    lam_bytes_free(&bytes);
+    if (!shows)
+        return save(image, path, params, size, error);
+    lam_bytes png = {0};
+    bool ok = lam_image_encode(image, "png", params, &png, error) &&
+              save_shown(image, &png, path, params, size, error) && shows(&png, image, error);
+    lam_bytes_free(&png);
     return ok;
 }
 
 bool output_save_bytes(const lam_bytes *bytes, const char *path, bool durable, uint64_t *size, lam_error *error)
 {
-    bool stream = output_is_stream(path);
-    bool ok = stream    ? write_stream(path, bytes, error)
-              : durable ? output_make_folder(path, error) && lam_bytes_save_durably(bytes, path, error)
-                        : output_replace(path, bytes, error);
+    bool to_stdout = strcmp(path, "-") == 0, stream = output_is_stream(path);
+    bool ok = to_stdout ? write_stdout(bytes, error) : writer_save(path, bytes, durable, error);
     *size = !ok ? 0 : stream ? bytes->size : output_size(path);
     return ok;
-}
-
-bool output_replace(const char *path, const lam_bytes *bytes, lam_error *error)
-{
-    return output_make_folder(path, error) && lam_bytes_save(bytes, path, error);
 }

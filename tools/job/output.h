@@ -4,6 +4,7 @@
 
 #include <lambent/lambent.h>
 
+#include "output_folder.h"
 #include "output_name.h"
 
 // True if --output names the picture itself: it is neither NULL (not given) nor a folder ("thumbs/").
@@ -27,9 +28,6 @@ enum output_given output_given(const char *output);
 // folder may be missing (-o pictures/), if it can be made.
 bool output_check(const char *path, const char *model, enum output_given given, lam_error *error);
 
-// Makes the missing folder of a path that output_check has accepted, with those above it. Error: LAM_CANNOT_WRITE.
-bool output_make_folder(const char *path, lam_error *error);
-
 // True if the picture is written directly to `path` as a PNG: "-", or a pipe or device without a picture's extension.
 bool output_is_stream(const char *path);
 
@@ -51,8 +49,4 @@ bool output_save_bytes(const lam_bytes *bytes, const char *path, bool durable, u
 
 // The size of the file at `path` in bytes; 0 if it is not a file.
 uint64_t output_size(const char *path);
-
-// The same for a text: the target is complete or untouched. Error: LAM_CANNOT_WRITE.
-bool output_replace(const char *path, const lam_bytes *bytes, lam_error *error);
-
 #endif

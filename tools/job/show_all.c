@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "console.h"
+#include "output.h"
 
 bool show_is_all(const struct options *options) { return options->show && strcmp(options->show, "all") == 0; }
 
@@ -66,12 +67,11 @@ static bool draw_all(struct layers *layers, struct job *job, const lam_light *li
 static bool save_layers(const struct layers *layers, const struct job *job, lam_error *error)
 {
     lam_bytes bytes = {0};
+    uint64_t size;
     if (job->picture_bytes)
         return lam_image_encode_layers(layers->list, layers->count, job->picture_bytes, error);
-    if (!job->options->durable)
-        return lam_image_save_layers(layers->list, layers->count, job->output, error);
     bool ok = lam_image_encode_layers(layers->list, layers->count, &bytes, error) &&
-              lam_bytes_save_durably(&bytes, job->output, error);
+              output_save_bytes(&bytes, job->output, job->options->durable, &size, error);
     lam_bytes_free(&bytes);
     return ok;
 }

@@ -785,8 +785,9 @@ const struct option option_table[] = {
      .store = store_switch, FIELD(files_inside), .single = TAKES_FILES},
     {"sandbox", 0, GROUP_LIMITS, "MODE", "auto", "Whether the program gives up what reading a file does not need.",
      "With it a file that finds a mistake in a decoder cannot run programs, open sockets, or read other files: only "
-     "the folders of the models and those of `--allow-path` are read, besides the system's libraries and fonts, and "
-     "only the folders of the pictures are written to. It is made of Linux's Landlock and a seccomp filter. `auto` "
+     "the folders of the models and those of `--allow-path` are read, besides the system's libraries and fonts. It "
+     "can change no file: a small process outside of the sandbox writes the pictures, and nothing but them. The "
+     "sandbox is made of Linux's Landlock and a seccomp filter. `auto` "
      "takes what the kernel has; `require` fails where it lacks one of them (exit 3), and lets scene files name only "
      "files of their folder (`--files-inside`) or of `--allow-path`. `-v`, `--json` and `--version` say what holds. "
      "Commands that read models or pictures have it; `check` and OpenGL do not, since drivers need what it takes "

@@ -7,6 +7,7 @@
 
 #include "options.h"
 #include "environment_option.h"
+#include "output.h"
 
 // True if the scene file has the setting and the command line does not override it.
 static bool takes_setting(const struct job *job, unsigned bit, const char *option)
@@ -147,8 +148,12 @@ bool scene_settings_save(const struct job *job, lam_error *error)
         s.environment_built_in = "studio";
         s.present |= LAM_SETTING_ENVIRONMENT;
     }
+    lam_bytes bytes = {0};
+    uint64_t size;
     bool ok = take_environment(job->options, &s, &names, error) &&
-              lam_scene_save(job->scene, &s, job->options->save_scene, error);
+              lam_scene_encode(job->scene, &s, job->options->save_scene, &bytes, error) &&
+              output_save_bytes(&bytes, job->options->save_scene, false, &size, error);
+    lam_bytes_free(&bytes);
     free(names);
     return ok;
 }

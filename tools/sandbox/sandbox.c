@@ -67,6 +67,7 @@ const char *sandbox_text(const struct sandbox_state *state, char out[SANDBOX_TEX
 
 #if defined(__linux__) && (defined(__x86_64__) || defined(__aarch64__)) && !defined(SANITIZED)
 
+#include <linux/capability.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 
@@ -84,12 +85,10 @@ enum {
     WRITE_FILE = 1 << 1,
     READ_FILE = 1 << 2,
     READ_DIR = 1 << 3,
-    REMOVE_FILE = 1 << 5,
-    MAKE_DIR = 1 << 7,
-    MAKE_REG = 1 << 8,
     VERSION_1 = (1 << 13) - 1,
-    REFER = 1 << 13,     // 2
-    TRUNCATE = 1 << 14,  // 3
+    REFER = 1 << 13,    // 2
+    TRUNCATE = 1 << 14, // TRUNCATE_VERSION
+    TRUNCATE_VERSION = 3,
     IOCTL_DEV = 1 << 15, // 5
     OF_FILES = EXECUTE | WRITE_FILE | READ_FILE | TRUNCATE | IOCTL_DEV,
 };
@@ -135,7 +134,7 @@ struct sandbox_state sandbox_offered(void)
 
 static uint64_t rights_of(int version)
 {
-    return (uint64_t)VERSION_1 | (version >= 2 ? REFER : 0) | (version >= 3 ? TRUNCATE : 0) |
+    return (uint64_t)VERSION_1 | (version >= 2 ? REFER : 0) | (version >= TRUNCATE_VERSION ? TRUNCATE : 0) |
            (version >= 5 ? IOCTL_DEV : 0);
 }
 
@@ -146,14 +145,16 @@ static bool is_exhausted(int reason) { return reason == EMFILE || reason == ENFI
 static bool add_path(int rules, const struct sandbox_path *path, uint64_t handled)
 {
     struct stat about;
+    uint64_t allowed = 0;
+    if (!(path->access & (SANDBOX_READ | SANDBOX_WRITE)))
+        return true;
     int file = open(path->path, O_PATH | O_CLOEXEC);
     if (file < 0)
         return !is_exhausted(errno);
-    uint64_t allowed = 0;
     if (path->access & SANDBOX_READ)
         allowed |= READ_FILE | READ_DIR;
     if (path->access & SANDBOX_WRITE)
-        allowed |= WRITE_FILE | TRUNCATE | MAKE_REG | MAKE_DIR | REMOVE_FILE | READ_DIR; // fsync() of a folder opens it
+        allowed |= WRITE_FILE;
     bool ok = fstat(file, &about) == 0;
     if (ok && !S_ISDIR(about.st_mode))
         allowed &= OF_FILES;
@@ -183,6 +184,22 @@ static bool enter_landlock(const struct sandbox_paths *paths, int version)
     return ok;
 }
 
+// Of root's privileges, those to read any file stay. CAP_PERFMON, for one, shows the environment of other processes in spite of Landlock.
+static void drop_capabilities(void)
+{
+    struct __user_cap_header_struct header = {_LINUX_CAPABILITY_VERSION_3, 0};
+    struct __user_cap_data_struct data[_LINUX_CAPABILITY_U32S_3];
+    if (syscall(SYS_capget, &header, data) != 0)
+        return;
+    const unsigned kept = 1U << CAP_DAC_OVERRIDE | 1U << CAP_DAC_READ_SEARCH;
+    for (int i = 0; i < _LINUX_CAPABILITY_U32S_3; i++) {
+        data[i].permitted &= i ? 0 : kept;
+        data[i].effective &= i ? 0 : kept;
+        data[i].inheritable = 0;
+    }
+    syscall(SYS_capset, &header, data); // giving up is always permitted
+}
+
 bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *state, lam_error *error)
 {
     *state = sandbox_offered();
@@ -194,13 +211,18 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
         *state = (struct sandbox_state){.reason = "the kernel does not let a process give up privileges"};
         return true;
     }
+    drop_capabilities();
     if (state->landlock && !enter_landlock(paths, state->landlock)) {
         if (is_exhausted(errno))
             return complain(error, LAM_LIMIT, "cannot start the sandbox: %s", strerror(errno));
         state->landlock = 0;
         state->reason = "the kernel refuses Landlock";
     }
-    if (state->filter && !sandbox_filter_install(paths->serves ? SANDBOX_SERVES : SANDBOX_DRAWS)) {
+    unsigned kind = paths->serves ? SANDBOX_SERVES : SANDBOX_DRAWS;
+    for (int i = 0; i < paths->count; i++)
+        kind |= paths->items[i].access & SANDBOX_WRITE ? SANDBOX_OPENS_PIPES : 0;
+    kind |= state->landlock < TRUNCATE_VERSION ? SANDBOX_NO_OPENAT2 : 0;
+    if (state->filter && !sandbox_filter_install(kind)) {
         state->filter = false;
         state->reason = state->landlock ? "the kernel refuses the seccomp filter"
                                         : "the kernel refuses Landlock and the seccomp filter";

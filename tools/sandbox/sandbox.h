@@ -4,14 +4,16 @@
 #ifndef SANDBOX_H
 #define SANDBOX_H
 
-#include <lambent/base.h>
+#include "writer.h"
 
 enum sandbox_mode { SANDBOX_AUTO, SANDBOX_REQUIRE, SANDBOX_OFF };
 
 enum {
-    SANDBOX_READ = 1, // a file, or all files of a folder and below it
-    SANDBOX_WRITE =
-        2, // a file, or making, replacing, removing and listing files and making folders in a folder and below it
+    SANDBOX_READ = 1,  // a file, or all files of a folder and below it
+    SANDBOX_WRITE = 2, // a pipe or a device; files are written by the writer (writer.h)
+    // For the writer: a file that it may make, and replace if Lambent wrote it, or if anyone did.
+    SANDBOX_MAKE = 4,
+    SANDBOX_REPLACE = 8,
 };
 
 struct sandbox_path {
@@ -26,6 +28,10 @@ struct sandbox_paths {
     bool failed;      // memory was out: sandbox_enter fails
     bool scene_files; // some of them may name files anywhere (sandbox_start.c)
     bool serves;      // the filter is SANDBOX_SERVES
+    // The files that the writer writes, and the number of threads that it serves (0: one). NULL: SANDBOX_MAKE and SANDBOX_REPLACE.
+    writer_rule *may_write;
+    void *user;
+    int writers;
 };
 
 // Adds a path, which is copied. What does not exist when the sandbox is entered stays out of reach.
@@ -51,14 +57,18 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
 enum { SANDBOX_TEXT_SIZE = 160 };
 const char *sandbox_text(const struct sandbox_state *state, char out[SANDBOX_TEXT_SIZE]);
 
-// What the seccomp filter permits a process.
+// What the seccomp filter permits a process: bits.
 enum sandbox_filter {
-    SANDBOX_DRAWS, // read, draw and write: no other process, no socket
-    SANDBOX_SERVES, // also: accept connections on sockets that listen already, watch files, make processes of its own program, which may
+    SANDBOX_DRAWS = 0, // read and draw: no other process, no socket, and files are opened for reading alone
+    SANDBOX_SERVES =
+        1, // also: accept connections on sockets that listen already, watch files, make processes of its own program, which may
     // then install SANDBOX_DRAWS, and end them. No socket is made, bound or connected, no program is run.
+    SANDBOX_OPENS_PIPES = 2, // what is there may be opened for writing, if Landlock permits it
+    SANDBOX_NO_OPENAT2 =
+        4, // whose flags no filter sees: for kernels whose Landlock does not keep files from being emptied
 };
 
 // sandbox_filter.c: installs a seccomp filter for all threads, in addition to those that hold. False: the kernel refuses; errno says why.
-bool sandbox_filter_install(enum sandbox_filter kind);
+bool sandbox_filter_install(unsigned kind);
 
 #endif

@@ -53,44 +53,22 @@ void sandbox_add_input(struct sandbox_paths *paths, const char *model)
 
 void sandbox_add_file(struct sandbox_paths *paths, const char *file) { sandbox_add(paths, file, SANDBOX_READ); }
 
-// The nearest folder above a path that exists, where folders can be made.
-static void add_folder_to_be(struct sandbox_paths *paths, const char *path)
+void sandbox_add_older(struct sandbox_paths *paths, const char *path)
 {
-    char *folder = strdup(path);
     struct stat about;
-    paths->failed |= !folder;
-    while (folder) {
-        char *slash = strrchr(folder, '/');
-        if (slash)
-            slash[slash == folder] = 0;
-        const char *there = slash ? folder : ".";
-        bool found = stat(there, &about) == 0;
-        if (found || !slash || strcmp(folder, "/") == 0) {
-            if (found)
-                sandbox_add(paths, there, SANDBOX_WRITE);
-            break;
-        }
-    }
-    free(folder);
+    if (strcmp(path, "-") == 0 || stat(path, &about) != 0)
+        return;
+    if (S_ISREG(about.st_mode))
+        sandbox_add(paths, path, SANDBOX_READ); // it is replaced if it says that it is ours
+    else if (!S_ISDIR(about.st_mode))
+        sandbox_add(paths, path, SANDBOX_WRITE);
 }
 
-void sandbox_add_output(struct sandbox_paths *paths, const char *path)
+void sandbox_add_output(struct sandbox_paths *paths, const char *path, bool by_model)
 {
-    struct stat about;
-    if (strcmp(path, "-") == 0)
-        return;
-    if (stat(path, &about) != 0) {
-        add_folder_to_be(paths, path);
-    } else if (!S_ISREG(about.st_mode)) {
-        sandbox_add(paths, path, SANDBOX_WRITE); // a folder, a pipe, a device
-    } else {
-        // An older picture is replaced if it says that it is ours; of a link, what it leads to.
-        char *target = realpath(path, NULL);
-        sandbox_add(paths, path, SANDBOX_READ);
-        if (target)
-            add_folder_of(paths, target, SANDBOX_WRITE);
-        free(target);
-    }
+    sandbox_add_older(paths, path);
+    if (strcmp(path, "-") != 0)
+        sandbox_add(paths, path, by_model ? SANDBOX_MAKE : SANDBOX_REPLACE);
 }
 
 // A list of paths separated by `separator`.
@@ -144,7 +122,7 @@ static void add_system(struct sandbox_paths *paths)
 void sandbox_add_options(struct sandbox_paths *paths, const struct options *o)
 {
     for (int i = 0; i < o->allow_paths.count; i++)
-        sandbox_add(paths, o->allow_paths.items[i], SANDBOX_READ | SANDBOX_WRITE);
+        sandbox_add(paths, o->allow_paths.items[i], SANDBOX_READ);
     if (o->environment)
         add_list(paths, o->environment, ',');
     if (o->look)
@@ -152,7 +130,7 @@ void sandbox_add_options(struct sandbox_paths *paths, const struct options *o)
     if (o->font)
         sandbox_add(paths, o->font, SANDBOX_READ);
     if (o->save_scene)
-        sandbox_add_output(paths, o->save_scene);
+        sandbox_add_output(paths, o->save_scene, false);
 }
 
 static bool uses_opengl(const struct options *o)
@@ -166,6 +144,36 @@ static bool check_required(const struct options *o, lam_error *error)
         return true;
     return complain(error, LAM_UNSUPPORTED, "option '--sandbox require': the sandbox is not complete: %s",
                     active.reason);
+}
+
+bool sandbox_is_wanted(const struct options *o)
+{
+    struct sandbox_state offered = sandbox_offered();
+    return o->sandbox != SANDBOX_OFF && !uses_opengl(o) && (offered.landlock || offered.filter);
+}
+
+static enum writer_right right_of(void *user, const char *path)
+{
+    const struct sandbox_paths *paths = user;
+    enum writer_right right = WRITER_NONE;
+    for (int i = 0; i < paths->count; i++)
+        if (strcmp(paths->items[i].path, path) == 0)
+            right = paths->items[i].access & SANDBOX_REPLACE ? WRITER_ANY
+                    : paths->items[i].access & SANDBOX_MAKE  ? WRITER_NEW_OR_OURS
+                                                             : right;
+    return right;
+}
+
+// The writer knows the paths as they are now.
+static bool start_writer(struct sandbox_paths *paths, lam_error *error)
+{
+    bool writes = paths->may_write;
+    for (int i = 0; i < paths->count; i++)
+        writes |= (paths->items[i].access & (SANDBOX_MAKE | SANDBOX_REPLACE)) != 0;
+    if (!writes || writer_is_there() || paths->failed)
+        return true;
+    return paths->may_write ? writer_start(paths->may_write, paths->user, paths->writers, error)
+                            : writer_start(right_of, paths, 1, error);
 }
 
 bool sandbox_start(const struct options *o, struct sandbox_paths *paths, lam_error *error)
@@ -185,7 +193,8 @@ bool sandbox_start(const struct options *o, struct sandbox_paths *paths, lam_err
         sandbox_add_options(paths, o);
         if (everything)
             sandbox_add(paths, "/", SANDBOX_READ);
-        ok = sandbox_enter(paths, &active, error) && check_required(o, error);
+        ok = (!sandbox_is_wanted(o) || start_writer(paths, error)) && sandbox_enter(paths, &active, error) &&
+             check_required(o, error);
         active.reads_everything = everything;
     }
     sandbox_paths_free(paths);

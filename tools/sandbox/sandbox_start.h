@@ -16,14 +16,21 @@ void sandbox_add_input(struct sandbox_paths *paths, const char *model);
 // Lets a picture be read, alone: an input of `diff`, an environment.
 void sandbox_add_file(struct sandbox_paths *paths, const char *file);
 
-// Lets a file be made or replaced in its folder, which need not exist yet; or files in a folder. "-" needs nothing.
-void sandbox_add_output(struct sandbox_paths *paths, const char *path);
+// Lets the writer make or replace a file, in a folder that need not exist yet. `by_model`: the model gave the name, so that only a
+// picture of Lambent's is replaced. A pipe or a device is opened inside. "-" needs nothing.
+void sandbox_add_output(struct sandbox_paths *paths, const char *path, bool by_model);
 
 // Lets the files be reached that options name: environments, looks, the font, --allow-path, --save-scene. sandbox_start does it for its own.
 void sandbox_add_options(struct sandbox_paths *paths, const struct options *options);
 
-// Enters the sandbox that the options ask for, with the given paths, those of the options and those of the system's
-// libraries and fonts. Frees `paths` in any case. Call it before threads start. False: LAM_UNSUPPORTED where
+// The part of it that concerns this process: an older picture is read, a pipe is opened. paths->may_write decides on the rest.
+void sandbox_add_older(struct sandbox_paths *paths, const char *path);
+
+// Whether sandbox_start would enter a sandbox.
+bool sandbox_is_wanted(const struct options *options);
+
+// Starts the writer, unless there is one or nothing may be written, and enters the sandbox that the options ask for, with the given
+// paths, those of the options and those of the system's libraries and fonts. Frees `paths` in any case. Call it before threads start. False: LAM_UNSUPPORTED where
 // --sandbox require cannot be had, LAM_LIMIT.
 bool sandbox_start(const struct options *options, struct sandbox_paths *paths, lam_error *error);
 

@@ -58,7 +58,7 @@ void file_release(struct file_bytes *bytes);
 bool file_move_to_arena(struct file_bytes *bytes, struct arena *arena);
 
 // Writes a file whole or not at all, and leaves nothing else in its folder, even if a signal ends the process meanwhile
-// (file_write.c). Keeps the mode of an existing file; a symbolic link is kept, and its target replaced. A path that is not
+// (file_write.c). Keeps the rights to read and write an existing file, and none to execute it; a symbolic link is kept, and its target replaced. A path that is not
 // a regular file (/dev/stdout, a pipe) is written directly. `durable`: it is on the disk when the call returns, and its
 // folder too, so that a loss of power leaves the old file or the new one. `call` may be NULL. Errors: LAM_CANNOT_WRITE,
 // and those of `call`: LAM_CANCELLED, LAM_LIMIT.

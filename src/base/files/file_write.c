@@ -113,7 +113,8 @@ static bool fill(int file, const struct writing *w, const sigset_t *before)
 {
     if (!write_all(file, w, before))
         return false;
-    if (w->existing && fchmod(file, w->existing->st_mode & 07777) != 0)
+    // The rights to read and write stay as they were; no file that is written here is a program. EPERM: a file system without rights.
+    if (w->existing && fchmod(file, w->existing->st_mode & 0666) != 0 && errno != EPERM)
         return false;
     if (w->durable && !sync_file(file))
         return false;

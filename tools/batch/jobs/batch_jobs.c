@@ -138,6 +138,8 @@ void batch_jobs_close(struct batch_jobs *jobs)
     free(jobs);
 }
 
+const struct job_roots *batch_jobs_roots(const struct batch_jobs *jobs) { return &jobs->roots; }
+
 // --- answers without a picture
 
 static void count(struct batch_jobs *jobs, const lam_error *error, size_t pictures)

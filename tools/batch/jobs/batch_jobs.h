@@ -6,10 +6,14 @@
 #define BATCH_JOBS_H
 
 #include "batch_unit.h"
+#include "job_roots.h"
 
 // Opens the stream of jobs that the batch's options name. NULL: LAM_CANNOT_READ, LAM_BAD_ARGUMENT, LAM_LIMIT.
 struct batch_jobs *batch_jobs_open(struct batch *batch, lam_error *error);
 void batch_jobs_close(struct batch_jobs *jobs); // NULL is fine
+
+// The folders that files of jobs may lie in.
+const struct job_roots *batch_jobs_roots(const struct batch_jobs *jobs);
 
 // Reads the next line, waiting for it up to `wait_ms`, and does what it says: accepts, refuses or cancels a job. After an
 // interrupt, or when the batch or the answers have failed, gives up all jobs. The main thread alone.

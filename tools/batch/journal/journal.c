@@ -18,6 +18,7 @@
 #include "interrupt.h"
 #include "output.h"
 #include "progress.h"
+#include "writer.h"
 #include "xxh64.h"
 
 enum { SLOT = 8192 };
@@ -382,6 +383,8 @@ struct slot {
     char model[SLOT - sizeof(int) - HOST_SIZE]; // "": none
 };
 
+const char *journal_running_path(const struct journal *j) { return j->running_path; }
+
 void journal_begin(struct journal *j, int slot, int process, const char *model)
 {
     struct slot text = {.process = process};
@@ -426,7 +429,7 @@ void journal_close(struct journal *j, bool done, bool interrupted)
     if (j->file >= 0)
         close(j->file);
     if (j->was_running && (j->begun ? !interrupted : !j->was_slots)) // locked by this run, and of use to no later one
-        unlink(j->running_path);
+        writer_remove(j->running_path);
     if (j->running >= 0)
         close(j->running);
     free(j->path);

@@ -39,6 +39,9 @@ bool journal_add(struct journal *journal, const json_t *record, lam_error *error
 // A record as its line, from malloc, with its line end; NULL: out of memory.
 char *journal_line(const json_t *record);
 
+// The path of FILE.running, which journal_close removes.
+const char *journal_running_path(const struct journal *journal);
+
 // Says that a slot's model is being drawn by a process; NULL: nothing is.
 void journal_begin(struct journal *journal, int slot, int process, const char *model);
 

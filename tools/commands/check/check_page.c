@@ -7,6 +7,7 @@
 #include "console.h"
 #include "html.h"
 #include "output.h"
+#include "writer.h"
 
 enum { MAX_COUNTED = 512 };
 
@@ -227,7 +228,7 @@ bool check_page_write(struct check_page *page, const char *folder, const char *t
     if (file)
         write_page(file, page, title);
     bool ok = path && ((file && fclose(file) == 0) || complain(error, LAM_LIMIT, "out of memory"));
-    ok = ok && output_replace(path, &(lam_bytes){.data = text, .size = size}, error);
+    ok = ok && writer_save(path, &(lam_bytes){.data = text, .size = size}, false, error);
     free(text);
     free(path);
     return ok;

@@ -175,7 +175,7 @@ int run_explain(int operand_count, char **operands, const struct options *option
         struct sandbox_paths paths = {0};
         sandbox_add_input(&paths, job.model);
         if (figure)
-            sandbox_add_output(&paths, figure);
+            sandbox_add_output(&paths, figure, !output_is_named(options->output));
         job.device = sandbox_start(options, &paths, &error) ? device_option_make(options, &error) : NULL;
         code = job.device ? explain(&job, x, y, figure) : report_failure(&error, options);
     }

@@ -1,0 +1,265 @@
+// test_writer.c: the process that writes files for the one in the sandbox: its rights, several threads at once, and the end of either process.
+#include "writer.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static char folder[] = "/tmp/lambent-writer-XXXXXX";
+
+static char *in_folder(const char *name)
+{
+    static _Thread_local char path[2][300];
+    static _Thread_local int next;
+    next ^= 1;
+    snprintf(path[next], sizeof path[next], "%s/%s", folder, name);
+    return path[next];
+}
+
+static enum writer_right rule(void *user, const char *path)
+{
+    const char *name = strrchr(path, '/') + 1;
+    assert_string_equal(user, "rule");
+    return strncmp(name, "any", 3) == 0    ? WRITER_ANY
+           : strncmp(name, "ours", 4) == 0 ? WRITER_NEW_OR_OURS
+           : strcmp(name, "log") == 0      ? WRITER_REMOVES
+                                           : WRITER_NONE;
+}
+
+static bool save(const char *name, const char *text, lam_error *error)
+{
+    *error = (lam_error){0};
+    return writer_save(in_folder(name), &(lam_bytes){(void *)(uintptr_t)text, strlen(text)}, false, error);
+}
+
+static void put(const char *name, const char *text)
+{
+    FILE *file = fopen(in_folder(name), "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+static void assert_contains(const char *name, const char *text)
+{
+    char found[100] = "";
+    FILE *file = fopen(in_folder(name), "r");
+    assert_non_null(file);
+    size_t size = fread(found, 1, sizeof found - 1, file);
+    fclose(file);
+    found[size] = 0;
+    assert_string_equal(found, text);
+}
+
+static int count_files(void)
+{
+    int count = 0;
+    DIR *list = opendir(folder);
+    for (struct dirent *entry; (entry = readdir(list));)
+        count += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
+    closedir(list);
+    return count;
+}
+
+static int start(void **state)
+{
+    (void)state;
+    lam_error error;
+    memcpy(strrchr(folder, '-') + 1, "XXXXXX", 6);
+    return !mkdtemp(folder) || !writer_start(rule, "rule", 2, &error);
+}
+
+static int end(void **state)
+{
+    (void)state;
+    char command[100];
+    writer_end();
+    assert_false(writer_is_there());
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
+}
+
+static void test_rights(void **state)
+{
+    (void)state;
+    lam_error error;
+    assert_true(writer_is_there() && writer_process() != getpid());
+    // Any file is replaced; a new folder is made; nothing is executable.
+    put("any", "a program");
+    assert_int_equal(chmod(in_folder("any"), 04755), 0);
+    assert_true(save("any", "1", &error));
+    assert_contains("any", "1");
+    struct stat about;
+    assert_true(stat(in_folder("any"), &about) == 0 && (about.st_mode & 07777) == 0644);
+    assert_true(save("new/any", "2", &error));
+    // Of the files of one name, new ones and its own alone, as long as nobody changes them.
+    assert_true(save("ours", "3", &error) && save("ours", "4", &error));
+    put("ours", "of the user");
+    assert_false(save("ours", "5", &error));
+    assert_int_equal(error.code, LAM_CANNOT_WRITE);
+    assert_non_null(strstr(error.text, "ours: cannot write: already exists, and lambent did not write it"));
+    assert_contains("ours", "of the user");
+    // No other.
+    put("other", "of the user");
+    assert_false(save("other", "6", &error));
+    assert_non_null(strstr(error.text, "other: cannot write: is none of the files of this run"));
+    assert_false(save("log", "7", &error));
+    assert_contains("other", "of the user");
+    assert_int_equal(mkdir(in_folder("any folder"), 0777), 0);
+    assert_false(save("any folder", "8", &error));
+    assert_non_null(strstr(error.text, "is a directory"));
+    // It removes what it may.
+    put("log", "");
+    writer_remove(in_folder("log"));
+    writer_remove(in_folder("other"));
+    writer_remove(in_folder("any"));
+    assert_int_equal(access(in_folder("log"), F_OK), -1);
+    assert_int_equal(access(in_folder("other"), F_OK), 0);
+    assert_int_equal(access(in_folder("any"), F_OK), 0);
+}
+
+enum { THREADS = 5, ROUNDS = 40 };
+
+static void *save_many(void *user)
+{
+    size_t size = 300000 + (size_t)(uintptr_t)user;
+    char name[30], *text = malloc(size);
+    memset(text, 'a', size);
+    lam_error error;
+    size_t good = 0;
+    for (int i = 0; i < ROUNDS; i++) {
+        snprintf(name, sizeof name, "any-%d-%d", (int)(uintptr_t)user, i);
+        good += writer_save(in_folder(name), &(lam_bytes){text, size}, i == 0, &error);
+    }
+    free(text);
+    return (void *)good;
+}
+
+// More threads than connections take turns.
+static void test_threads(void **state)
+{
+    (void)state;
+    pthread_t threads[THREADS];
+    struct stat about;
+    char name[30];
+    for (size_t i = 0; i < THREADS; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, save_many, (void *)i), 0);
+    for (size_t i = 0; i < THREADS; i++) {
+        void *good;
+        pthread_join(threads[i], &good);
+        assert_int_equal((size_t)good, ROUNDS);
+        snprintf(name, sizeof name, "any-%zu-%d", i, ROUNDS - 1);
+        assert_int_equal(stat(in_folder(name), &about), 0);
+        assert_int_equal(about.st_size, 300000 + i);
+    }
+    assert_int_equal(count_files(), THREADS * ROUNDS);
+}
+
+// That the writer has ended is an error, and no signal.
+static void test_writer_ends(void **state)
+{
+    (void)state;
+    lam_error error;
+    assert_true(save("any", "1", &error));
+    assert_int_equal(kill(writer_process(), SIGKILL), 0);
+    for (int i = 0; i < 3; i++) {
+        assert_false(save("any", "2", &error));
+        assert_int_equal(error.code, LAM_CANNOT_WRITE);
+        assert_non_null(strstr(error.text, "the process that writes files has ended"));
+    }
+    assert_contains("any", "1");
+}
+
+// Signals that end the process leave nothing half written, and no writer.
+static void test_process_ends(void **state)
+{
+    (void)state;
+    static const int signals[] = {SIGTERM, SIGKILL, SIGABRT, SIGPIPE, SIGUSR1};
+    enum { LARGE = 3 << 20 };
+    char *text = calloc(1, LARGE);
+    for (size_t i = 0; i < 20; i++) {
+        lam_error error;
+        int ready[2], status = 0;
+        assert_int_equal(pipe(ready), 0);
+        pid_t child = fork();
+        if (child == 0) {
+            writer_leave();
+            bool ok =
+                writer_start(rule, "rule", 1, &error) && write(ready[1], &(pid_t){writer_process()}, sizeof(pid_t)) > 0;
+            for (int k = 0; ok && k < 1000; k++)
+                ok = writer_save(in_folder("any"), &(lam_bytes){text, LARGE}, false, &error);
+            _exit(ok);
+        }
+        pid_t writer;
+        assert_int_equal(read(ready[0], &writer, sizeof writer), sizeof writer);
+        usleep((unsigned)(1000 + 700 * i));
+        kill(child, signals[i % 5]);
+        waitpid(child, &status, 0);
+        assert_true(WIFSIGNALED(status));
+        close(ready[1]);
+        for (int k = 0; k < 2000 && kill(writer, 0) == 0; k++) { // a process that nobody waits for may stay as a zombie
+            char path[40], line[200] = "";
+            snprintf(path, sizeof path, "/proc/%d/stat", (int)writer);
+            FILE *file = fopen(path, "r");
+            bool zombie = file && fgets(line, sizeof line, file) && strstr(line, ") Z ");
+            if (file)
+                fclose(file);
+            if (zombie)
+                break;
+            usleep(1000);
+            assert_true(k < 1999);
+        }
+        close(ready[0]);
+        struct stat about;
+        assert_true(stat(in_folder("any"), &about) != 0 || about.st_size == LARGE);
+        assert_true(count_files() <= 1);
+    }
+    free(text);
+}
+
+// A closed standard stream does not become a connection.
+static void test_closed_streams(void **state)
+{
+    (void)state;
+    int status = 0;
+    pid_t child = fork();
+    if (child == 0) {
+        lam_error error;
+        writer_leave();
+        close(STDIN_FILENO);
+        close(STDOUT_FILENO);
+        close(STDERR_FILENO);
+        bool ok = writer_start(rule, "rule", 1, &error) && write(STDERR_FILENO, "a", 1) < 0 && save("any", "1", &error);
+        writer_end();
+        _exit(!ok);
+    }
+    waitpid(child, &status, 0);
+    assert_int_equal(status, 0);
+    assert_contains("any", "1");
+}
+
+int main(void)
+{
+    umask(022);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_rights, start, end),
+        cmocka_unit_test_setup_teardown(test_threads, start, end),
+        cmocka_unit_test_setup_teardown(test_writer_ends, start, end),
+        cmocka_unit_test_setup_teardown(test_process_ends, start, end),
+        cmocka_unit_test_setup_teardown(test_closed_streams, start, end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

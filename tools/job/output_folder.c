@@ -1,0 +1,37 @@
+// output_folder.c: the folder that a file is written to.
+#include "output_folder.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "console.h"
+
+char *output_folder_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    while (slash > path && slash[-1] == '/')
+        slash--;
+    return slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
+}
+
+bool output_make_folder(const char *path, lam_error *error)
+{
+    char *folder = output_folder_of(path);
+    if (!folder)
+        return complain(error, LAM_LIMIT, "out of memory");
+    bool ok = true;
+    for (char *end = folder; ok && *end;) { // from the top down
+        end += 1 + strcspn(end + 1, "/");
+        char kept = *end;
+        struct stat found;
+        *end = 0;
+        if (stat(folder, &found) != 0 && mkdir(folder, 0777) != 0 && errno != EEXIST)
+            ok =
+                complain(error, LAM_CANNOT_WRITE, "%s: cannot make the folder '%s': %s", path, folder, strerror(errno));
+        *end = kept;
+    }
+    free(folder);
+    return ok;
+}

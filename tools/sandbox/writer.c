@@ -1,0 +1,410 @@
+// writer.c: the process that writes files for the one in the sandbox.
+//
+// For each thread that it can serve there is a pair of sockets. A request is a header, the path and the contents; the answer is a
+// lam_error. While a request is answered, signals wait in the thread that asked, so that one which ends the process finds the file
+// complete. After SIGKILL the writer finishes what it has received whole and drops the rest.
+#include "writer.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "console.h"
+#include "output_folder.h"
+
+static bool save_here(const char *path, const lam_bytes *bytes, bool durable, lam_error *error)
+{
+    return output_make_folder(path, error) &&
+           (durable ? lam_bytes_save_durably(bytes, path, error) : lam_bytes_save(bytes, path, error));
+}
+
+#ifdef __linux__
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <poll.h>
+#include <pthread.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/uio.h>
+#include <sys/wait.h>
+#include <time.h>
+
+enum { THREADS_MAX = 256, STACK = 256 << 10, OWN_MAX = 65536 };
+
+enum action { SAVE, SAVE_DURABLY, REMOVE };
+
+struct request {
+    uint32_t action;
+    uint32_t path_size; // with its zero
+    uint64_t size;      // of the contents
+};
+
+// False: the other side has ended, or errno.
+static bool receive(int from, void *bytes, size_t size)
+{
+    for (char *at = bytes; size;) {
+        ssize_t got = read(from, at, size);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0)
+            return false;
+        at += got;
+        size -= (size_t)got;
+    }
+    return true;
+}
+
+// In one call if the other side is quick, so that it wakes once.
+static bool send_all(int to, struct iovec *parts, int count)
+{
+    while (count) {
+        ssize_t sent = writev(to, parts, count);
+        if (sent < 0 && errno != EINTR)
+            return false;
+        size_t left = sent > 0 ? (size_t)sent : 0;
+        for (; count && left >= parts->iov_len; parts++, count--)
+            left -= parts->iov_len;
+        if (count) {
+            parts->iov_base = (char *)parts->iov_base + left;
+            parts->iov_len -= left;
+        }
+    }
+    return true;
+}
+
+// --- the writer
+
+// A file of formats without room for a remark that this run wrote: what it is, and its last change.
+struct own_file {
+    dev_t device;
+    ino_t number;
+    struct timespec changed;
+};
+
+static struct {
+    writer_rule *rule;
+    void *user;
+    pthread_mutex_t lock;         // of the rule and the list
+    struct own_file own[OWN_MAX]; // the latest; earlier ones count for a stranger's
+    size_t own_count;
+} writing = {.lock = PTHREAD_MUTEX_INITIALIZER};
+
+static bool own_of(const char *path, struct own_file *own)
+{
+    struct stat about;
+    bool found = stat(path, &about) == 0;
+    *own = (struct own_file){about.st_dev, about.st_ino, about.st_ctim};
+    return found;
+}
+
+static bool is_own(const char *path)
+{
+    struct own_file file;
+    bool found = false;
+    if (lam_image_is_from_lambent(path))
+        return true;
+    if (!own_of(path, &file))
+        return false;
+    pthread_mutex_lock(&writing.lock);
+    for (size_t i = 0; i < writing.own_count && i < OWN_MAX && !found; i++)
+        found = writing.own[i].device == file.device && writing.own[i].number == file.number &&
+                writing.own[i].changed.tv_sec == file.changed.tv_sec &&
+                writing.own[i].changed.tv_nsec == file.changed.tv_nsec;
+    pthread_mutex_unlock(&writing.lock);
+    return found;
+}
+
+static void note_own(const char *path)
+{
+    struct own_file file;
+    if (lam_image_is_from_lambent(path) || !own_of(path, &file))
+        return;
+    pthread_mutex_lock(&writing.lock);
+    writing.own[writing.own_count++ % OWN_MAX] = file;
+    pthread_mutex_unlock(&writing.lock);
+}
+
+static bool act(const struct request *request, const char *path, const lam_bytes *bytes, lam_error *error)
+{
+    struct stat there;
+    pthread_mutex_lock(&writing.lock);
+    enum writer_right right = writing.rule(writing.user, path);
+    pthread_mutex_unlock(&writing.lock);
+    if (request->action == REMOVE && right == WRITER_REMOVES)
+        return unlink(path) == 0;
+    if (request->action == REMOVE || (right != WRITER_NEW_OR_OURS && right != WRITER_ANY))
+        return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: is none of the files of this run", path);
+    bool exists = stat(path, &there) == 0;
+    if (exists && !S_ISREG(there.st_mode))
+        return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: is not a regular file", path);
+    if (exists && right == WRITER_NEW_OR_OURS && !is_own(path))
+        return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: already exists, and lambent did not write it",
+                        path);
+    bool ok = save_here(path, bytes, request->action == SAVE_DURABLY, error);
+    if (ok && right == WRITER_NEW_OR_OURS)
+        note_own(path);
+    return ok;
+}
+
+// Answers one request. False: the other side has ended, or asks for something else than requests.
+static bool answer(int connection)
+{
+    struct request request;
+    char path[PATH_MAX];
+    lam_error error = {0};
+    if (!receive(connection, &request, sizeof request) || request.path_size > sizeof path || request.path_size < 2 ||
+        request.action > REMOVE || !receive(connection, path, request.path_size) || path[request.path_size - 1])
+        return false;
+    void *data = malloc(request.size ? request.size : 1);
+    bool ok = data && receive(connection, data, request.size);
+    if (ok) {
+        act(&request, path, &(lam_bytes){data, request.size}, &error);
+        ok = send_all(connection, &(struct iovec){&error, sizeof error}, 1);
+    }
+    free(data);
+    return ok;
+}
+
+// Serves some connections until all of them have ended.
+static void serve(int *connections, int count)
+{
+    struct pollfd wait[THREADS_MAX];
+    while (count) {
+        for (int i = 0; i < count; i++)
+            wait[i] = (struct pollfd){.fd = connections[i], .events = POLLIN};
+        if (poll(wait, (nfds_t)count, -1) < 0)
+            continue;
+        for (int i = count - 1; i >= 0; i--)
+            if (wait[i].revents && !answer(connections[i])) {
+                close(connections[i]);
+                connections[i] = connections[--count];
+            }
+    }
+}
+
+static void *serve_one(void *user)
+{
+    int connection = *(int *)user;
+    serve(&connection, 1);
+    return NULL;
+}
+
+// Closes every file but the connections and standard error: locks, terminals and pipes are the other process's.
+static void close_others(const int *connections, int count)
+{
+    int next = STDERR_FILENO + 1;
+    close(STDIN_FILENO);
+    close(STDOUT_FILENO);
+    for (bool found = true; found;) {
+        int nearest = INT_MAX;
+        for (int i = 0; i < count; i++)
+            if (connections[i] >= next && connections[i] < nearest)
+                nearest = connections[i];
+        found = nearest != INT_MAX;
+#ifdef SYS_close_range
+        if (nearest > next && syscall(SYS_close_range, next, nearest - 1, 0) != 0)
+#endif
+            for (int file = next; file < (found ? nearest : 1024); file++)
+                close(file);
+        next = found ? nearest + 1 : next;
+    }
+}
+
+static _Noreturn void run(int *connections, int count)
+{
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, NULL);
+    prctl(PR_SET_NAME, "lambent-writer");
+    close_others(connections, count);
+    for (int stream = 0; stream <= STDERR_FILENO; stream++) // none of the files that it writes is a standard stream
+        (void)!open("/dev/null", O_RDWR | O_CLOEXEC);
+    pthread_attr_t small;
+    pthread_attr_init(&small);
+    pthread_attr_setstacksize(&small, STACK);
+    pthread_t threads[THREADS_MAX];
+    int own = count; // this thread serves those for which there is no other
+    while (own > 1 && pthread_create(&threads[own - 1], &small, serve_one, &connections[own - 1]) == 0)
+        own--;
+    serve(connections, own);
+    for (int i = own; i < count; i++)
+        pthread_join(threads[i], NULL);
+    _exit(0);
+}
+
+// --- the process that it writes for
+
+static struct {
+    int connections[THREADS_MAX];
+    bool taken[THREADS_MAX];
+    int count;
+    pid_t process;
+    pthread_mutex_t lock;
+    pthread_cond_t given;
+} writer = {.lock = PTHREAD_MUTEX_INITIALIZER, .given = PTHREAD_COND_INITIALIZER};
+
+// A pair of connections above the standard streams, one of which may be closed.
+static bool make_pair(int *here, int *there)
+{
+    int pair[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0)
+        return false;
+    *here = fcntl(pair[0], F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    *there = fcntl(pair[1], F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    close(pair[0]);
+    close(pair[1]);
+    if (*here >= 0 && *there >= 0)
+        return true;
+    if (*here >= 0)
+        close(*here);
+    if (*there >= 0)
+        close(*there);
+    return false;
+}
+
+bool writer_start(writer_rule *rule, void *user, int count, lam_error *error)
+{
+    int there[THREADS_MAX];
+    int made = 0;
+    count = count < 1 ? 1 : count < THREADS_MAX ? count : THREADS_MAX;
+    while (made < count && make_pair(&writer.connections[made], &there[made]))
+        made++; // fewer handles than threads: they take turns
+    pid_t process = made ? fork() : -1;
+    int reason = errno;
+    if (process == 0) {
+        for (int i = 0; i < made; i++)
+            close(writer.connections[i]);
+        writer.count = 0;
+        writing.rule = rule;
+        writing.user = user;
+        run(there, made);
+    }
+    for (int i = 0; i < made; i++)
+        close(there[i]);
+    writer.count = made;
+    writer.process = process;
+    if (process > 0)
+        return true;
+    writer_leave();
+    return complain(error, LAM_LIMIT, "cannot start the process that writes files: %s", strerror(reason));
+}
+
+bool writer_is_there(void) { return writer.count > 0; }
+
+pid_t writer_process(void) { return writer.count ? writer.process : getpid(); }
+
+void writer_finish(void)
+{
+    for (int i = 0; i < writer.count; i++)
+        close(writer.connections[i]);
+    writer.count = 0;
+}
+
+pid_t writer_leave(void)
+{
+    pid_t process = writer.process > 0 ? writer.process : 0;
+    writer_finish();
+    writer.process = 0;
+    return process;
+}
+
+void writer_end(void)
+{
+    pid_t process = writer_leave();
+    while (process > 0 && waitpid(process, NULL, 0) < 0 && errno == EINTR)
+        continue;
+}
+
+static int take(void)
+{
+    pthread_mutex_lock(&writer.lock);
+    for (int i = 0;; i = (i + 1) % writer.count) {
+        if (!writer.taken[i]) {
+            writer.taken[i] = true;
+            pthread_mutex_unlock(&writer.lock);
+            return i;
+        }
+        if (i == writer.count - 1)
+            pthread_cond_wait(&writer.given, &writer.lock);
+    }
+}
+
+static void give(int i)
+{
+    pthread_mutex_lock(&writer.lock);
+    writer.taken[i] = false;
+    pthread_cond_signal(&writer.given);
+    pthread_mutex_unlock(&writer.lock);
+}
+
+static bool ask(enum action action, const char *path, const lam_bytes *bytes, lam_error *error)
+{
+    struct request request = {action, (uint32_t)strlen(path) + 1, bytes->size};
+    struct iovec parts[] = {
+        {&request, sizeof request}, {(void *)(uintptr_t)path, request.path_size}, {bytes->data, bytes->size}};
+    sigset_t all, pipe, before;
+    sigfillset(&all);
+    sigemptyset(&pipe);
+    sigaddset(&pipe, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &all, &before);
+    int i = take(), connection = writer.connections[i];
+    bool sent = send_all(connection, parts, 3);
+    if (!sent && errno == EPIPE)
+        sigtimedwait(&pipe, NULL, &(struct timespec){0});
+    bool ok = sent && receive(connection, error, sizeof *error);
+    give(i);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return ok ? !error->code
+              : complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: the process that writes files has ended",
+                         path);
+}
+
+bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error)
+{
+    struct stat there;
+    // Pipes and devices that a user names are opened here: a writer that waits for their reader could not be interrupted.
+    if (!writer_is_there() || (stat(path, &there) == 0 && !S_ISREG(there.st_mode)))
+        return save_here(path, bytes, durable, error);
+    return ask(durable ? SAVE_DURABLY : SAVE, path, bytes, error);
+}
+
+void writer_remove(const char *path)
+{
+    lam_error error;
+    if (writer_is_there())
+        ask(REMOVE, path, &(lam_bytes){0}, &error);
+    else
+        unlink(path);
+}
+
+#else
+
+bool writer_start(writer_rule *rule, void *user, int count, lam_error *error)
+{
+    (void)rule, (void)user, (void)count;
+    return complain(error, LAM_UNSUPPORTED, "this system has no processes that write files for others");
+}
+
+bool writer_is_there(void) { return false; }
+
+pid_t writer_process(void) { return getpid(); }
+
+pid_t writer_leave(void) { return 0; }
+
+void writer_finish(void) {}
+
+void writer_end(void) {}
+
+bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error)
+{
+    return save_here(path, bytes, durable, error);
+}
+
+void writer_remove(const char *path) { unlink(path); }
+
+#endif

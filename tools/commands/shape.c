@@ -70,28 +70,44 @@ static bool save(const char *model, const struct options *o, lam_error *error)
     return ok;
 }
 
+// Options of one kind of formula have no meaning for the other kind, nor for built-in shapes.
+static bool check_formula_options(const struct options *o, lam_error *error)
+{
+    const struct {
+        const char *name, *kind;
+        bool stray;
+    } rows[] = {{"u", "--parametric", o->u_range && !o->parametric},
+                {"v", "--parametric", o->v_range && !o->parametric},
+                {"x", "--implicit", o->x_range && !o->implicit},
+                {"y", "--implicit", o->y_range && !o->implicit},
+                {"z", "--implicit", o->z_range && !o->implicit},
+                {"flip", "--parametric and --implicit", o->flip && !o->parametric && !o->implicit}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (rows[i].stray)
+            return complain(error, LAM_BAD_ARGUMENT, "option '--%s' belongs to %s", rows[i].name, rows[i].kind);
+    return true;
+}
+
 int run_shape(int operand_count, char **operands, const struct options *options)
 {
     lam_error error = {0};
-    char word[] = FORMULA_MODEL, *formula[] = {word};
+    char parametric[] = "parametric", implicit[] = "implicit";
+    char *formula[] = {options->implicit ? implicit : options->parametric ? parametric : NULL};
     bool ok = true;
-    if (operand_count && options->parametric)
-        ok =
-            complain(&error, LAM_BAD_ARGUMENT, "shape: found '%s' and --parametric, expected one of them", operands[0]);
-    else if (!operand_count && !options->parametric)
+    if (options->parametric && options->implicit)
+        ok = complain(&error, LAM_BAD_ARGUMENT, "shape: found --parametric and --implicit, expected one of them");
+    else if (operand_count && *formula)
+        ok = complain(&error, LAM_BAD_ARGUMENT, "shape: found '%s' and --%s, expected one of them", operands[0],
+                      *formula);
+    else if (!operand_count && !*formula)
         ok = complain(&error, LAM_BAD_ARGUMENT,
-                      "shape: expected the name of a built-in shape (`lambent shapes` lists them) or --parametric "
-                      "'x=...; y=...; z=...'");
-    else if (!options->parametric && lam_shape_find(operands[0]) < 0)
+                      "shape: expected the name of a built-in shape (`lambent shapes` lists them), --parametric "
+                      "'x=...; y=...; z=...' or --implicit 'x^2+y^2+z^2-1'");
+    else if (!*formula && lam_shape_find(operands[0]) < 0)
         ok = complain(&error, LAM_BAD_ARGUMENT,
                       "shape: no built-in shape has the name '%s'; `lambent shapes` lists them", operands[0]);
-    else if (!options->parametric && (options->u_range || options->v_range || options->flip))
-        ok = complain(&error, LAM_BAD_ARGUMENT, "shape: option '--%s' belongs to --parametric",
-                      options->u_range   ? "u"
-                      : options->v_range ? "v"
-                                         : "flip");
-    ok = ok && check_ending(options->output, &error);
-    char **models = options->parametric ? formula : operands;
+    ok = ok && check_formula_options(options, &error) && check_ending(options->output, &error);
+    char **models = *formula ? formula : operands;
     if (ok && !is_model_file(options->output))
         return run_render(1, models, options);
     if (ok && save(models[0], options, &error))

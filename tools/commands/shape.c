@@ -7,6 +7,7 @@
 #include "console.h"
 #include "exit_codes.h"
 #include "job.h"
+#include "job_check.h"
 #include "output.h"
 #include "page_file.h"
 #include "report.h"
@@ -70,24 +71,6 @@ static bool save(const char *model, const struct options *o, lam_error *error)
     return ok;
 }
 
-// Options of one kind of formula have no meaning for the other kind, nor for built-in shapes.
-static bool check_formula_options(const struct options *o, lam_error *error)
-{
-    const struct {
-        const char *name, *kind;
-        bool stray;
-    } rows[] = {{"u", "--parametric", o->u_range && !o->parametric},
-                {"v", "--parametric", o->v_range && !o->parametric},
-                {"x", "--implicit", o->x_range && !o->implicit},
-                {"y", "--implicit", o->y_range && !o->implicit},
-                {"z", "--implicit", o->z_range && !o->implicit},
-                {"flip", "--parametric and --implicit", o->flip && !o->parametric && !o->implicit}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (rows[i].stray)
-            return complain(error, LAM_BAD_ARGUMENT, "option '--%s' belongs to %s", rows[i].name, rows[i].kind);
-    return true;
-}
-
 int run_shape(int operand_count, char **operands, const struct options *options)
 {
     lam_error error = {0};
@@ -106,7 +89,8 @@ int run_shape(int operand_count, char **operands, const struct options *options)
     else if (!*formula && lam_shape_find(operands[0]) < 0)
         ok = complain(&error, LAM_BAD_ARGUMENT,
                       "shape: no built-in shape has the name '%s'; `lambent shapes` lists them", operands[0]);
-    ok = ok && check_formula_options(options, &error) && check_ending(options->output, &error);
+    ok = ok && job_check_formula(*formula ? *formula : operands[0], options, &error) &&
+         check_ending(options->output, &error);
     char **models = *formula ? formula : operands;
     if (ok && !is_model_file(options->output))
         return run_render(1, models, options);

@@ -197,8 +197,20 @@ typedef struct lam_explained_place {
     // Pixels from the lower left corner, as OpenGL counts them: (ndc.x + 1) · width / 2, (ndc.y + 1) · height / 2; and the
     // depth (ndc.z + 1) / 2. NaN where w ≤ 0.
     double window[3];
-    LAM_RESERVED(4);
+    // Of a corner: the mesh's normal in its own space, unit. Zero if the triangle's own normal is used
+    // (lam_explained_fragment.face_normal).
+    lam_vec3 normal;
+    LAM_RESERVED(1);
 } lam_explained_place;
+
+// The matrices of an object, as its vertex shader is given them. Rows first: m[row][column].
+typedef struct lam_explained_matrices {
+    lam_mat4 model_view; // the mesh's own space to eye space
+    lam_mat4 projection; // eye space to clip space
+    // The transposed inverse of the upper left 3×3 of `model_view`, which takes normals to eye space; zero if it has no inverse.
+    double normal[3][3];
+    LAM_RESERVED(8);
+} lam_explained_matrices;
 
 // A triangle that the pixel shows.
 typedef struct lam_explained_fragment {
@@ -245,7 +257,11 @@ typedef struct lam_explained_fragment {
     // (x3−x2)(y1−y2) − (y3−y2)(x1−x2) of the corners' window positions: twice the area in square pixels, positive where
     // they run counter-clockwise. A mirroring transform turns the winding of a front round. NaN where a corner lies behind the eye.
     double winding;
-    LAM_RESERVED(6);
+    const lam_explained_matrices *matrices; // NULL if `places` is
+    // n is the triangle's own normal, (p1 − p0) × (p2 − p0) of its corners, before maps. false: the normals of the corners, in
+    // eye space, are interpolated.
+    bool face_normal;
+    LAM_RESERVED(4);
 } lam_explained_fragment;
 
 // One pixel of a picture.
@@ -279,7 +295,10 @@ typedef struct lam_explanation {
     // As in lam_draw_params, where it matters: the reflection terms of physical materials are sums over so many directions,
     // and the members of the split sum are 0.
     int reference;
-    LAM_RESERVED(5);
+    // The point, directional and spot lights in the order of each point's, as they were given: with their cones.
+    const lam_light *lights;
+    int light_count; // of `lights`
+    LAM_RESERVED(3);
 } lam_explanation;
 
 // Draws the part of the picture around pixel (x, y), counted from the upper left corner, and records every number of

@@ -146,18 +146,27 @@ typedef struct lam_parametric {
     LAM_RESERVED(8);
 } lam_parametric;
 
-// A surface that is written as text: "a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)". docs/shapes.md
-// describes the language. Normals are those of the symbolic derivatives. Ends of a range that meet are joined, and a line of
-// the grid along which the surface has a crease separates normals.
+// A surface that is written as text. docs/shapes.md describes the language. Normals are those of the symbolic derivatives.
+//
+// Parametric: "a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)". Ends of a range that meet are joined, and
+// a line of the grid along which the surface has a crease separates normals.
+//
+// Implicit: "a = 2; x^2 + y^2 + z^2 - a^2", the points where the expression is zero, or "x^2 + y^2 + z^2 = 4", where both
+// sides are equal. It is negative (the left side is the smaller one) inside.
 typedef struct lam_formula {
     const char *text; // at most 4096 bytes
-    // The ranges of u and v, each two constant expressions: "0..2pi", which NULL stands for.
+    // Parametric: the ranges of u and v, each two constant expressions: "0..2pi", which NULL stands for.
     const char *u, *v;
-    // 1..16384; 0: 16..512, so that edges pass the surface by 1/4000 of its size at most.
+    // Parametric: 1..16384; 0: 16..512, so that edges pass the surface by 1/4000 of its size at most.
+    // Implicit: u_segments is the number of cells along the longest side of the box, 2..1024; 0: 96. v_segments is 0.
     int u_segments, v_segments;
-    // The front is where −(∂p/∂u × ∂p/∂v) points; false: ∂p/∂u × ∂p/∂v.
+    // The front is where −(∂p/∂u × ∂p/∂v) or −∇f points; false: ∂p/∂u × ∂p/∂v or ∇f.
     bool flip;
-    LAM_RESERVED(8);
+    bool implicit; // the text is an implicit surface; false: a parametric one
+    // Implicit: the box that is searched, as u and v. NULL: a box around the surface, within −4..4, or within −16..16 if it is
+    // closed there and not within −4..4.
+    const char *x, *y, *z;
+    LAM_RESERVED(4);
 } lam_formula;
 
 // A surface given by the zeros of a function that is negative inside.

@@ -143,13 +143,32 @@ static const struct frame_draw *draw_of(const struct frame *frame, const lam_exp
     return NULL;
 }
 
+static void complete_matrices(struct recorder *recorder, lam_explained_fragment *fragment, const lam_object *object,
+                              const lam_camera *camera, const struct frame *frame)
+{
+    lam_explained_matrices *matrices = recorder_alloc(recorder, 1, sizeof *matrices);
+    if (!matrices)
+        return;
+    const double aspect = (double)recorder->out->width / recorder->out->height, near_plane = (double)frame->near_plane,
+                 far_plane = (double)frame->far_plane;
+    const lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up);
+    matrices->model_view = object ? mat4_mul(&view, &object->transform) : view;
+    matrices->projection = frame->orthographic
+                               ? mat4_orthographic(camera->ortho_half_height, aspect, near_plane, far_plane)
+                               : mat4_perspective(camera->fovy_rad, aspect, near_plane, far_plane);
+    const double determinant = mat4_determinant3(&matrices->model_view);
+    mat4_normal_matrix(&matrices->model_view, matrices->normal);
+    for (int i = 0; i < 9; i++)
+        matrices->normal[i / 3][i % 3] = determinant != 0 ? matrices->normal[i / 3][i % 3] / determinant : 0;
+    fragment->matrices = matrices;
+}
+
+// The places have the normals already.
 static void complete_places(struct recorder *recorder, lam_explained_fragment *fragment, const struct frame *frame)
 {
     const struct frame_draw *draw = draw_of(frame, fragment);
-    if (!draw || draw->strokes)
-        return;
-    lam_explained_place *places = recorder_alloc(recorder, 4, sizeof *places);
-    if (!places)
+    lam_explained_place *places = (lam_explained_place *)(uintptr_t)fragment->places;
+    if (!draw || !places)
         return;
     const lam_mesh *mesh = draw->mesh;
     const lam_vec3 origin = v3(mesh->origin[0], mesh->origin[1], mesh->origin[2]);
@@ -159,13 +178,14 @@ static void complete_places(struct recorder *recorder, lam_explained_fragment *f
         const size_t corner = 3 * (size_t)fragment->triangle + k;
         const float *given = mesh->positions + 3 * (mesh->indices ? mesh->indices[corner] : corner);
         lam_vec3 p = v3((double)given[0], (double)given[1], (double)given[2]);
+        const lam_vec3 n = places[k].normal;
         places[k] = place_of(draw, origin, p, width, height);
+        places[k].normal = v3_dot(n, n) > 0 ? v3_unit(n) : n;
         point = v3_add(point, v3_scale(p, (double)fragment->weights[k]));
     }
     places[3] = place_of(draw, origin, point, width, height);
     const double *a = places[0].window, *b = places[1].window, *c = places[2].window;
     fragment->winding = (c[0] - b[0]) * (a[1] - b[1]) - (c[1] - b[1]) * (a[0] - b[0]);
-    fragment->places = places;
 }
 
 static void complete(struct recorder *recorder, const lam_scene *scene, const lam_camera *camera,
@@ -185,6 +205,8 @@ static void complete(struct recorder *recorder, const lam_scene *scene, const la
         if (mesh_is_strokes(mesh))
             fragment->triangle /= 2;
         complete_places(recorder, fragment, frame);
+        if (fragment->places)
+            complete_matrices(recorder, fragment, object, camera, frame);
         for (int k = 0; k < fragment->point_count; k++) {
             lam_explained_point *point = (lam_explained_point *)(uintptr_t)&fragment->points[k];
             if (mesh_is_strokes(mesh)) {
@@ -204,6 +226,16 @@ struct explanation {
     lam_explanation values; // first
     struct arena arena;
 };
+
+// The frame's lights may be gone with its next picture.
+static void copy_lights(struct recorder *recorder, const struct frame *frame)
+{
+    lam_light *lights = recorder_alloc(recorder, (size_t)frame->light_count, sizeof *lights);
+    for (int i = 0; lights && i < frame->light_count; i++)
+        lights[i] = *frame->lights[i].source;
+    recorder->out->lights = lights;
+    recorder->out->light_count = lights ? frame->light_count : 0;
+}
 
 static void take_frame(lam_explanation *out, const struct frame *frame)
 {
@@ -274,6 +306,7 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
     }
     take_frame(out, &device->frame);
     out->stops = params ? params->exposure : 0;
+    copy_lights(&recorder, &device->frame);
     complete(&recorder, scene, camera, &device->frame);
     explanation->arena = recorder.arena; // which has grown
     if (recorder.failed) {

@@ -8,6 +8,9 @@
 #include <stdio.h>
 #include <string.h>
 
+// Operations that the implicit surfaces of a file may take together: a few seconds.
+enum { FORMULA_OPERATIONS = 200000000 };
+
 // --- is it one?
 
 // An object whose first kilobytes hold the key "lambent".
@@ -286,6 +289,7 @@ static bool scene_load(const struct import_source *source, struct lam_scene *sce
                                   .settings = settings,
                                   .color = source->params->color,
                                   .error = error ? error : &unwanted};
+    source->call->operation_limit = FORMULA_OPERATIONS;
     json_t *root = json_parse((const char *)source->bytes, source->size, source->name, source->call, error);
     bool ok = root && read_root(&reader, root);
     json_decref(root);

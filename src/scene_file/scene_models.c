@@ -40,7 +40,7 @@ static bool make_shape(struct scene_reader *r, const struct model_wanted *wanted
 {
     lam_error reason = {0};
     lam_object object = lam_object_default();
-    object.name = wanted->formula ? "parametric" : wanted->shape;
+    object.name = !wanted->formula ? wanted->shape : wanted->formula->implicit ? "implicit" : "parametric";
     object.mesh = wanted->formula
                       ? scene_add_formula(&model->inner, wanted->formula, r->source->call, &reason)
                       : scene_add_shape(&model->inner, wanted->shape, &wanted->segments, r->source->call, &reason);
@@ -157,8 +157,9 @@ static bool key_of_formula(const struct model_wanted *wanted, char key[KEY_SIZE]
 {
     const lam_formula *f = wanted->formula;
     int length =
-        snprintf(key, KEY_SIZE, "formula %d %a %d %d %d %s\n%s\n%s", (int)wanted->normals, wanted->crease_angle_rad,
-                 f->u_segments, f->v_segments, f->flip, f->u ? f->u : "", f->v ? f->v : "", f->text);
+        snprintf(key, KEY_SIZE, "formula %d %a %d %d %d %d %s\n%s\n%s\n%s\n%s\n%s", (int)wanted->normals,
+                 wanted->crease_angle_rad, f->u_segments, f->v_segments, f->flip, f->implicit, f->u ? f->u : "",
+                 f->v ? f->v : "", f->x ? f->x : "", f->y ? f->y : "", f->z ? f->z : "", f->text);
     return length > 0 && length < KEY_SIZE;
 }
 

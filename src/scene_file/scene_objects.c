@@ -150,26 +150,40 @@ static bool finish(struct scene_reader *r, const struct place *place, const json
     return true;
 }
 
-// "shape": {"parametric": {"formula": "x=…; y=…; z=…", "u": "0..2pi", "v": "0..pi", "segments": [64, 32], "flip": true}}.
+// "shape": {"parametric": {"formula": "x=…; y=…; z=…", "u": "0..2pi", "v": "0..pi", "segments": [64, 32], "flip": true}}, or
+// {"implicit": {"formula": "x^2+…", "x": "-1..1", "y": "-1..1", "z": "-1..1", "segments": 96, "flip": true}}. A text in place
+// of the object is the formula alone.
 static bool read_formula(struct scene_reader *r, const struct place *place, const json_t *value, lam_formula *formula)
 {
-    static const char *const outer[] = {"parametric", NULL};
-    static const char *const inner[] = {"formula", "u", "v", "segments", "flip", NULL};
-    const json_t *parametric = json_object_get(value, "parametric");
-    const struct place *at = KEY_OF(place, "parametric");
+    static const char *const outer[] = {"parametric", "implicit", NULL};
+    static const char *const inner[2][7] = {{"formula", "u", "v", "segments", "flip", NULL},
+                                            {"formula", "x", "y", "z", "segments", "flip", NULL}};
+    formula->implicit = !json_object_get(value, "parametric") && json_object_get(value, "implicit");
+    const char *kind = outer[formula->implicit];
+    const json_t *given = json_object_get(value, kind);
+    const struct place *at = KEY_OF(place, kind);
     if (!check_keys(r, place, value, outer))
         return false;
-    if (!json_is_object(parametric)) {
-        char kind[JSON_KIND_SIZE];
-        return fail_place(r, at, "found %s, expected an object with the key formula", json_kind(parametric, kind));
+    if (json_object_size(value) > 1)
+        return fail_place(r, place, "has both parametric and implicit, expected one of them");
+    if (json_is_string(given))
+        return take_text(r, place, value, kind, &formula->text);
+    if (!json_is_object(given)) {
+        char found[JSON_KIND_SIZE];
+        return fail_place(r, at, "found %s, expected a text or an object with the key formula",
+                          json_kind(given, found));
     }
-    const json_t *list = json_object_get(parametric, "segments");
-    if (!check_keys(r, at, parametric, inner) || !take_text(r, at, parametric, "formula", &formula->text) ||
-        !take_text(r, at, parametric, "u", &formula->u) || !take_text(r, at, parametric, "v", &formula->v) ||
-        !take_bool(r, at, parametric, "flip", &formula->flip))
+    const json_t *list = json_object_get(given, "segments");
+    if (!check_keys(r, at, given, inner[formula->implicit]) || !take_text(r, at, given, "formula", &formula->text) ||
+        !take_text(r, at, given, "u", &formula->u) || !take_text(r, at, given, "v", &formula->v) ||
+        !take_text(r, at, given, "x", &formula->x) || !take_text(r, at, given, "y", &formula->y) ||
+        !take_text(r, at, given, "z", &formula->z) || !take_bool(r, at, given, "flip", &formula->flip))
         return false;
     if (!formula->text)
-        return fail_place(r, at, "'formula' is missing, expected a text such as \"x=u; y=v; z=sin(u)\"");
+        return fail_place(r, at, "'formula' is missing, expected a text such as \"%s\"",
+                          formula->implicit ? "x^2+y^2+z^2-1" : "x=u; y=v; z=sin(u)");
+    if (formula->implicit)
+        return take_whole(r, at, given, "segments", 2, 1024, &formula->u_segments);
     if (!list)
         return true;
     int *const counts[2] = {&formula->u_segments, &formula->v_segments};

@@ -337,16 +337,19 @@ static bool common_change(const struct scene_writer *w, const struct scene_origi
 static json_t *formula_json(struct scene_writer *w, const lam_formula *formula)
 {
     json_t *shape = json_object(), *out = json_object();
+    const char *const names[] = {"u", "v", "x", "y", "z"};
+    const char *const ranges[] = {formula->u, formula->v, formula->x, formula->y, formula->z};
     put(w, out, "formula", json_string(formula->text));
-    if (formula->u)
-        put(w, out, "u", json_string(formula->u));
-    if (formula->v)
-        put(w, out, "v", json_string(formula->v));
-    if (formula->u_segments || formula->v_segments)
+    for (int i = 0; i < 5; i++)
+        if (ranges[i])
+            put(w, out, names[i], json_string(ranges[i]));
+    if (formula->implicit && formula->u_segments)
+        put(w, out, "segments", json_integer(formula->u_segments));
+    else if (formula->u_segments || formula->v_segments)
         put(w, out, "segments", json_pack("[ii]", formula->u_segments, formula->v_segments));
     if (formula->flip)
         put(w, out, "flip", json_true());
-    put(w, shape, "parametric", out);
+    put(w, shape, formula->implicit ? "implicit" : "parametric", out);
     return shape;
 }
 

@@ -1,7 +1,8 @@
-// formula.h: surfaces that are written as text, "x=…; y=…; z=…", and their derivatives. docs/shapes.md is the language.
+// formula.h: surfaces that are written as text, "x=…; y=…; z=…" over u and v or an expression of x, y and z that is zero on
+// the surface, and their derivatives. docs/shapes.md is the language.
 //
 // A text becomes a list of operations (formula_graph.c), in which equal ones are shared and constants are worked out, and
-// which holds the partial derivatives of x, y and z as well, made by the rules of calculus. Evaluating the surface is one
+// which holds the partial derivatives of the results as well, made by the rules of calculus. Evaluating the surface is one
 // pass over the list.
 #ifndef FORMULA_H
 #define FORMULA_H
@@ -20,8 +21,9 @@ enum {
 // b is 0: a term of a derivative, whose outer factor may be infinite where the inner function does not change.
 enum formula_op {
     OP_NUMBER,
-    OP_U,
-    OP_V,
+    OP_PARAMETER_0, // u or x
+    OP_PARAMETER_1, // v or y
+    OP_PARAMETER_2, // z of an implicit surface
     OP_ADD,
     OP_SUB,
     OP_MUL,
@@ -74,7 +76,7 @@ int formula_number(struct formula_graph *graph, double value);
 int formula_unary(struct formula_graph *graph, enum formula_op op, int a);
 int formula_binary(struct formula_graph *graph, enum formula_op op, int a, int b);
 
-// Appends the derivatives with respect to `parameter`, OP_U or OP_V, of the first `count` nodes; derivatives[i] is that of
+// Appends the derivatives with respect to `parameter`, OP_PARAMETER_0 and following, of the first `count` nodes; derivatives[i] is that of
 // node i.
 void formula_differentiate(struct formula_graph *graph, int count, enum formula_op parameter, int *derivatives);
 
@@ -82,7 +84,8 @@ void formula_differentiate(struct formula_graph *graph, int count, enum formula_
 struct formula {
     struct formula_node *nodes;
     int count;
-    int outputs[9]; // x, y, z and their derivatives by u and by v
+    bool implicit;  // the parameters are x, y and z; false: u and v
+    int outputs[9]; // x, y, z and their derivatives by u and by v; implicit: f and its derivatives by x, y and z
     int name_count; // the definitions
     struct formula_name {
         const char *text; // in the formula's text
@@ -93,19 +96,30 @@ struct formula {
 };
 
 // Parses a text, which must stay. Errors: LAM_BAD_ARGUMENT with the column, LAM_LIMIT.
-bool formula_parse(const char *text, struct arena *arena, struct formula *formula, lam_error *error);
+bool formula_parse(const char *text, bool implicit, struct arena *arena, struct formula *formula, lam_error *error);
 
 // Parses a range, "0..2pi", whose ends may use the names that the formula defines as constants. `name` is for errors.
 bool formula_range(struct formula *formula, const char *name, const char *text, double range[2], lam_error *error);
 
-// Makes the list of operations that formula_evaluate goes through; after this, formula_range does not apply any more.
+// Makes the list of operations that evaluation goes through; after this, formula_range does not apply any more.
 bool formula_finish(struct formula *formula, struct arena *arena, lam_error *error);
 
+// A point of a parametric surface.
 void formula_evaluate(const struct formula *formula, double u, double v, lam_surface_point *out);
 
-// Tessellates a formula.
+// Of an implicit surface f and ∇f; `formula` is a struct formula.
+double formula_value(void *formula, lam_vec3 p);
+lam_vec3 formula_gradient(void *formula, lam_vec3 p);
+
+// Tessellates a parametric formula.
 struct call_control;
 bool tessellate_formula(const lam_formula *formula, struct arena *arena, struct call_control *call, lam_mesh *mesh,
                         lam_error *error);
+// An implicit one.
+bool tessellate_implicit_formula(const lam_formula *formula, struct arena *arena, struct call_control *call,
+                                 lam_mesh *mesh, lam_error *error);
+
+// Exchanges the front and the back of a mesh that the caller has made.
+void formula_flip(lam_mesh *mesh);
 
 #endif

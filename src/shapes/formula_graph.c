@@ -129,7 +129,7 @@ static bool is_value(const struct formula_graph *graph, int node, double value)
 
 int formula_unary(struct formula_graph *graph, enum formula_op op, int a)
 {
-    if (op == OP_U || op == OP_V)
+    if (op < OP_ADD)
         return node_of(graph, op, 0, 0, 0);
     if (is_number(graph, a))
         return formula_number(graph, result_of(op, graph->nodes[a].value, 0));
@@ -246,18 +246,38 @@ void formula_differentiate(struct formula_graph *graph, int count, enum formula_
     }
 }
 
-void formula_evaluate(const struct formula *formula, double u, double v, lam_surface_point *out)
+// The values of the first `count` nodes.
+static const struct formula_node *evaluate(const struct formula *formula, int count, const double parameters[3])
 {
     struct formula_node *nodes = formula->nodes;
-    for (int i = 0; i < formula->count; i++) {
+    for (int i = 0; i < count; i++) {
         struct formula_node *n = &nodes[i];
-        if (n->op == OP_U)
-            n->value = u;
-        else if (n->op == OP_V)
-            n->value = v;
-        else if (n->op != OP_NUMBER)
+        if (n->op >= OP_ADD)
             n->value = result_of(n->op, nodes[n->a].value, nodes[n->b].value);
+        else if (n->op != OP_NUMBER)
+            n->value = parameters[n->op - OP_PARAMETER_0];
     }
+    return nodes;
+}
+
+double formula_value(void *user, lam_vec3 p)
+{
+    const struct formula *formula = user;
+    int f = formula->outputs[0]; // no operation behind it is one of f's
+    return evaluate(formula, f + 1, (double[]){p.x, p.y, p.z})[f].value;
+}
+
+lam_vec3 formula_gradient(void *user, lam_vec3 p)
+{
+    const struct formula *formula = user;
+    const struct formula_node *nodes = evaluate(formula, formula->count, (double[]){p.x, p.y, p.z});
+    const int *at = formula->outputs;
+    return v3(nodes[at[1]].value, nodes[at[2]].value, nodes[at[3]].value);
+}
+
+void formula_evaluate(const struct formula *formula, double u, double v, lam_surface_point *out)
+{
+    const struct formula_node *nodes = evaluate(formula, formula->count, (double[]){u, v, 0});
     const int *at = formula->outputs;
     out->p = v3(nodes[at[0]].value, nodes[at[1]].value, nodes[at[2]].value);
     out->dp_du = v3(nodes[at[3]].value, nodes[at[4]].value, nodes[at[5]].value);

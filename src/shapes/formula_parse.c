@@ -1,6 +1,7 @@
-// formula_parse.c: the text of a formula, "a = 2; x = …; y = …; z = …", by recursive descent.
+// formula_parse.c: the text of a formula, "a = 2; x = …; y = …; z = …" or "a = 2; x^2 + … - a", by recursive descent.
 //
-//   text      = [ name "=" sum ] { (";" | newline) [ name "=" sum ] }
+//   text      = [ statement ] { (";" | newline) [ statement ] }
+//   statement = name "=" sum | sum [ "=" sum ]               the latter once, last, and of an implicit surface alone
 //   sum       = product { ("+" | "-") product }
 //   product   = sign { ("*" | "/") sign }
 //   sign      = { "-" | "+" } factor
@@ -47,6 +48,23 @@ static const struct constant {
     double value;
 } constants[] = {{"pi", PI}, {"\xcf\x80", PI}, {"tau", 2 * PI}, {"e", 2.71828182845904523536}};
 enum { CONSTANTS = sizeof constants / sizeof *constants };
+
+static bool is(const char *name, const char *at, size_t length)
+{
+    return strlen(name) == length && memcmp(name, at, length) == 0;
+}
+
+// The names of the parameters, as they are in messages.
+static const char *parameter_names(const struct formula *formula) { return formula->implicit ? "x, y, z" : "u, v"; }
+
+// The number of the parameter with this name; −1: there is none.
+static int find_parameter(const struct formula *formula, const char *at, size_t length)
+{
+    for (int i = 0; i < (formula->implicit ? 3 : 2); i++)
+        if (is((const char[]){formula->implicit ? "xyz"[i] : "uv"[i], 0}, at, length))
+            return i;
+    return -1;
+}
 
 // --- errors
 
@@ -145,11 +163,6 @@ static bool take_times(struct parser *p)
     return !(p->end - p->at >= 2 && p->at[0] == '*' && p->at[1] == '*') && take(p, '*');
 }
 
-static bool is(const char *name, const char *at, size_t length)
-{
-    return strlen(name) == length && memcmp(name, at, length) == 0;
-}
-
 static const struct function *find_function(const char *at, size_t length)
 {
     for (int i = 0; i < FUNCTIONS; i++)
@@ -191,7 +204,8 @@ static int call(struct parser *p, const struct function *function)
     const char *start = p->at - strlen(function->name);
     int result = -1, count = 0;
     char text[80];
-    snprintf(text, sizeof text, "'(' and what %s is of: %s(u)", function->name, function->name);
+    snprintf(text, sizeof text, "'(' and what %s is of: %s(%c)", function->name, function->name,
+             *parameter_names(p->formula));
     if (!take(p, '('))
         return expected(p, p->at, text);
     if (!deeper(p))
@@ -226,8 +240,8 @@ static int unknown_name(struct parser *p, const char *start, size_t length)
     for (int i = 0; i < CONSTANTS; i++)
         known[FUNCTIONS + i] = constants[i].name;
     const char *near = meant_word(shown_name_of(start, length, name), known, FUNCTIONS + CONSTANTS);
-    snprintf(text, sizeof text, "u, v, a number, a function, or a name that is defined before%s%s%s",
-             near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+    snprintf(text, sizeof text, "%s, a number, a function, or a name that is defined before%s%s%s",
+             parameter_names(p->formula), near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
     return expected(p, start, text);
 }
 
@@ -257,10 +271,13 @@ static int primary(struct parser *p, bool *is_number)
     }
     size_t length = name_length(start, p->end);
     if (!length)
-        return expected(p, start, "a number, u, v, a name, a function or '('");
+        return expected(p, start,
+                        p->formula->implicit ? "a number, x, y, z, a name, a function or '('"
+                                             : "a number, u, v, a name, a function or '('");
     p->at += length;
-    if (is("u", start, length) || is("v", start, length))
-        return formula_unary(graph, *start == 'u' ? OP_U : OP_V, 0);
+    int parameter = find_parameter(p->formula, start, length);
+    if (parameter >= 0)
+        return formula_unary(graph, (enum formula_op)(OP_PARAMETER_0 + parameter), 0);
     const struct function *function = find_function(start, length);
     if (function)
         return call(p, function);
@@ -369,9 +386,10 @@ static bool definition(struct parser *p)
     size_t length = name_length(start, p->end);
     if (!length)
         return expected(p, start, "a definition, such as x = cos(u)") >= 0;
-    if (is("u", start, length) || is("v", start, length) || find_function(start, length) ||
-        find_constant(start, length))
-        return expected(p, start, "x, y, z or a name of your own: this one has a meaning already") >= 0;
+    if (find_parameter(p->formula, start, length) >= 0 || find_function(start, length) || find_constant(start, length))
+        return expected(p, start,
+                        p->formula->implicit ? "a name of your own: this one has a meaning already"
+                                             : "x, y, z or a name of your own: this one has a meaning already") >= 0;
     if (find_name(p->formula, start, length))
         return expected(p, start, "a new name: this one is defined before") >= 0;
     p->at += length;
@@ -387,13 +405,39 @@ static bool definition(struct parser *p)
     return !p->formula->graph.full || too_large(p->what, p->error);
 }
 
-bool formula_parse(const char *text, struct arena *arena, struct formula *formula, lam_error *error)
+// Whether a definition follows, and no expression. x = … is an equation: x is no name that can be defined.
+static bool is_definition(const struct parser *p)
+{
+    struct parser ahead = *p;
+    size_t length = name_length(p->at, p->end);
+    ahead.at += length;
+    return length && find_parameter(p->formula, p->at, length) < 0 && take(&ahead, '=');
+}
+
+// The expression that is zero on an implicit surface, "x^2 + y^2 - 1", or the equation of it, "x^2 + y^2 = 1".
+static bool zero_of(struct parser *p)
+{
+    int node = sum(p);
+    if (node >= 0 && take(p, '=')) {
+        int right = sum(p);
+        node = right < 0 ? -1 : formula_binary(&p->formula->graph, OP_SUB, node, right);
+    }
+    while (node >= 0 && (skip_blanks(p), p->at < p->end) && (*p->at == ';' || *p->at == '\n'))
+        p->at++;
+    if (node >= 0 && p->at < p->end)
+        return expected(p, p->at, "an operator, '=' or the end") >= 0;
+    p->formula->outputs[0] = node;
+    return node >= 0 && (!p->formula->graph.full || too_large(p->what, p->error));
+}
+
+bool formula_parse(const char *text, bool implicit, struct arena *arena, struct formula *formula, lam_error *error)
 {
     size_t length = strlen(text);
     if (length > FORMULA_BYTES_MAX)
         return fail(error, LAM_LIMIT, "formula: the text has %zu bytes, expected at most %d", length,
                     FORMULA_BYTES_MAX);
-    *formula = (struct formula){.names = arena_array(arena, FORMULA_BYTES_MAX / 2 + 1, sizeof *formula->names)};
+    *formula = (struct formula){.names = arena_array(arena, FORMULA_BYTES_MAX / 2 + 1, sizeof *formula->names),
+                                .implicit = implicit};
     if (!formula->names || !formula_graph_start(&formula->graph, arena))
         return call_memory_error(arena->call, FORMULA_NODES_MAX * sizeof(struct formula_node), error);
     struct parser p = {
@@ -402,9 +446,13 @@ bool formula_parse(const char *text, struct arena *arena, struct formula *formul
     while (skip_blanks(&p), p.at < p.end) {
         if (*p.at == ';' || *p.at == '\n')
             p.at++;
+        else if (implicit && !is_definition(&p))
+            return zero_of(&p);
         else if (!definition(&p))
             return false;
     }
+    if (implicit)
+        return expected(&p, p.at, "an expression that is zero on the surface, such as x^2+y^2+z^2-1") >= 0;
     for (int i = 0; i < 3; i++) {
         const char name[2] = {"xyz"[i], 0};
         const struct formula_name *found = find_name(formula, name, 1);
@@ -443,8 +491,8 @@ bool formula_range(struct formula *formula, const char *name, const char *text, 
             return too_large(what, error);
         const struct formula_node *n = &formula->graph.nodes[node];
         if (n->op != OP_NUMBER || !math_finite(n->value))
-            return fail(error, LAM_BAD_ARGUMENT, "%s, column %d: expected a constant, a finite number without u and v",
-                        what, column_of(&p, start));
+            return fail(error, LAM_BAD_ARGUMENT, "%s, column %d: expected a constant, a finite number without %s", what,
+                        column_of(&p, start), parameter_names(formula));
         range[i] = n->value;
     }
     return range[0] < range[1] ||
@@ -455,23 +503,21 @@ bool formula_range(struct formula *formula, const char *name, const char *text, 
 bool formula_finish(struct formula *formula, struct arena *arena, lam_error *error)
 {
     struct formula_graph *graph = &formula->graph;
-    int count = graph->count;
-    int *derivatives = arena_array(arena, 2 * (size_t)count, sizeof *derivatives);
+    int count = graph->count, values = formula->implicit ? 1 : 3, parameters = formula->implicit ? 3 : 2;
+    int outputs = values * (1 + parameters);
+    int *derivatives = arena_array(arena, (size_t)parameters * (size_t)count, sizeof *derivatives);
     bool *used = arena_alloc_zeroed(arena, FORMULA_NODES_MAX * sizeof *used);
     int *moved = arena_array(arena, FORMULA_NODES_MAX, sizeof *moved);
     formula->nodes = arena_array(arena, FORMULA_NODES_MAX, sizeof *formula->nodes);
     if (!derivatives || !used || !moved || !formula->nodes)
         return call_memory_error(arena->call, FORMULA_NODES_MAX * sizeof(struct formula_node), error);
-    formula_differentiate(graph, count, OP_U, derivatives);
-    if (!graph->full)
-        formula_differentiate(graph, count, OP_V, derivatives + count);
+    for (int k = 0; k < parameters && !graph->full; k++)
+        formula_differentiate(graph, count, (enum formula_op)(OP_PARAMETER_0 + k), derivatives + k * count);
     if (graph->full)
         return too_large("formula", error);
-    for (int i = 0; i < 3; i++) {
-        formula->outputs[3 + i] = derivatives[formula->outputs[i]];
-        formula->outputs[6 + i] = derivatives[count + formula->outputs[i]];
-    }
-    for (int i = 0; i < 9; i++)
+    for (int i = values; i < outputs; i++)
+        formula->outputs[i] = derivatives[(i / values - 1) * count + formula->outputs[i % values]];
+    for (int i = 0; i < outputs; i++)
         used[formula->outputs[i]] = true;
     for (int i = graph->count - 1; i >= 0; i--)
         if (used[i] && graph->nodes[i].op >= OP_ADD)
@@ -486,7 +532,7 @@ bool formula_finish(struct formula *formula, struct arena *arena, lam_error *err
         moved[i] = formula->count;
         formula->nodes[formula->count++] = n;
     }
-    for (int i = 0; i < 9; i++)
+    for (int i = 0; i < outputs; i++)
         formula->outputs[i] = moved[formula->outputs[i]];
     return true;
 }

@@ -1,4 +1,4 @@
-// formula_surface.c: makes a mesh of a formula: how finely it is divided, where it closes, and where it has creases.
+// formula_surface.c: makes a mesh of a parametric formula: how finely it is divided, where it closes, and where it has creases.
 //
 // Creases: along a line of the grid where the normals of the two sides differ, and along a line whose points coincide (a
 // pole within the domain), the domain is cut. Each piece has its own normals there, from its own side.
@@ -294,11 +294,11 @@ static void complete_normals(lam_mesh *mesh)
     free(is_missing);
 }
 
-static void flip(lam_mesh *mesh)
+void formula_flip(lam_mesh *mesh)
 {
     uint32_t *lists[2] = {(uint32_t *)(uintptr_t)mesh->indices, (uint32_t *)(uintptr_t)mesh->normal_indices};
     float *normals = (float *)(uintptr_t)mesh->normals, *tangents = (float *)(uintptr_t)mesh->tangents;
-    for (int k = 0; k < 2; k++)
+    for (int k = 0; k < 2 && lists[k]; k++)
         for (size_t t = 0; t < mesh->triangle_count; t++) {
             uint32_t second = lists[k][3 * t + 1];
             lists[k][3 * t + 1] = lists[k][3 * t + 2];
@@ -433,7 +433,7 @@ bool tessellate_formula(const lam_formula *formula, struct arena *arena, struct 
                         given[a], SEGMENTS_MAX);
     struct arena scratch;
     arena_start(&scratch, call);
-    bool ok = formula_parse(formula->text, &scratch, &s.formula, error);
+    bool ok = formula_parse(formula->text, false, &scratch, &s.formula, error);
     for (int a = 0; ok && a < 2; a++) {
         double range[2];
         ok = formula_range(&s.formula, a ? "v" : "u", texts[a], range, error);
@@ -449,7 +449,7 @@ bool tessellate_formula(const lam_formula *formula, struct arena *arena, struct 
         ok = fail_undefined(&s, error);
     ok = ok && make(&s, arena, &scratch, call, mesh, error);
     if (ok && formula->flip)
-        flip(mesh);
+        formula_flip(mesh);
     arena_free(&scratch);
     return ok;
 }

@@ -539,15 +539,21 @@ static const lam_formula *copy_formula(struct lam_scene *scene, const lam_formul
         return NULL;
     *copy = *formula;
     copy->text = arena_string(&scene->arena, formula->text);
-    copy->u = formula->u ? arena_string(&scene->arena, formula->u) : NULL;
-    copy->v = formula->v ? arena_string(&scene->arena, formula->v) : NULL;
-    return copy->text && !copy->u == !formula->u && !copy->v == !formula->v ? copy : NULL;
+    const char *const from[] = {formula->u, formula->v, formula->x, formula->y, formula->z};
+    const char **const to[] = {&copy->u, &copy->v, &copy->x, &copy->y, &copy->z};
+    bool copied = copy->text;
+    for (int i = 0; i < 5; i++) {
+        *to[i] = from[i] ? arena_string(&scene->arena, from[i]) : NULL;
+        copied &= !*to[i] == !from[i];
+    }
+    return copied ? copy : NULL;
 }
 
 int scene_add_formula(struct lam_scene *scene, const lam_formula *formula, struct call_control *call, lam_error *error)
 {
     lam_mesh mesh = {0};
-    bool made = tessellate_formula(formula, &scene->arena, call, &mesh, error);
+    bool made = formula->implicit ? tessellate_implicit_formula(formula, &scene->arena, call, &mesh, error)
+                                  : tessellate_formula(formula, &scene->arena, call, &mesh, error);
     struct scene_origin origin = {.first_mesh = scene->meshes.count, .first_material = scene->materials.count};
     if (made && !(origin.formula = copy_formula(scene, formula))) {
         call_memory_error(call, strlen(formula->text), error);

@@ -311,6 +311,14 @@ class Compare(Case):
         words = ("compare", "cube.obj", "-s", 64, "--no-captions", "-q", "-o", "-")
         self.assertEqual(self.good(*words, "-j", 1, "--isa", "plain").stdout, self.good(*words, "-j", 3).stdout)
 
+    def test_titles_of_rows(self):
+        """The title of a row of values says what the pictures show."""
+        for words, title in ((["cull"], "Sides of the surface that are left out"), (["azimuth=0,90"], "Values of --azimuth"),
+                             (["normals", "shading=flat,phong"], "Rows: sources of the normals; columns: shading methods")):
+            self.good("compare", "cube.obj", "-s", 16, "-o", "t.svg", *(word for one in words for word in ("--across", one)))
+            self.assertEqual(xml.fromstring((self.folder / "t.svg").read_bytes())[0].text, f"{title} — cube.obj")
+        self.given |= {"t.svg"}
+
     def test_svg(self):
         """A sheet as SVG: the pictures inside are those of the words of --json, text is text in any language."""
         done = self.good("compare", "cube.obj", "--sheet", "ambient", "-s", "80x60", "-o", "s.svg", "--json", "--title", "الضوء & <b>",

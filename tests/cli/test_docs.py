@@ -1,4 +1,5 @@
 # test_docs.py: the help, the man page, the completions and the docs are complete, well formed and up to date.
+import json
 import os
 import pathlib
 import re
@@ -164,6 +165,37 @@ class Docs(Case):
         made = self.good("generate", "markdown").stdout.decode()
         kept = (ROOT / "docs" / "command-line.md").read_text()
         self.assertEqual(kept, made, "refresh it: lambent generate markdown > docs/command-line.md")
+
+    def sheet(self, page, picture):
+        """The pictures of a page's sheet, 48 pixels high: caption and pixels."""
+        [line] = re.findall(rf"(?m)^ +lambent (compare .* -o docs/pictures/lighting/{picture}\.png)$", (ROOT / "docs/lighting" / page).read_text())
+        words = [word.replace("examples/", str(ROOT / "examples") + "/") for word in shlex.split(line)[:-2]]
+        size = words.index("-s")
+        del words[size : size + 2]
+        done = json.loads(self.good(*words, "-s", "48", "-o", "sheet.png", "--json").stdout)
+        more = [word for i, word in enumerate(words[2:], 2) if "--across" not in words[i - 1 : i + 1]]
+        more = [word for i, word in enumerate(more) if word not in ("--sheet",) and (i == 0 or more[i - 1] != "--sheet")]
+        return {one["caption"]: self.good(words[1], "-s", "48", *more, *one["words"], "-o", "-").stdout for one in done["pictures"]}
+
+    def test_rows_of_sheets(self):
+        """Sheets about normals and sides show differences: each method with normals of its own, each side that is left out."""
+        normals = self.sheet("shading.md", "normals")
+        for shading, different in (("flat", 1), ("gouraud", 3), ("phong", 3)):
+            self.assertEqual(len({normals[f"normals {source}, shading {shading}"] for source in ("file", "smooth", "facet")}), different, shading)
+        self.assertEqual(len(set(self.sheet("surfaces.md", "sides").values())), 3)
+
+    @long
+    def test_sheets_of_pages(self):
+        """No two pictures of a sheet of docs/lighting are equal, but for flat shading, which has no use for normals of vertices."""
+        checked = 0
+        for page in sorted((ROOT / "docs/lighting").glob("*.md")):
+            for picture in re.findall(r"(?m)^ +lambent compare .*--across.* -o docs/pictures/lighting/([a-z-]+)\.png$", page.read_text()):
+                seen = {}
+                for caption, pixels in self.sheet(page.name, picture).items():
+                    same = seen.setdefault(pixels, caption)
+                    self.assertTrue(same == caption or "shading flat" in caption, f"{page.name}, {picture}: '{caption}' is '{same}'")
+                checked += 1
+        self.assertGreater(checked, 20)
 
     def test_readme_commands(self):
         """Every command of the README's code blocks, in order, works as it stands in a tree that has been built. One picture is drawn

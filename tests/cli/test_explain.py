@@ -105,6 +105,92 @@ class Explain(Case):
         for words in ("on the way to the window", "NDC", "clip ÷ w", "winding", "counter-clockwise"):
             self.assertIn(words, text)
 
+    def test_matrices(self):
+        """A student can compute each line of the text: eye, clip, NDC and window by the matrices, n by the normal matrix."""
+        def times(matrix, v):
+            return [sum(a * b for a, b in zip(row, v)) for row in matrix]
+
+        def unit(v):
+            length = math.sqrt(sum(x * x for x in v))
+            return [x / length for x in v]
+
+        def near(got, expected, places):
+            for a, b in zip(got, expected, strict=True):
+                self.assertAlmostEqual(a, b, places)
+
+        scene = {"lambent": 1, "objects": [{"shape": "torus", "transform": [["rotate", 30, 1, 2, 3], ["scale", -1, 1.5, 2]]}]}
+        (self.folder / "stretched.json").write_text(json.dumps(scene))
+        self.given |= {"stretched.json"}
+        for words in (["teapot"], ["stretched.json"], ["teapot", "--projection", "orthographic"], ["stretched.json", "--shading", "gouraud"],
+                      ["stretched.json", "--shading", "flat"], ["cube.stl"]):
+            words = [words[0], "20,24", *words[1:]]
+            for triangle in self.explained(*words, "-s", "64x48", "--samples", 1)["triangles"]:
+                m, *corners = triangle["matrices"], *triangle["places"]
+                # Normals: the transposed inverse of the model-view's 3×3, so that N · Mᵀ is the unit matrix.
+                for i in range(3):
+                    near([sum(m["normal"][i][k] * m["model_view"][j][k] for k in range(3)) for j in range(3)], [float(i == j) for j in range(3)], 9)
+                for place in corners:
+                    near(place["eye"], times(m["model_view"], [*place["object"], 1])[:3], 5)
+                    near(place["clip"], times(m["projection"], [*place["eye"], 1]), 4)
+                *corners, point = corners
+                if triangle["face_normal"]:
+                    a, b = ([x - y for x, y in zip(corners[k]["object"], corners[0]["object"])] for k in (1, 2))
+                    n = unit(times(m["normal"], [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]))
+                    self.assertNotIn("normal", corners[0])
+                    normals = [n]
+                else:
+                    normals = [unit(times(m["normal"], corner["normal"])) for corner in corners]
+                    if len(triangle["points"]) == 1:
+                        normals = [unit([sum(w * n[k] for w, n in zip(triangle["weights"], normals)) for k in range(3)])]
+                sign = -1 if triangle["lit_normal"] == "-n" else 1
+                for lit, n in zip(triangle["points"], normals, strict=True):
+                    near([sign * x for x in lit["n"]], n, 4)
+            text = self.good("explain", *words, "-s", "64x48", "--samples", 1).stdout.decode()
+            for part in ("model-view matrix  ", "projection matrix  ", "normal matrix  ", "(x + 1) · 64/2, (y + 1) · 48/2, (z + 1)/2 of NDC",
+                         "cross product" if "flat" in words else "winding"):
+                self.assertIn(part, text, words)
+            self.assertEqual("(p1 − p0) × (p2 − p0)" in text, triangle["face_normal"])
+
+    def test_cones(self):
+        """A spot light's factor can be computed from what is printed beside it, and 0 says why."""
+        for cone, says in (("cutoff=40,exponent=8", "c^ε = "), ("cutoff=2,exponent=8", "outside of the cone: c < cos cutoff"), ("cutoff=180,exponent=3", "c^ε = "),
+                           ("inner=10,outer=60", "clamp((c − cos outer) / "), ("inner=1,outer=2", "outside of the cone, c ≤ cos outer"),
+                           ("cutoff=180,exponent=2,direction=0/0/1", "max(c, 0)^ε")):
+            words = ("sphere", "38,38", "-s", 64, "--samples", 1, "--view", "front", "--light", "spot:position=0/0/3," + cone)
+            text = self.good("explain", *words).stdout.decode()
+            self.assertRegex(text, rf"spot +\S+   {re.escape(says)}", cone)
+            [light] = self.explained(*words)["triangles"][0]["points"][0]["lights"]
+            c, cone = light["cos_axis"], light["cone"]
+            if "outer_deg" in cone:
+                inner, outer = (math.cos(math.radians(cone[key])) for key in ("inner_deg", "outer_deg"))
+                expected = min(max((c - outer) / max(0.001, inner - outer), 0), 1) ** 2
+            else:
+                cutoff = cone["cutoff_deg"]
+                expected = 0 if cutoff is not None and c < math.cos(math.radians(cutoff)) else max(c, 0) ** cone["exponent"]
+            self.assertAlmostEqual(light["spot"], expected, 5)
+        self.assertIsNone(self.explained("sphere", "38,38", "-s", 64, "--light", "point")["triangles"][0]["points"][0]["lights"][0]["cone"])
+
+    def test_rows_of_the_material(self):
+        """Fields of physical materials at their defaults are not printed."""
+        text = self.good("explain", "sphere", "32,32", "-s", 64).stdout.decode()
+        for name in ("f0_color", "sheen_color", "attenuation_color", "iridescence_ior"):
+            self.assertNotIn(name, text)
+        self.assertRegex(text, r"emission +0 +0 +0\n")
+        self.assertIn("sheen_color", self.good("explain", "sphere", "32,32", "-s", 64, "--material", "#ffc356,metallic=0,sheen_color=0.5").stdout.decode())
+
+    def test_figure_of_threads(self):
+        """The figure of Kajiya-Kay has the tangent, and neither r nor h, which it does not use."""
+        words = ("explain", "torus-knot", "100,80", "-s", 200, "--light", "point:position=2/2/3")
+        letters = {}
+        for model in ("kajiya-kay", "phong"):
+            self.good(*words, "--reflection", model, "-o", "f.svg")
+            root = xml.parse(self.folder / "f.svg").getroot()
+            texts = [text.text for text in root.iter("{http://www.w3.org/2000/svg}text")]
+            letters[model] = {t for t in texts if t in ("n", "l", "v", "r", "h", "t")}
+            self.assertEqual(any("cos(t, l)" in t for t in texts if t), model == "kajiya-kay")
+        self.assertEqual(letters, {"kajiya-kay": set("nlvt"), "phong": set("nlvrh")})
+        self.given |= {"f.svg"}
+
     def test_isa_does_not_matter(self):
         words = ("explain", "teapot", "30,30", "-s", 64, "--json")
         self.assertEqual(self.good(*words).stdout, self.good(*words, "--isa", "plain", "-j", 1).stdout)

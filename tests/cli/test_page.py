@@ -100,6 +100,11 @@ class Page(Case):
         page, _ = self.make("torus-knot", "--size", "32")
         self.assertEqual((words_in(page)[0], files_in(page)), ("torus-knot", {}))
 
+    def test_a_formula_comes_with_its_ranges(self):
+        for kind, formula, more in (("implicit", "x^2+y^2+z^2 = 1", ["--z=0..1", "--flip"]), ("parametric", "x=u; y=v; z=sin(u)", ["--v=0..pi"])):
+            self.good("shape", f"--{kind}={formula}", *more, "-o", "f.html", env=self.env)
+            self.assertEqual(words_in((self.folder / "f.html").read_text()), [kind, f"--{kind}={formula}", *more])
+
     def test_an_environment_comes_with_it(self):
         (self.folder / "elsewhere").mkdir()
         self.given.add("elsewhere")

@@ -27,6 +27,12 @@ class Plot(Case):
         text = self.good("plot", "attenuation", "1/0/1", "1/0/0", "-o", "p.png").stdout.decode()
         self.assertRegex(text, r"1/0/1 +below 1/255 from 15\.937\n.*1/0/0 +never below")
 
+    def test_axis(self):
+        """Curves fill the axis: the last one falls to a twentieth where it ends."""
+        for words in ([], ["1/0/1"], ["1/0.1/0", "1/0/1"], ["1/0/0/20", "1/0/1"]):
+            curves = self.numbers("attenuation", *words)["curves"]
+            self.assertAlmostEqual(max(c["points"][-1][1] for c in curves if c["below_1_255_from"]), 1 / 20, 3)
+
     def test_attenuation_of_lights(self):
         """Lights as --light takes them, and those of a scene file, are the curves of their numbers."""
         scene = {"lambent": 1, "objects": [{"shape": "cube"}], "lights": [
@@ -85,11 +91,15 @@ class Plot(Case):
         root = xml.parse(self.folder / "p.svg").getroot()
         self.assertEqual((root.tag, root.get("width"), root.get("height")), (SVG + "svg", "900", "500"))
         words = [text.text for text in root.iter(SVG + "text")]
-        for word in ("a/b/c = 1/0.54/0.2", "a/b/c = 1/0/1", "34.31", "15.94", "distance d", "0.2", "1/255"):
+        # Points beyond the axis are named in the legend.
+        for word in ("a/b/c = 1/0.54/0.2 (below 1/255 from 34.31)", "a/b/c = 1/0/1 (below 1/255 from 15.94)", "distance d", "0.2", "1/255"):
             self.assertIn(word, words)
         curves = [line for line in root.iter(SVG + "polyline") if line.get("stroke") == "#d55e00"]
         self.assertTrue(any(len(line.get("points").split()) > 100 for line in curves))
-        self.assertEqual(len(list(root.iter(SVG + "circle"))), 2)
+        self.good("plot", "attenuation", "1/0.54/0.2", "1/0/1", "1/0/0", "-o", "p.svg", "--to", "40")
+        root = xml.parse(self.folder / "p.svg").getroot()
+        words = [text.text for text in root.iter(SVG + "text")]
+        self.assertEqual((len(list(root.iter(SVG + "circle"))), "34.31" in words, "15.94" in words, "a/b/c = 1/0/1" in words), (2, True, True, True))
         self.good("plot", "attenuation", "-o", "q.svg", "--no-captions")
         self.assertEqual(list(xml.parse(self.folder / "q.svg").getroot().iter(SVG + "text")), [])
 

@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from harness import OWN_MODELS, PROGRAM, SHARED_MODELS, Case, pixel, read_png, write_png, wait_until_caught
+from harness import OWN_MODELS, PROGRAM, SHARED_MODELS, Case, long, pixel, read_png, write_png, wait_until_caught
 
 SCHEMA = json.loads(subprocess.run([PROGRAM, "generate", "scene-schema"], stdout=subprocess.PIPE, check=True).stdout)
 KNOWN = {"type", "enum", "const", "required", "additionalProperties", "properties", "items", "minItems", "maxItems", "minimum",
@@ -136,7 +136,7 @@ class Scene(Case):
         answer = json.loads(self.good("info", "formulas.json", "--json").stdout)["counts"]
         self.assertEqual((answer["meshes"], answer["objects"], answer["triangles"]), (6, 8, 12 * 3 + 12 * 4 + 16))
         for shape, says in (({"parametric": {"formula": "x=u; y=v; z=w"}}, ("objects[0].shape", "'w'")), ({"parametric": {"u": "0..1"}}, ("objects[0].shape.parametric", "'formula' is missing")),
-                            ({"parametric": "x=u"}, ("objects[0].shape.parametric", "expected an object")), ({"parametrics": {}}, ("parametrics", "parametric")),
+                            ({"parametric": "x=u"}, ("objects[0].shape", "y is missing")), ({"parametric": 1}, ("objects[0].shape.parametric", "expected a text or an object")), ({"parametrics": {}}, ("parametrics", "parametric")),
                             ({"parametric": {**flat["parametric"], "segments": [2]}}, ("segments", "two whole numbers")),
                             ({"parametric": {**flat["parametric"], "segments": [2, 20000]}}, ("segments", "two whole numbers")),
                             ({"parametric": {**flat["parametric"], "u": "0..x"}}, ("objects[0].shape", "range of u"))):
@@ -146,6 +146,35 @@ class Scene(Case):
         self.bad(4, "formulas.json", "-s", 8, says=("formulas.json", "at most 4096"), leaves=self.new_files())
         self.write({"lambent": 1, "objects": [{"shape": flat, "radius": 2}]}, "formulas.json")
         self.bad(2, "formulas.json", "-s", 8, says="radius", leaves=self.new_files())
+
+    def test_implicit_formulas(self):
+        """--save-scene of an implicit surface, its keys, a text in place of the object, and the limit on what a file may have worked out."""
+        torus = "a=2; (sqrt(x^2+y^2)-a)^2+z^2-1"
+        for words, want in (([], {}), (["--x", "0..3", "--z", "-1..a", "--segments", "30", "--flip"], {"x": "0..3", "z": "-1..a", "segments": 30, "flip": True})):
+            saved = self.again("shape", "--implicit", torus, *words, "-s", "64")
+            self.assertEqual(saved["objects"][0]["shape"], {"implicit": {"formula": torus, **want}})
+            self.assertIsNone(misfit(saved, SCHEMA))
+        one = {"implicit": {"formula": "x^2+y^2+z^2-1", "segments": 8}}
+        others = [{"implicit": {**one["implicit"], **change}} for change in ({"x": "0..1"}, {"z": "0..1"}, {"flip": True}, {"segments": 9})]
+        scene = {"lambent": 1, "objects": [{"shape": shape} for shape in (one, one, *others, {"implicit": "x^2+y^2+z^2 = 1"})]}
+        self.assertIsNone(misfit(scene, SCHEMA))
+        self.write(scene, "formulas.json")
+        self.given |= {"formulas.json"}
+        answer = json.loads(self.good("info", "formulas.json", "--json").stdout)["counts"]
+        self.assertEqual((answer["meshes"], answer["objects"]), (6, 7))
+        for shape, says in (({"implicit": "x^2+w"}, "column 5: found 'w'"), ({"implicit": {"x": "0..1"}}, "'formula' is missing"), ({"implicit": {"formula": "x", "u": "0..1"}}, "implicit.u"),
+                            ({"implicit": {"formula": "x", "segments": 1025}}, "segments"), ({"implicit": "x", "parametric": "x=u; y=v; z=0"}, "has both"),
+                            ({"implicit": "x^2+y^2"}, "nowhere negative")):
+            self.write({"lambent": 1, "objects": [{"shape": shape}]}, "formulas.json")
+            self.bad(2, "formulas.json", "-s", 8, says=("formulas.json: objects[0].shape", says), leaves=self.new_files())
+
+    @long
+    def test_work_of_implicit_formulas(self):
+        """All implicit surfaces of a scene file together take a few seconds at most."""
+        dense = "+".join(f"sin({k}x)*cos({k}y-z)" for k in range(1, 150))
+        self.write({"lambent": 1, "objects": [{"shape": {"implicit": {"formula": dense, "segments": 1024, "flip": bool(k)}}} for k in range(2)]}, "formulas.json")
+        self.given |= {"formulas.json"}
+        self.bad(4, "formulas.json", "-s", 8, says="expected fewer segments")
 
     def test_saved_scenes_of_real_models(self):
         models = [m for kind in ("obj", "stl", "ply") for m in sorted(SHARED_MODELS.glob(f"{kind}/**/*.{kind}"))

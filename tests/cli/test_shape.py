@@ -31,6 +31,29 @@ class Shape(Case):
         self.good("shape", "--parametric", RIPPLE, "-s", "32")
         self.assertEqual(read_png((self.folder / "parametric.png").read_bytes())[:2], (32, 32))
 
+    def test_implicit(self):
+        """An expression that is zero on the surface: as a model file with the gradient's normals, as a picture, and what is no surface."""
+        sphere = "x^2+y^2+z^2-1"
+        self.good("shape", "--implicit", sphere, "--segments", 20, "-o", "s.obj")
+        lines = [line.split() for line in (self.folder / "s.obj").read_text().splitlines()]
+        points, normals = ([list(map(float, words[1:])) for words in lines if words[0] == kind] for kind in ("v", "vn"))
+        self.assertTrue(len(points) > 500 and len(points) == len(normals))
+        for p, n in zip(points, normals):
+            self.assertAlmostEqual(sum(x * x for x in p), 1, 5)
+            for a, b in zip(p, n):
+                self.assertAlmostEqual(a, b, 5)
+        self.good("shape", "--implicit", "x^2+y^2+z^2 = 1", "-s", "32")
+        self.assertEqual(read_png((self.folder / "implicit.png").read_bytes())[:2], (32, 32))
+        self.good("shape", "--implicit", sphere, "--segments", 20, "--z", "0..1", "--flip", "-o", "s.obj")
+        heights = [float(line.split()[2]) for line in (self.folder / "s.obj").read_text().splitlines() if line.startswith("v ")]
+        self.assertEqual(min(heights), 0)  # z is up in formulas, y in OBJ
+        for words, says in (([sphere + "*w"], "option '--implicit': column 15: found 'w'"), (["(x+y)^2"], "option '--implicit': no surface found in x = -16..16"),
+                            (["x", "--x", "0..q"], "option '--x': column 4: found 'q'"), (["x", "--segments", "9x9"], "option '--implicit': an implicit surface has cells"),
+                            (["x", "--u", "0..1"], "option '--u' belongs to --parametric"), (["x", "--parametric", RIPPLE], "expected one of them")):
+            self.bad(1, "shape", "--implicit", *words, says=says, leaves=self.new_files())
+        self.bad(1, "shape", "--parametric", RIPPLE, "--x", "0..1", says="option '--x' belongs to --implicit", leaves=self.new_files())
+        self.bad(1, "shape", "torus", "--implicit", sphere, says="one of them", leaves=self.new_files())
+
     def test_errors(self):
         self.bad(1, "shape", says="--parametric")
         self.bad(1, "shape", "torsu", says="torsu")

@@ -1,5 +1,6 @@
 // target_formula.c: fuzz target for surfaces written as formulas (lam_formula, docs/shapes.md). An input is the text, and after a zero
-// the range of u, and after another one that of v.
+// the range of u, and after another one that of v. After a first '?' the text is an implicit surface, with the ranges of
+// x and z.
 #include "target.h"
 
 #include <string.h>
@@ -13,9 +14,17 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         memcpy(words[0], data, size);
     for (int i = 1; i < 3; i++)
         words[i] = words[i - 1] + strlen(words[i - 1]) + 1;
-    lam_formula formula = {.text = words[0], .u_segments = 9, .v_segments = 6};
-    formula.u = *words[1] ? words[1] : NULL;
-    formula.v = *words[1] && *words[2] ? words[2] : NULL;
+    const char *first = *words[1] ? words[1] : NULL, *second = first && *words[2] ? words[2] : NULL, *cut = "-2..2";
+    lam_formula formula = {.text = words[0], .u = first, .v = second, .u_segments = 9, .v_segments = 6};
+    if (*words[0] == '?') // z is searched for with one range alone: a search takes longer than all else
+        formula = (lam_formula){.text = words[0] + 1,
+                                .implicit = true,
+                                .x = first ? first : cut,
+                                .y = cut,
+                                .z = second  ? second
+                                     : first ? NULL
+                                             : cut,
+                                .u_segments = 9};
     lam_control control = {.memory_limit_bytes = 64 << 20, .time_limit_s = 20};
     lam_error error = {0};
     lam_scene *scene = lam_scene_make(NULL);

@@ -66,7 +66,7 @@ static double value_of(const char *expression, double u, double v)
     lam_error error = {0};
     arena_start(&arena, NULL);
     snprintf(text, sizeof text, "x=%s; y=0; z=0", expression);
-    if (!formula_parse(text, &arena, &formula, &error) || !formula_finish(&formula, &arena, &error))
+    if (!formula_parse(text, false, &arena, &formula, &error) || !formula_finish(&formula, &arena, &error))
         fail_msg("%s: %s", expression, error.text);
     formula_evaluate(&formula, u, v, &point);
     arena_free(&arena);
@@ -109,7 +109,7 @@ static void derivatives_match_differences(void **unused)
         char text[200];
         arena_start(&arena, NULL);
         snprintf(text, sizeof text, "x=%s; y=u; z=v", rows[i]);
-        assert_true(formula_parse(text, &arena, &formula, &error) && formula_finish(&formula, &arena, &error));
+        assert_true(formula_parse(text, false, &arena, &formula, &error) && formula_finish(&formula, &arena, &error));
         for (int k = 0; k < 50; k++) {
             double u = random_between(0.3, 1.9), v = random_between(0.35, 1.9), h = 1e-5;
             lam_surface_point at, a, b, c, d;
@@ -343,12 +343,142 @@ static void model_files_hold_the_mesh(void **unused)
     lam_scene_free(scene);
 }
 
+// The gradient is that of differences, for each function of the language.
+static void gradients_match_differences(void **unused)
+{
+    (void)unused;
+    static const char *const rows[] = {"x^2+y^2+z^2-1",
+                                       "a=2; (sqrt(x^2+y^2)-a)^2+z^2-1",
+                                       "x*y*z",
+                                       "sin(x*y)-cos(z)",
+                                       "x^y = z",
+                                       "atan2(x,y)*z",
+                                       "5",
+                                       "b=x*z; exp(b)/b = hypot(y,z)"};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct arena arena;
+        struct formula formula;
+        lam_error error = {0};
+        arena_start(&arena, NULL);
+        if (!formula_parse(rows[i], true, &arena, &formula, &error) || !formula_finish(&formula, &arena, &error))
+            fail_msg("%s: %s", rows[i], error.text);
+        for (int k = 0; k < 50; k++) {
+            const double h = 1e-5;
+            lam_vec3 p = {random_between(0.3, 1.9), random_between(0.3, 1.9), random_between(0.3, 1.9)};
+            lam_vec3 found = formula_gradient(&formula, p);
+            const double got[3] = {found.x, found.y, found.z};
+            for (int a = 0; a < 3; a++) {
+                lam_vec3 low = p, high = p;
+                (&low.x)[a] -= h;
+                (&high.x)[a] += h;
+                double d = (formula_value(&formula, high) - formula_value(&formula, low)) / (2 * h);
+                if (fabs(got[a] - d) > 1e-6 * (1 + fabs(d)))
+                    fail_msg("%s by %c: %.12g, expected %.12g", rows[i], "xyz"[a], got[a], d);
+            }
+        }
+        arena_free(&arena);
+    }
+}
+
+// A sphere's surface is within the radius, its normals are its positions, and the box is its own, whatever its size and place.
+static void implicit_surfaces_are_found(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text, *x;
+        bool flip;
+        double radius, middle;
+    } rows[] = {{"x^2+y^2+z^2-1", NULL, false, 1, 0},
+                {"x^2+y^2+z^2 = 1", NULL, true, 1, 0},
+                {"r=9; x^2+y^2+z^2-r^2", NULL, false, 9, 0}, // not closed in -4..4
+                {"(x-40)^2+y^2+z^2 = 4", "30..50", false, 2, 40}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        lam_formula formula = {
+            .text = rows[i].text, .implicit = true, .x = rows[i].x, .flip = rows[i].flip, .u_segments = 24};
+        lam_error error = {0};
+        lam_scene *scene = scene_of(&formula, &error);
+        if (!scene)
+            fail_msg("%s: %s", rows[i].text, error.text);
+        const lam_mesh *m = lam_scene_mesh(scene, 0);
+        const double r = rows[i].radius, sign = rows[i].flip ? -1 : 1;
+        assert_true(m->triangle_count > (rows[i].x ? 30 : 500));
+        for (uint32_t v = 0; v < m->vertex_count; v++) {
+            const float *p = m->positions + 3 * (size_t)v, *n = m->normals + 3 * (size_t)v;
+            double at[3];
+            for (int k = 0; k < 3; k++)
+                at[k] = (double)p[k] + m->origin[k] - (k == 0 ? rows[i].middle : 0);
+            assert_true(fabs(sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]) / r - 1) < 1e-6);
+            for (int k = 0; k < 3; k++)
+                assert_true(fabs((double)n[k] - sign * at[k] / r) < 1e-5);
+        }
+        for (uint32_t t = 0; t < m->triangle_count; t++) { // counter-clockwise from where the normals point
+            const float *a = m->positions + 3 * (size_t)m->indices[3 * t],
+                        *b = m->positions + 3 * (size_t)m->indices[3 * t + 1],
+                        *c = m->positions + 3 * (size_t)m->indices[3 * t + 2],
+                        *n = m->normals + 3 * (size_t)m->indices[3 * t];
+            float volume = 0;
+            for (int k = 0; k < 3; k++) {
+                int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+                volume += n[k] * ((b[k1] - a[k1]) * (c[k2] - a[k2]) - (b[k2] - a[k2]) * (c[k1] - a[k1]));
+            }
+            assert_true(volume >= 0);
+        }
+        lam_scene_free(scene);
+    }
+    // A plane goes on for ever: it is cut at the first cube. A range that is given cuts the surface, and is kept.
+    lam_vec3 low, high;
+    lam_formula plane = {.text = "z = x/2", .implicit = true, .y = "0..1", .u_segments = 8};
+    lam_scene *scene = scene_of(&plane, NULL);
+    lam_object object = lam_object_default();
+    assert_true(lam_scene_add_object(scene, &object, NULL) == 0 && lam_scene_bounds(scene, &low, &high));
+    assert_true(low.x == -4 && high.x == 4 && low.y == 0 && high.y == 1 && low.z == -2 && high.z == 2);
+    lam_scene_free(scene);
+    static const struct {
+        const char *text, *x, *says;
+        int u_segments, v_segments;
+    } wrong[] = {{"x^2+u", NULL, "column 5: found 'u'", 0, 0},
+                 {"(x^2+y^2)^2", NULL, "nowhere negative", 0, 0},
+                 {"-1", NULL, "negative everywhere", 0, 0},
+                 {"f=x", NULL, "expected an expression that is zero on the surface", 0, 0},
+                 {"", NULL, "expected an expression that is zero on the surface", 0, 0},
+                 {"x=1=2", NULL, "column 4: found '='", 0, 0},
+                 {"x; y", NULL, "column 4: found 'y'", 0, 0},
+                 {"a=1; a=2; x", NULL, "a new name", 0, 0},
+                 {"x", "0..y", "range of x, column 4", 0, 0},
+                 {"x", NULL, "expected 2 to 1024 cells", 1025, 0},
+                 {"x", NULL, "one number of segments", 8, 8}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        lam_formula formula = {.text = wrong[i].text,
+                               .implicit = true,
+                               .x = wrong[i].x,
+                               .u_segments = wrong[i].u_segments,
+                               .v_segments = wrong[i].v_segments};
+        lam_error error = {0};
+        assert_null(scene_of(&formula, &error));
+        if (!strstr(error.text, wrong[i].says))
+            fail_msg("%s: %s", wrong[i].text, error.text);
+    }
+    // The limits of a call end it within the evaluation, however long the expression.
+    lam_cancel cancel = {0};
+    lam_cancel_raise(&cancel);
+    lam_formula dense = {.text = "sin(x)", .implicit = true, .u_segments = 1024};
+    lam_error error = {0};
+    scene = lam_scene_make(NULL);
+    assert_int_equal(lam_scene_add_formula(scene, &dense, &(lam_control){.cancel = &cancel}, &error), -1);
+    assert_int_equal(error.code, LAM_CANCELLED);
+    assert_int_equal(lam_scene_add_formula(scene, &dense, &(lam_control){.time_limit_s = 0.05}, &error), -1);
+    assert_int_equal(error.code, LAM_LIMIT);
+    lam_scene_free(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(functions_match_libm),
         cmocka_unit_test(precedence_is_the_usual_one),
         cmocka_unit_test(derivatives_match_differences),
+        cmocka_unit_test(gradients_match_differences),
+        cmocka_unit_test(implicit_surfaces_are_found),
         cmocka_unit_test(errors_name_the_column),
         cmocka_unit_test(seams_are_welded),
         cmocka_unit_test(normals_are_those_of_the_sphere),

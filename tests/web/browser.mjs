@@ -360,6 +360,25 @@ async function lights() {
   }
 }
 
+// Formulas: a model of the menu, changed by its option, and gone with another model.
+async function formulas() {
+  const page = await start(['teapot', '--size=96x96', '--background=white']);
+  await page.locator('#model').selectOption('implicit');
+  await settled(page, 'an implicit surface');
+  const sphere = await pixels(page);
+  ok((await commandOf(page)).startsWith("lambent shape '--implicit=x^2+y^2+z^2-1' --size=96x96"), 'an implicit surface is chosen', await commandOf(page));
+  await find(page, 'implicit');
+  await page.locator('#option-implicit').fill('(sqrt(x^2+y^2)-2)^2+z^2 = 1');
+  await page.locator('#option-implicit').blur();
+  await until(page, () => document.getElementById('command').textContent.includes('sqrt'));
+  await settled(page, 'a torus');
+  ok((await pixels(page)) !== sphere, 'another formula is another picture');
+  await page.locator('#model').selectOption('cube');
+  await settled(page, 'a cube');
+  ok((await commandOf(page)).startsWith('lambent cube --size=96x96'), 'the formula goes with its model', await commandOf(page));
+  await page.close();
+}
+
 // The picture fills a large window, and the first one has the window's size.
 async function sizes() {
   const large = await browser.newContext({ viewport: { width: 2200, height: 1200 } });
@@ -642,7 +661,7 @@ async function sequencesOf(count) {
   await page.close();
 }
 
-const parts = { gestures, words, touch, controls, explained, arrows, compared, lights, sizes, files, memory, oneFile, offline, twoParts, isolated, accessible, pseudo, random: () => sequencesOf(Number(sequences)) };
+const parts = { gestures, words, touch, controls, explained, arrows, compared, lights, formulas, sizes, files, memory, oneFile, offline, twoParts, isolated, accessible, pseudo, random: () => sequencesOf(Number(sequences)) };
 
 const only = process.env.LAMBENT_BROWSER?.split(',');
 for (const [name, part] of Object.entries(parts)) {

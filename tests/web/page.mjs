@@ -9,7 +9,7 @@ import { aroundEquations, lightEquations, sumEquation } from '../../web/page/equ
 import { lightText, lightWords, movedTo, newLight, parseLight, placeOf, withCone } from '../../web/page/lights.js';
 import '../../web/page/shader_strings.js';
 import { pseudo, stringKeys, text } from '../../web/page/strings.js';
-import { State, command, fromFragment, quoted, toFragment } from '../../web/page/state.js';
+import { FORMULAS, State, command, fromFragment, quoted, toFragment, withModel } from '../../web/page/state.js';
 
 const ok = (good, label) => console.log(`${good ? 'ok' : 'not ok'} ${label}`);
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
@@ -35,6 +35,10 @@ ok(same(fromFragment(toFragment(odd)), odd), 'a link holds the words');
 ok(fromFragment('#%') === null && fromFragment('') === null, 'a damaged link is none');
 ok(command(odd) === "lambent 'my models/it'\\''s.obj' '--color=#ff8800' '--light=position=1/2/3,name=a&b%' '--material=Bühne'", 'a command is quoted');
 ok(command(['/teapot']) === 'lambent ./teapot' && command(['/-x.obj']) === 'lambent ./-x.obj' && command(['teapot']) === 'lambent teapot', 'files are no shapes or options');
+// A formula is a model: it is drawn by `lambent shape`, and its options go when another one is chosen.
+const ball_words = withModel(['teapot', '--size=64'], 'implicit');
+ok(same(ball_words, ['implicit', '--implicit=x^2+y^2+z^2-1', '--size=64']) && command(ball_words) === "lambent shape '--implicit=x^2+y^2+z^2-1' --size=64", 'an implicit surface is a model');
+ok(same(withModel([...ball_words, '--z=0..1', '--flip', '--zoom=2'], 'cube'), ['cube', '--size=64', '--zoom=2']), "a formula's options go with it");
 ok(quoted('a;b') === "'a;b'" && quoted('x/y.obj') === 'x/y.obj', 'quotes where a shell needs them');
 
 // The camera.
@@ -83,7 +87,7 @@ function computed(values, channel) {
 }
 const EQUATIONS = [['teapot'], ['teapot', '--reflection=phong', '--material=brass'], ['sphere', '--light=spot:position=0/0/4,cutoff=40,exponent=3,attenuation=0.5/0.1/0.05,range=6', '--ambient=0.2'],
   ['torus-knot', '--material=metallic=0.4,roughness=0.5,color=#c9a227', '--light=directional:direction=-1/-1/-1'], ['teapot', '--reflection=oren-nayar'], ['teapot', '--shadows', '--shading=gouraud'],
-  ['sphere', '--reflection=lambert', '--rig=lecture'], ['sphere', '--light=point:position=0/0/-4'], ['teapot', '--environment=studio', '--reflectivity=0.4', '--ao=screen'], ['cube', '--material=ambient=0.2/0.4/0.8,diffuse=red', '--ambient=0.5/0.4/0.3', '--ao=off'], ['sphere', '--material=metallic=0.3,roughness=0.5,color=#c9a227', '--ambient=0.4']];
+  ['sphere', '--reflection=lambert', '--rig=lecture'], ['sphere', '--light=spot:position=0/0/4,inner=1,outer=30'], ['sphere', '--light=spot:position=0/0/4,cutoff=1'], ['sphere', '--light=point:position=0/0/-4'], ['teapot', '--environment=studio', '--reflectivity=0.4', '--ao=screen'], ['cube', '--material=ambient=0.2/0.4/0.8,diffuse=red', '--ambient=0.5/0.4/0.3', '--ao=off'], ['sphere', '--material=metallic=0.3,roughness=0.5,color=#c9a227', '--ambient=0.4']];
 let checked = 0;
 for (const words of EQUATIONS) {
   const pixel = lambent.explain([...words, '--size=96'], 46, 44), triangle = pixel.triangles[0], wrong = [];
@@ -114,6 +118,10 @@ ok(refusal(['sphere', '--size=1024']) === 'the picture of 1024x1024 pixels needs
 ok(refusal(['sphere', '--size=1024', '--memory-limit=none']) === '', 'memory: --memory-limit none');
 lambent.limitMemory(0);
 ok(refusal(['sphere', '--size=1024']) === '', 'memory: without a limit');
+
+// Formulas, drawn by the module.
+for (const [name, formula] of Object.entries(FORMULAS)) ok(lambent.draw([name, `--${name}=${formula}`, '--size=64']).triangles > 1000, `the model ${name}`);
+ok(refusal(['cube', '--implicit=x', '--size=64']) === "option '--implicit' belongs to the model 'implicit'" && /column 3/.test(refusal(['implicit', '--implicit=x+w', '--size=64'])), 'a formula that is wrong');
 
 // The lights of a picture as words draw the same picture.
 for (const words of [['teapot'], ['torus-knot', '--rig=three-point', '--shadows'], ['cube', '--rig=headlight']]) {

@@ -69,7 +69,7 @@ static void name_model(const struct job *job, lam_error *error)
     } else if (error->code == LAM_CANCELLED) {
         complain(error, LAM_CANCELLED, "%s: %s", name, interrupted() ? "interrupted" : "cancelled");
     } else if (error->code != LAM_CANNOT_WRITE && !names(error->text, name) &&
-               !(o->parametric && strncmp(error->text, "option '", 8) == 0) &&
+               !((o->parametric || o->implicit) && strncmp(error->text, "option '", 8) == 0) &&
                !(job->output && strstr(error->text, job->output) == error->text)) {
         lam_error plain = *error;
         complain(error, plain.code, "%.200s: %.300s", name, plain.text);

@@ -18,7 +18,8 @@ static const struct own_default explain_defaults[] = {{"output", "no figure"}, {
 static const struct own_default check_defaults[] = {
     {"output", "no sheet"}, {"size", "128"}, {"tolerance", "2"}, {"memory-limit", "1Gi"}, {NULL, NULL}};
 static const struct own_default shader_defaults[] = {{"output", "standard output"}, {NULL, NULL}};
-static const struct own_default shape_defaults[] = {{"output", "NAME.png, or " FORMULA_MODEL ".png"}, {NULL, NULL}};
+static const struct own_default shape_defaults[] = {{"output", "NAME.png, parametric.png or implicit.png"},
+                                                    {NULL, NULL}};
 static const struct own_default diff_defaults[] = {{"output", "no picture"}, {NULL, NULL}};
 static const struct own_default plot_defaults[] = {{"output", "KIND.png"}, {"size", "1600x1000"}, {NULL, NULL}};
 static const struct own_default materials_defaults[] = {
@@ -76,11 +77,11 @@ const struct command command_table[] = {
                         ABOUT | 1u << GROUP_MODEL | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING |
                             1u << GROUP_WORK | 1u << GROUP_LIMITS,
                         .min_operands = 1, .max_operands = 1},
-    [COMMAND_shape] =
-        {"shape", "[NAME]",
-         "Draw a built-in shape or a surface given by formulas (--parametric), or save it as OBJ, STL or PLY.",
-         ALL | 1u << GROUP_SHAPE | 1u << GROUP_ANIMATION, .min_operands = 0, .max_operands = 1,
-         .defaults = shape_defaults},
+    [COMMAND_shape] = {"shape", "[NAME]",
+                       "Draw a built-in shape or a surface given by formulas (--parametric, --implicit), or save it as "
+                       "OBJ, STL or PLY.",
+                       ALL | 1u << GROUP_SHAPE | 1u << GROUP_ANIMATION, .min_operands = 0, .max_operands = 1,
+                       .defaults = shape_defaults},
     [COMMAND_view] = {"view", "MODEL|FOLDER",
                       "Show a model in the browser, and again whenever its file changes; or the gallery of a folder.",
                       ABOUT | 1u << GROUP_VIEWER | 1u << GROUP_PICTURE | 1u << GROUP_MODEL | 1u << GROUP_VIEW |
@@ -166,6 +167,7 @@ const struct example examples[] = {
     {"lambent shader teapot --glsl 120 --host c -o teapot", "its shaders, and C code that sets them", false},
     {"lambent shape --parametric 'x=u*cos(v); y=u*sin(v); z=cos(3u)' --u 0..4 -o ripple.obj",
      "a surface given by formulas, as a model or a picture", false},
+    {"lambent shape --implicit 'x^2+y^2+z^2-1'", "the points where an expression is zero: here a sphere", false},
     {"lambent diff old.png new.png -o where.png", "the difference of two pictures, as numbers and as a picture", false},
     {NULL, NULL, false},
 };

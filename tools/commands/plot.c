@@ -33,11 +33,10 @@ static double highlight_value(const struct curve *c, double x)
     return (double)lam_highlight_at(c->reflection, c->shininess, radians(x));
 }
 
-// The smallest x from which the curve stays below 1/255; all curves fall monotonically. Bisects an interval whose left
+// The smallest x from which the curve stays below a level; all curves fall monotonically. Bisects an interval whose left
 // end is not below, down to neighbouring floats.
-static double find_below(const struct curve *curve, double farthest)
+static double find_below(const struct curve *curve, double level, double farthest)
 {
-    const double level = 1.0 / 255.0;
     // An inverse square evaluates to 0 at the light itself; the search starts beside it.
     double low = curve->value(curve, 0) == 0 ? 1e-3 : 0, high = farthest < 1 ? farthest : 1;
     if (curve->value(curve, low) < level)
@@ -291,14 +290,16 @@ static const struct kind *find_kind(const char *name, lam_error *error)
     return NULL;
 }
 
-// The length of the axis: 10 % beyond the point where the last curve fades; 10 if none does.
-static double length_of(const struct plot *plot)
+// The length of the axis: up to where the last curve has fallen to a twentieth, so that the curves fill the plot; 10 if none
+// does. Where they fall below 1/255 lies beyond, and stands in the legend.
+static double length_of(const struct plot *plot, double farthest)
 {
     double most = 0;
-    for (int i = 0; i < plot->count; i++)
-        if (plot->curves[i].below < 1e30 && plot->curves[i].below > most)
-            most = plot->curves[i].below;
-    return most > 0 ? most * 1.1 : 10;
+    for (int i = 0; i < plot->count; i++) {
+        double end = find_below(&plot->curves[i], 1.0 / 20, farthest);
+        most = end < 1e30 && end > most ? end : most;
+    }
+    return most > 0 ? most : 10;
 }
 
 static bool fill(struct plot *plot, const struct kind *kind, int count, char **words, const struct options *o,
@@ -322,9 +323,9 @@ static bool fill(struct plot *plot, const struct kind *kind, int count, char **w
     for (int i = 0; i < plot->count; i++) {
         struct curve *curve = &plot->curves[i];
         curve->color = palette[(size_t)(i / kind->per_color) % (sizeof palette / sizeof *palette)];
-        curve->below = find_below(curve, kind->farthest);
+        curve->below = find_below(curve, 1.0 / 255, kind->farthest);
     }
-    plot->x_max = o->to > 0 ? o->to : kind->x_max > 0 ? kind->x_max : length_of(plot);
+    plot->x_max = o->to > 0 ? o->to : kind->x_max > 0 ? kind->x_max : length_of(plot, kind->farthest);
     // Attenuations may start above 1; values above 2 are cut off.
     for (int i = 0; i < plot->count; i++)
         for (int k = 0; k <= TABLE_STEPS; k++)

@@ -1,12 +1,13 @@
 // plot_draw.c: draws a plot: axes with round numbers, a grid, the curves, their names, the marks.
 #include "plot.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "console.h"
 
-enum { INK = 0x222222, GREY = 0x707070, GRID = 0xe4e4e4 };
+enum { INK = 0x222222, GREY = 0x707070, GRID = 0xe4e4e4, LEGEND_SIZE = 200 };
 
 // The position of the axes on the page, and the scale of the type.
 struct layout {
@@ -187,6 +188,17 @@ static bool draw_marks(const struct plot *plot, const struct layout *at, struct 
     return true;
 }
 
+// A curve in the legend. A place where it fades that lies beyond the axis has no dot, and is said here.
+static const char *legend_of(const struct plot *plot, const struct curve *curve, char text[LEGEND_SIZE])
+{
+    snprintf(text, LEGEND_SIZE, "%s", curve->label);
+    if (curve->marked && curve->below > plot->x_max && curve->below < 1e30) {
+        size_t used = strlen(text);
+        snprintf(text + used, LEGEND_SIZE - used, " (below %s from %.4g)", plot->level_label, curve->below);
+    }
+    return text;
+}
+
 // The legend: in the plot's upper right corner if no curve passes there, else beside the plot.
 struct names {
     double left, top, width, height; // pixels
@@ -196,7 +208,8 @@ static struct names place_names(const struct plot *plot, struct layout *at, cons
 {
     double u = at->unit, widest = 0;
     for (int i = 0; i < plot->count; i++) {
-        double width = text_width(d, 14 * u, plot->curves[i].label);
+        char text[LEGEND_SIZE];
+        double width = text_width(d, 14 * u, legend_of(plot, &plot->curves[i], text));
         widest = width > widest ? width : widest;
     }
     struct names box = {.top = at->top + 6 * u, .width = widest + 50 * u, .height = plot->count * 21 * u + 10 * u};
@@ -227,7 +240,9 @@ static bool draw_names(const struct plot *plot, const struct names *box, double 
         struct point line[2] = {{left + 8 * u, base - 5 * u}, {left + swatch, base - 5 * u}};
         if (!draw_line(d, line, 2, 2.4 * u, curve->color, style_dash(curve, u), error))
             return false;
-        draw_text(d, (struct point){left + swatch + 8 * u, base}, 14 * u, ALIGN_LEFT, INK, curve->label);
+        char text[LEGEND_SIZE];
+        draw_text(d, (struct point){left + swatch + 8 * u, base}, 14 * u, ALIGN_LEFT, INK,
+                  legend_of(plot, curve, text));
     }
     return true;
 }

@@ -7,6 +7,7 @@
 #include "console.h"
 #include "exit_codes.h"
 #include "job.h"
+#include "job_check.h"
 #include "output.h"
 #include "page_file.h"
 #include "report.h"
@@ -73,25 +74,24 @@ static bool save(const char *model, const struct options *o, lam_error *error)
 int run_shape(int operand_count, char **operands, const struct options *options)
 {
     lam_error error = {0};
-    char word[] = FORMULA_MODEL, *formula[] = {word};
+    char parametric[] = "parametric", implicit[] = "implicit";
+    char *formula[] = {options->implicit ? implicit : options->parametric ? parametric : NULL};
     bool ok = true;
-    if (operand_count && options->parametric)
-        ok =
-            complain(&error, LAM_BAD_ARGUMENT, "shape: found '%s' and --parametric, expected one of them", operands[0]);
-    else if (!operand_count && !options->parametric)
+    if (options->parametric && options->implicit)
+        ok = complain(&error, LAM_BAD_ARGUMENT, "shape: found --parametric and --implicit, expected one of them");
+    else if (operand_count && *formula)
+        ok = complain(&error, LAM_BAD_ARGUMENT, "shape: found '%s' and --%s, expected one of them", operands[0],
+                      *formula);
+    else if (!operand_count && !*formula)
         ok = complain(&error, LAM_BAD_ARGUMENT,
-                      "shape: expected the name of a built-in shape (`lambent shapes` lists them) or --parametric "
-                      "'x=...; y=...; z=...'");
-    else if (!options->parametric && lam_shape_find(operands[0]) < 0)
+                      "shape: expected the name of a built-in shape (`lambent shapes` lists them), --parametric "
+                      "'x=...; y=...; z=...' or --implicit 'x^2+y^2+z^2-1'");
+    else if (!*formula && lam_shape_find(operands[0]) < 0)
         ok = complain(&error, LAM_BAD_ARGUMENT,
                       "shape: no built-in shape has the name '%s'; `lambent shapes` lists them", operands[0]);
-    else if (!options->parametric && (options->u_range || options->v_range || options->flip))
-        ok = complain(&error, LAM_BAD_ARGUMENT, "shape: option '--%s' belongs to --parametric",
-                      options->u_range   ? "u"
-                      : options->v_range ? "v"
-                                         : "flip");
-    ok = ok && check_ending(options->output, &error);
-    char **models = options->parametric ? formula : operands;
+    ok = ok && job_check_formula(*formula ? *formula : operands[0], options, &error) &&
+         check_ending(options->output, &error);
+    char **models = *formula ? formula : operands;
     if (ok && !is_model_file(options->output))
         return run_render(1, models, options);
     if (ok && save(models[0], options, &error))

@@ -115,12 +115,15 @@ const struct topic topics[] = {
      "`differ` (0 or 1: beyond the tolerance) and `picture`. The exit code is 6 if the largest difference exceeds "
      "the tolerance, 1 if the sizes or kinds differ."},
     {"formulas", "Surfaces given by formulas", BIT(SHAPE), TOPIC_NO_TABLE,
-     "`lambent shape --parametric 'x=...; y=...; z=...'` draws a surface over u and v, or saves it as a model file: "
-     "`-o "
-     "torus.obj`, `.stl` or `.ply`; built-in shapes too, `lambent shape teapot -o teapot.stl`. Normals come from "
-     "symbolic "
-     "derivatives, ends that meet are joined, and creases along a line of the grid stay sharp (`--segments 64x32`). "
-     "`docs/shapes.md` describes the language."},
+     "`lambent shape --parametric 'x=...; y=...; z=...'` draws a surface over u and v, `--implicit 'x^2+y^2+z^2-1'` "
+     "one "
+     "on which an expression of x, y and z is zero. `-o torus.obj`, `.stl` or `.ply` saves it as a model file; "
+     "built-in "
+     "shapes too, `lambent shape teapot -o teapot.stl`. Normals come from symbolic derivatives. Of a surface over u "
+     "and v, "
+     "ends that meet are joined, and creases along a line of the grid stay sharp (`--segments 64x32`). "
+     "`docs/shapes.md` "
+     "describes the language."},
     {"plots", "Plots", BIT(PLOT) | BIT(CAPTIONS), TOPIC_NO_TABLE,
      "`lambent plot attenuation a/b/c...` draws 1/(a + b d + c d^2) over the distance d. A curve is three such "
      "numbers, a light as `--light` takes it (`spot:attenuation=0/0/1,range=9`), or every light of a model or "

@@ -63,20 +63,40 @@ static double crease_of(const struct options *o)
 }
 
 // Names the option that an error about a formula or a range of it is about.
-static void name_formula_option(lam_error *error)
+static void name_formula_option(const char *model, lam_error *error)
 {
-    static const struct {
+    const struct {
         const char *begin, *option;
-    } rows[] = {{"formula, ", "parametric"}, {"formula: ", "parametric"}, {"range of u, ", "u"},
-                {"range of v, ", "v"},       {"range of u: ", "u"},       {"range of v: ", "v"}};
+    } rows[] = {{"formula", model},  {"range of u", "u"}, {"range of v", "v"},
+                {"range of x", "x"}, {"range of y", "y"}, {"range of z", "z"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         size_t length = strlen(rows[i].begin);
-        if (strncmp(error->text, rows[i].begin, length) != 0)
+        if (strncmp(error->text, rows[i].begin, length) != 0 || !strchr(",:", error->text[length]))
             continue;
         lam_error copy = *error;
-        complain(error, copy.code, "option '--%s': %s", rows[i].option, copy.text + length);
+        complain(error, copy.code, "option '--%s': %s", rows[i].option, copy.text + length + 2);
         return;
     }
+}
+
+// The formula of the options; its text is NULL if there is none.
+static lam_formula formula_of(const struct options *o)
+{
+    if (o->implicit)
+        return (lam_formula){.text = o->implicit,
+                             .implicit = true,
+                             .x = o->x_range,
+                             .y = o->y_range,
+                             .z = o->z_range,
+                             .u_segments = o->slices,
+                             .v_segments = o->stacks,
+                             .flip = o->flip};
+    return (lam_formula){.text = o->parametric,
+                         .u = o->u_range,
+                         .v = o->v_range,
+                         .u_segments = o->slices,
+                         .v_segments = o->stacks ? o->stacks : o->slices,
+                         .flip = o->flip};
 }
 
 static lam_scene *make_shape(const char *name, const struct options *o, const lam_control *control, lam_error *error)
@@ -87,24 +107,19 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
     lam_object object = lam_object_default();
     object.name = name;
     lam_shape_params params = {.slices = o->slices, .stacks = o->stacks, .control = control};
-    lam_formula formula = {.text = o->parametric,
-                           .u = o->u_range,
-                           .v = o->v_range,
-                           .u_segments = o->slices,
-                           .v_segments = o->stacks ? o->stacks : o->slices,
-                           .flip = o->flip};
-    object.mesh = o->parametric ? lam_scene_add_formula(scene, &formula, control, error)
-                                : lam_scene_add_shape(scene, name, &params, error);
+    const lam_formula formula = formula_of(o);
+    object.mesh = formula.text ? lam_scene_add_formula(scene, &formula, control, error)
+                               : lam_scene_add_shape(scene, name, &params, error);
     bool ok = object.mesh >= 0 && lam_scene_add_object(scene, &object, error) >= 0;
     if (ok && (o->normals != LAM_NORMALS_FILE || o->crease_angle_deg >= 0))
         ok = lam_scene_make_normals(scene, (lam_normals)o->normals, crease_of(o), o->threads, control, error);
     if (ok) {
         // Formulas are written for books' axes, where z is up.
-        lam_scene_set_up(scene, o->parametric && o->up == LAM_UP_AUTO ? LAM_UP_Z : (lam_up)o->up);
+        lam_scene_set_up(scene, formula.text && o->up == LAM_UP_AUTO ? LAM_UP_Z : (lam_up)o->up);
         return scene;
     }
-    if (o->parametric)
-        name_formula_option(error);
+    if (formula.text)
+        name_formula_option(name, error);
     lam_scene_free(scene);
     return NULL;
 }
@@ -198,7 +213,7 @@ static bool make_scene(struct job *job, struct progress *progress, lam_error *er
     progress_phase(progress, 0, 0.5);
     if (!job_control(job, progress, &control, error))
         return false;
-    if (!job->model_bytes && (o->parametric || lam_shape_find(job->model) >= 0)) {
+    if (!job->model_bytes && (formula_of(o).text || lam_shape_find(job->model) >= 0)) {
         job->scene = make_shape(job->model, o, &control, error);
         job->times.prepare = clock_ms() - job->times.start;
     } else {
@@ -246,7 +261,7 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     if (!find_background(job, error))
         return false;
     warn_maps(job);
-    if (o->slices && !o->parametric && lam_shape_find(job->model) < 0)
+    if (o->slices && !formula_of(o).text && lam_shape_find(job->model) < 0)
         lam_scene_add_warning(job->scene, "option '--segments' changes nothing: the model is a file");
     if ((o->model_scene || o->variant || o->animation || o->has_time || o->lenient) &&
         strcmp(lam_scene_format(job->scene), "gltf") != 0)

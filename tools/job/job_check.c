@@ -1,6 +1,8 @@
 // job_check.c: options of a picture that exclude one another.
 #include "job_check.h"
 
+#include <string.h>
+
 #include "animate.h"
 #include "console.h"
 
@@ -37,5 +39,30 @@ bool job_check_options(const struct options *o, lam_error *error)
         return false;
     if (o->quiet && o->verbose)
         return complain(error, LAM_BAD_ARGUMENT, "options '--quiet' and '--verbose' cannot be used together");
+    return true;
+}
+
+bool job_model_is_shape(const char *model)
+{
+    return lam_shape_find(model) >= 0 || strcmp(model, "parametric") == 0 || strcmp(model, "implicit") == 0;
+}
+
+bool job_check_formula(const char *model, const struct options *o, lam_error *error)
+{
+    const bool parametric = strcmp(model, "parametric") == 0, implicit = strcmp(model, "implicit") == 0;
+    const struct {
+        const char *name, *kind;
+        bool stray;
+    } rows[] = {{"parametric", "the model 'parametric'", o->parametric && !parametric},
+                {"implicit", "the model 'implicit'", o->implicit && !implicit},
+                {"u", "--parametric", o->u_range && !parametric},
+                {"v", "--parametric", o->v_range && !parametric},
+                {"x", "--implicit", o->x_range && !implicit},
+                {"y", "--implicit", o->y_range && !implicit},
+                {"z", "--implicit", o->z_range && !implicit},
+                {"flip", "--parametric and --implicit", o->flip && !parametric && !implicit}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (rows[i].stray)
+            return complain(error, LAM_BAD_ARGUMENT, "option '--%s' belongs to %s", rows[i].name, rows[i].kind);
     return true;
 }

@@ -669,7 +669,7 @@ const struct option option_table[] = {
      "Segments of a built-in shape: slices around and stacks along, such as 64x32.",
      "Of `--parametric`: along u and along v; N alone is for both. N is 3 to 16384; `lambent shapes` describes the "
      "segments of each shape. The default of M depends on the "
-     "shape. gyroid and metaballs have at most 1024 cells and take no M.",
+     "shape. gyroid, metaballs and surfaces of `--implicit` have at most 1024 cells and take no M.",
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
     {"environment", 0, GROUP_SHADING, "IMAGE", "none",
      "The surroundings that shiny surfaces mirror: an image, six faces, sky or studio.",
@@ -1008,9 +1008,25 @@ const struct option option_table[] = {
      .others = "u-range", FIELD(u_range), .loads = true},
     {"v", 0, GROUP_SHAPE, "FROM..TO", "0..2pi", "The range of v, two constant expressions.", NULL, .store = store_text,
      .others = "v-range", FIELD(v_range), .loads = true},
+    {"implicit", 0, GROUP_SHAPE, "FORMULA", NULL,
+     "The surface where an expression of x, y and z is zero: 'x^2+y^2+z^2-1'.",
+     "The expression is negative inside; `x^2+y^2+z^2 = 1` is the same surface. Definitions stand before it, `a = 2; "
+     "(sqrt(x^2+y^2)-a)^2 + z^2 - 1`, in the language of `--parametric`. Normals are the symbolic gradient. "
+     "`--segments` "
+     "is the number of cells along the longest side of the box around the surface, 96 by default.",
+     .store = store_text, .others = "implicit-surface isosurface level-set marching-cubes sdf", FIELD(implicit),
+     .loads = true},
+    {"x", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of x that an implicit surface is cut at.",
+     "Two constant expressions. By default the surface is searched for in -4..4, and in -16..16 if it is not closed in "
+     "-4..4 and closed there.",
+     .store = store_text, .others = "x-range box bounds", FIELD(x_range), .loads = true},
+    {"y", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of y.", NULL, .store = store_text,
+     .others = "y-range", FIELD(y_range), .loads = true},
+    {"z", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of z.", NULL, .store = store_text,
+     .others = "z-range", FIELD(z_range), .loads = true},
     {"flip", 0, GROUP_SHAPE, NULL, NULL, "Turn the surface's front and back round.",
-     "The front is the side to which the derivative by u, cross the derivative by v, points; with this option the "
-     "other one.",
+     "The front is the side to which the derivative by u, cross the derivative by v, points, or the gradient of an "
+     "implicit surface; with this option the other one.",
      .store = store_switch, .others = "flip-normals invert-normals", FIELD(flip), .loads = true},
     {"object", 0, GROUP_SHADER, "N", "all", "Only this object of the scene, counted from 0.",
      "One pair of shaders serves a whole scene, unless only some of its objects are two-sided, or only some "

@@ -77,9 +77,9 @@ struct options {
     // Set by `compare`, not by an option: the turns of any picture on its sheet, which all have one camera.
     struct texts sheet_rotations;
     int slices, stacks; // of a built-in shape or a formula; 0: its own
-    // Of the command `shape`, as written: formulas (the model has the name FORMULA_MODEL then), and the ranges of u and v.
-    // NULL: none.
-    const char *parametric, *u_range, *v_range;
+    // Of the command `shape`, as written: a surface over u and v or an implicit one (the model then has the name of the
+    // option), and the ranges of u and v or of x, y and z. NULL: none.
+    const char *parametric, *u_range, *v_range, *implicit, *x_range, *y_range, *z_range;
     bool flip;
     int normals;             // lam_normals
     double crease_angle_deg; // < 0: the library's default
@@ -197,9 +197,6 @@ enum {
 };
 // A command that writes no file of its own: of its groups it accepts all but the options that say where and how one is written.
 #define WRITES_NO_FILE (1u << 31)
-
-// The name of a model that is made from formulas.
-#define FORMULA_MODEL "parametric"
 
 // The background of the sheets of `compare` and `materials`, unless the command line names another.
 #define SHEET_BACKGROUND "white"

@@ -176,7 +176,8 @@ bool page_model_has_option(const struct option *option)
         if (strcmp(option->name, without[i]) == 0)
             return false;
     return option->group == GROUP_PICTURE || option->group == GROUP_MODEL || option->group == GROUP_VIEW ||
-           option->group == GROUP_LIGHTS || option->group == GROUP_MATERIALS || option->group == GROUP_SHADING;
+           option->group == GROUP_LIGHTS || option->group == GROUP_MATERIALS || option->group == GROUP_SHADING ||
+           option->group == GROUP_SHAPE;
 }
 
 struct words {

@@ -2,6 +2,7 @@
 // draw each cell alone.
 #include "sheet.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -235,6 +236,45 @@ static bool choose_mistakes(const char *values, struct sheet *sheet, char **stor
     return ok;
 }
 
+// What a row of pictures shows that differ in the values of an option.
+static void title_of(const char *option, char *title, size_t size)
+{
+    static const struct {
+        const char *option, *title;
+    } rows[] = {{"ao", "ambient occlusion"},
+                {"color-mode", "encodings of colours"},
+                {"cull", "sides of the surface that are left out"},
+                {"environment", "environments"},
+                {"environment-rotation", "turns of the environment"},
+                {"ground", "kinds of ground"},
+                {"hidden-lines", "lines behind surfaces"},
+                {"light", "lights"},
+                {"look", "looks"},
+                {"material", "materials"},
+                {"normals", "sources of the normals"},
+                {"opacity", "opacity"},
+                {"projection", "projections"},
+                {"reflection", "reflection models"},
+                {"reflectivity", "shares of the environment that are mirrored"},
+                {"rig", "sets of lights"},
+                {"samples", "samples per pixel"},
+                {"segments", "numbers of segments"},
+                {"shading", "shading methods"},
+                {"shadow-terminator", "shadows at the terminator"},
+                {"shadows", "with and without shadows"},
+                {"shininess", "exponents of the highlight"},
+                {"show", "terms of the light and numbers of the surface"},
+                {"surfaces", "with and without surfaces"},
+                {"tone", "tone curves"},
+                {"viewer", "places of the eye for highlights"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (strcmp(rows[i].option, option) == 0) {
+            snprintf(title, size, "%s", rows[i].title);
+            return;
+        }
+    snprintf(title, size, "values of --%s", option);
+}
+
 static bool choose_across(const char *across, struct sheet *sheet, char **store, lam_error *error)
 {
     size_t length = strcspn(across, "=");
@@ -266,7 +306,8 @@ static bool choose_across(const char *across, struct sheet *sheet, char **store,
     // Named terms and numbers are those of the model as it is; the five terms are made visible.
     if (row && (all_terms || strcmp(option->name, "show") != 0))
         memcpy(sheet->defaults, row->defaults, sizeof sheet->defaults);
-    snprintf(sheet->title, sizeof sheet->title, "By %s", option->name);
+    title_of(option->name, sheet->title, sizeof sheet->title);
+    *sheet->title = (char)toupper((unsigned char)*sheet->title);
     bool ok = true;
     if (!values) {
         ok = add_words(sheet, *store, option, error);
@@ -295,7 +336,10 @@ static bool cross(const struct sheet *lines, const struct sheet *columns, struct
     *sheet = (struct sheet){.name = "across", .columns = columns->count, .across = true};
     sheet_defaults_merge(sheet, lines);
     sheet_defaults_merge(sheet, columns);
-    snprintf(sheet->title, sizeof sheet->title, "By %.24s and %.24s", lines->name, columns->name);
+    char down[60], across[60];
+    title_of(lines->name, down, sizeof down);
+    title_of(columns->name, across, sizeof across);
+    snprintf(sheet->title, sizeof sheet->title, "Rows: %s; columns: %s", down, across);
     if (lines->count * columns->count > CELLS_MAX)
         return complain(error, LAM_LIMIT, "options '--across': %d times %d pictures, at most %d", lines->count,
                         columns->count, CELLS_MAX);

@@ -22,7 +22,7 @@ struct sheet_default {
 
 struct sheet {
     const char *name;
-    char title[64];
+    char title[160];
     int columns;
     bool inset;  // frame and enlarge the brightest highlight
     bool across; // a row of variants: each picture's words are options with their values

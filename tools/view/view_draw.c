@@ -14,6 +14,7 @@
 #include "device_option.h"
 #include "environment_cache.h"
 #include "explain.h"
+#include "job_check.h"
 #include "kept_model.h"
 #include "page_model.h"
 #include "page_write.h"
@@ -193,7 +194,7 @@ static void tell_model(struct drawer *d, struct job *job, const struct view_word
     lam_error error = {0};
     char *text = NULL, reason[REASON_SIZE];
     size_t size = 0;
-    bool listed = lam_shape_find(w->page_model) < 0 && page_model_list(job, &model, &error);
+    bool listed = !job_model_is_shape(w->page_model) && page_model_list(job, &model, &error);
     FILE *out = open_memstream(&text, &size);
     if (!out)
         _exit(1);

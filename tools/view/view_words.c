@@ -108,14 +108,16 @@ bool view_words_parse(struct view_words *w, const char *text, size_t size, const
     if (!count)
         return complain(error, LAM_BAD_ARGUMENT, "no model given, expected its path");
     w->page_model = w->words[0];
-    int operands = options_parse(count - 1, w->words + 1, command_table[COMMAND_render].groups, out, error);
+    int operands =
+        options_parse(count - 1, w->words + 1, command_table[COMMAND_render].groups | 1u << GROUP_SHAPE, out, error);
     if (operands > 0)
         return complain(error, LAM_BAD_ARGUMENT, "unexpected argument '%.100s', expected one model", w->words[1]);
-    if (operands < 0 || !check(out, error) || !take_environment(w, files, out, error))
+    if (operands < 0 || !check(out, error) || !job_check_formula(w->page_model, out, error) ||
+        !take_environment(w, files, out, error))
         return false;
     take_limits(limits, out);
-    w->model = lam_shape_find(w->page_model) >= 0 ? strdup(w->page_model) : machine_path(files, w->page_model, error);
-    if (!w->model && lam_shape_find(w->page_model) >= 0)
+    w->model = job_model_is_shape(w->page_model) ? strdup(w->page_model) : machine_path(files, w->page_model, error);
+    if (!w->model && job_model_is_shape(w->page_model))
         complain(error, LAM_LIMIT, "out of memory");
     return w->model != NULL;
 }

@@ -60,7 +60,7 @@ static bool start(int count, struct options *options, struct job *job, lam_error
         at += strlen(at) + 1;
     }
     const struct command *render = &command_table[COMMAND_render];
-    int operands = words ? options_parse(count, words, render->groups, options, error) : -1;
+    int operands = words ? options_parse(count, words, render->groups | 1u << GROUP_SHAPE, options, error) : -1;
     if (!words)
         complain(error, LAM_LIMIT, "out of memory");
     else if (operands >= 0 && operands != 1)
@@ -70,7 +70,7 @@ static bool start(int count, struct options *options, struct job *job, lam_error
     free(words);
     if (!options->memory_limit_bytes)
         options->memory_limit_bytes = session.memory_limit_bytes;
-    if (!name || !job_check_options(options, error))
+    if (!name || !job_check_options(options, error) || !job_check_formula(name, options, error))
         return false;
     if (options->turntable || options->sweeps.count)
         return complain(error, LAM_BAD_ARGUMENT,
@@ -315,7 +315,8 @@ void web_options(void)
     json_open(&json, "options", '[');
     for (const struct option *o = option_table; o->name; o++)
         if (o->group == GROUP_PICTURE || o->group == GROUP_MODEL || o->group == GROUP_VIEW ||
-            o->group == GROUP_LIGHTS || o->group == GROUP_MATERIALS || o->group == GROUP_SHADING)
+            o->group == GROUP_LIGHTS || o->group == GROUP_MATERIALS || o->group == GROUP_SHADING ||
+            o->group == GROUP_SHAPE)
             option_json(&json, o);
     json_close(&json, ']');
     json_close(&json, '}');

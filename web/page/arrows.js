@@ -1,4 +1,4 @@
-// arrows.js: n, v, l, r, h of an explained point, and R where the surroundings are mirrored, as arrows over the picture, by the camera that has drawn
+// arrows.js: n, v, l, r, h of an explained point, the tangent t of threads, and R where the surroundings are mirrored, as arrows over the picture, by the camera that has drawn
 // it. They have one length in space, a fifth of the picture's height there: an arrow to the eye is a ring, and the others show how far they lean.
 import { view } from './app.js';
 import { project } from './camera.js';
@@ -10,6 +10,7 @@ const LENGTH = 0.2, place = $('overlay-arrows');
 function vectorsOf(triangle, point, light) {
   const list = [['n', point.n, true], ['v', point.v, true]];
   if (point.environment && point.terms.reflection.some((x) => x !== 0)) list.push(['R', point.environment.R, true]);
+  if (point.t && /\bt,/.test(triangle.formulas.D)) list.push(['t', point.t, true]);
   if (!light) return list;
   const base = triangle.formulas.base ?? '';
   const uses = (name) => base.includes(`·${name}`) || base.includes(`${name}·`) || (triangle.formulas.microfacet && name === 'h');

@@ -19,6 +19,17 @@ function filled(formula, point, light) {
   return /^max\([-\d.e+]+, 0\)$/.test(text) ? text : null;
 }
 
+// The cone of a spot light: its formula, and the numbers in it.
+function coneEquation({ cone, cos_axis: c, spot }) {
+  const cosine = (degrees) => Math.cos((degrees * Math.PI) / 180);
+  if (cone.outer_deg) {
+    const inner = number(cosine(cone.inner_deg)), outer = number(cosine(cone.outer_deg));
+    return [`clamp((c − cos outer) / max(0.001, cos inner − cos outer), 0, 1)²`, `max(min((${number(c)} − ${outer}) / max(0.001, ${inner} − ${outer}), 1), 0)^2`];
+  }
+  if (spot === 0 && cone.cutoff_deg && c < cosine(cone.cutoff_deg)) return [`0: outside of the cone, c = ${number(c)} < cos cutoff = ${number(cosine(cone.cutoff_deg))}`, null];
+  return ['max(c, 0)^ε', `max(${number(c)}, 0)^${number(cone.exponent)}`];
+}
+
 // A light's rows: { name, formula, values, result }. `values` is null where the program gives the number alone.
 export function lightEquations(triangle, point, light) {
   const { formulas } = triangle, rows = [];
@@ -28,7 +39,7 @@ export function lightEquations(triangle, point, light) {
     const window = light.range ? [' · max(min(1 − (d/range)⁴, 1), 0)', ` · max(min(1 − (${d}/${number(light.range)})^4, 1), 0)`] : ['', ''];
     add('attenuation', `1 / (a + b d + c d²)${window[0]}`, `1 / (${a} + ${b} · ${d} + ${c} · ${d}^2)${window[1]}`, light.attenuation);
   }
-  if (light.type === 'spot') add('spot', '', null, light.spot);
+  if (light.type === 'spot') add('spot', ...coneEquation(light), light.spot);
   if (light.occlusion < 1) add('occlusion', '1 − occluded (1 − unoccluded)', null, light.occlusion);
   if (light.casts_shadows) add('passed', '', null, light.passed);
   add('D', formulas.D, filled(formulas.D, point, light), light.D);

@@ -3,14 +3,14 @@ import { call, emit, on, refuse, state, view } from './app.js';
 import { $ } from './dom.js';
 import { droppedFiles } from './dropped.js';
 import { FILES_BYTES } from './memory.js';
-import { START } from './state.js';
+import { FORMULAS, START, withModel } from './state.js';
 import { text } from './strings.js';
 
 const MODELS = /\.(obj|stl|ply|gltf|glb|json)$/i;
 
 function showModels() {
   const own = [...view.files.keys()].filter((path) => MODELS.test(path));
-  const names = [...own, ...view.shapes];
+  const names = [...own, ...view.shapes, ...Object.keys(FORMULAS)];
   if (!names.includes(state.model)) names.unshift(state.model);
   const key = names.join('\n');
   if ($('model').dataset.names !== key) {
@@ -25,7 +25,7 @@ on('ready', showModels);
 // Another model is seen whole: its own view. A file's materials are its own, not those of the first picture.
 function takeModel(name) {
   const own = view.files.has(name) ? START : [];
-  state.set([name, ...state.words.slice(1).filter((word) => !word.startsWith('--camera') && !own.includes(word))]);
+  state.set(withModel(state.words.filter((word, i) => !i || (!word.startsWith('--camera') && !own.includes(word))), name));
 }
 
 async function takeFiles(list) {

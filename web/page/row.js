@@ -1,11 +1,13 @@
 // row.js: a control for an option of the program's table: its name, its value, what it is for.
 import { state } from './app.js';
 import { element, ours } from './dom.js';
-import { State, VIEW } from './state.js';
+import { FORMULAS, State, VIEW, withModel } from './state.js';
 import { text } from './strings.js';
 
-// An angle takes the place of a camera, and a camera that of every angle.
+// An angle takes the place of a camera, and a camera that of every angle. A formula is a model.
 export function setOption(name, values) {
+  if (name in FORMULAS && state.model !== name) return values.length ? state.set(withModel(state.words, name, values[0])) : undefined;
+  if (name in FORMULAS && !values.length) values = [FORMULAS[name]];
   let words = state.withValues(name, values);
   const without = VIEW.includes(name) ? ['camera'] : name === 'camera' ? VIEW : [];
   for (const other of without) words = new State(words).withValues(other, []);

@@ -4,6 +4,16 @@
 // The first picture: one light, and a material with a highlight, so that each term of the sum is seen.
 export const START = ['teapot', '--material=ambient=#12657a,diffuse=#1688a5,specular=0.7,shininess=80', '--light=point:position=0.3r/0.5r/1r', '--ambient=0.3'];
 
+// Models that are formulas: the name of the model and of its option, and the formula that it begins with.
+export const FORMULAS = { parametric: 'a=2; x=(a+cos(v))*cos(u); y=(a+cos(v))*sin(u); z=sin(v)', implicit: 'x^2+y^2+z^2-1' };
+const OF_FORMULAS = [...Object.keys(FORMULAS), 'u', 'v', 'x', 'y', 'z', 'flip'];
+
+// The words with another model, whose formula may be given. Options of formulas belong to the one they were written for.
+export function withModel(words, name, formula = FORMULAS[name]) {
+  const rest = words.slice(1).filter((word) => !OF_FORMULAS.includes(word.slice(2).split('=')[0]));
+  return formula ? [name, `--${name}=${formula}`, ...rest] : [name, ...rest];
+}
+
 // The options that make the view; a camera takes the place of all of them.
 export const VIEW = ['view', 'azimuth', 'elevation', 'zoom', 'projection'];
 
@@ -88,7 +98,7 @@ export function commandWords(words) {
   const model = words[0].replace(/^\//, '');
   // A file that has the name of a shape or a command, or begins as an option does, is named by its folder.
   const named = model !== words[0] && (!/[./]/.test(model) || model.startsWith('-')) ? './' + model : model;
-  return ['lambent', named, ...words.slice(1)].map(quoted);
+  return ['lambent', words[0] in FORMULAS ? 'shape' : named, ...words.slice(1)].map(quoted);
 }
 
 export const command = (words) => commandWords(words).join(' ');

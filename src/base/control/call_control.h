@@ -11,6 +11,8 @@ struct call_control {
     int over_memory;      // set once a request was refused by the budget
     bool unknown_field;   // the control has a field that this version does not know
     double last_share;
+    // Operations of the formulas of a scene file, and how many there may be; 0: any number.
+    uint64_t operations, operation_limit;
 };
 
 // Starts a call. `control` may be NULL.

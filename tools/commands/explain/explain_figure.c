@@ -1,5 +1,5 @@
-// explain_figure.c: the figure of `explain -o`: the vectors n, l, v, r and h as arrows on the surface, the same vectors seen from the
-// side, and tables of the point's coordinates, the vectors, the angles and the terms.
+// explain_figure.c: the figure of `explain -o`: the vectors n, l, v, r and h (of threads t instead of r and h) as arrows on the
+// surface, the same vectors seen from the side, and tables of the point's coordinates, the vectors, the angles and the terms.
 #include "explain_figure.h"
 
 #include <stdio.h>
@@ -8,24 +8,23 @@
 #include "console.h"
 
 enum { INK = 0x222222, GREY = 0x707070, RULE = 0xd8d8d8, WHITE = 0xffffff };
-enum { ARROWS = 5, PANEL = 500, PANEL_HEIGHT = 690, SIDE_HEIGHT = 190 }; // the panel's parts, in units
+enum { ARROWS = 6, PANEL = 500, PANEL_HEIGHT = 690, SIDE_HEIGHT = 190 }; // the panel's parts, in units
 
 // Colours that can be distinguished without red and green too (Okabe and Ito, https://jfly.uni-koeln.de/color/).
 static const struct {
     const char *name, *meaning;
     uint32_t color;
-} arrows[ARROWS] = {{"n", "normal", 0x0072b2},
-                    {"l", "to the light", 0xc98a00},
-                    {"v", "to the eye", 0x007a59},
-                    {"r", "mirrored light", 0xb0558a},
-                    {"h", "between l and v", 0xd55e00}};
+} arrows[ARROWS] = {{"n", "normal", 0x0072b2},          {"l", "to the light", 0xc98a00},
+                    {"v", "to the eye", 0x007a59},      {"r", "mirrored light", 0xb0558a},
+                    {"h", "between l and v", 0xd55e00}, {"t", "tangent", 0x4d4dff}};
 
 // The subject of the figure: the nearest surface of the pixel, the point of it that is lit, and the light that adds most there.
 struct subject {
     const lam_explained_fragment *fragment; // NULL: the background alone
     const lam_explained_point *point;
     const lam_explained_light *light; // NULL: none adds anything
-    lam_vec3 vectors[ARROWS];         // unit; zero: there is none
+    bool threads;                     // lit by the tangent t (Kajiya-Kay): r and h have no part in it
+    lam_vec3 vectors[ARROWS];         // unit; zero: there is none, or it has no part
 };
 
 struct sheet_layout {
@@ -34,6 +33,8 @@ struct sheet_layout {
     double y; // of the next line
 };
 
+static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 static double sum_of(lam_rgb c) { return (double)c.r + (double)c.g + (double)c.b; }
 
 static struct subject find_subject(const lam_explanation *e)
@@ -59,16 +60,18 @@ static struct subject find_subject(const lam_explanation *e)
         s.vectors[0] = s.point->n;
         s.vectors[2] = s.point->v;
     }
-    if (s.light) {
+    s.threads = s.point && !is_zero(s.point->t) && lam_reflection_describe(s.fragment->reflection)->tangents;
+    if (s.threads)
+        s.vectors[5] = s.point->t;
+    if (s.light)
         s.vectors[1] = s.light->l;
+    if (s.light && !s.threads) {
         s.vectors[3] = s.light->r;
         s.vectors[4] = s.light->h;
     }
     return s;
 }
 
-static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 static double length_of(struct point p) { return __builtin_sqrt(p.x * p.x + p.y * p.y); }
 
 // --- arrows
@@ -161,7 +164,7 @@ static bool draw_arrow(const struct diagram *g, int arrow, struct drawing *d, la
 // what points at the reader.
 static bool draw_diagram(const struct diagram *g, struct drawing *d, lam_error *error)
 {
-    static const int order[ARROWS] = {2, 3, 1, 4, 0};
+    static const int order[ARROWS] = {2, 3, 5, 1, 4, 0};
     bool spot = draw_dot(d, g->from, 3.5 * g->unit, WHITE, error);
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; spot && i < ARROWS; i++)
@@ -213,7 +216,8 @@ static bool draw_vectors(const struct explain_figure *f, const struct subject *s
     return draw_diagram(&g, d, error);
 }
 
-// The vectors in the plane of the normal and the light (of n and v where there is no light): the surface is a level line. In the
+// The vectors in the plane of the normal and the light (of n and v without a light): the surface is a level line. Of a thread it
+// is the plane of t and l, and the thread is the level line: the angle between these two is all that the light counts by. In the
 // picture v points at the reader.
 static bool draw_from_the_side(const struct subject *s, const struct sheet_layout *at, struct drawing *d,
                                lam_error *error)
@@ -221,6 +225,14 @@ static bool draw_from_the_side(const struct subject *s, const struct sheet_layou
     double u = at->unit, length = 118 * u;
     struct point foot = {(at->left + at->right) / 2, at->y + 148 * u};
     lam_vec3 n = s->vectors[0], other = is_zero(s->vectors[1]) ? s->vectors[2] : s->vectors[1];
+    if (s->threads) {
+        double along = dot(other, s->point->t);
+        lam_vec3 t = s->point->t, across = {other.x - along * t.x, other.y - along * t.y, other.z - along * t.z};
+        double length_across = __builtin_sqrt(dot(across, across));
+        if (length_across > 1e-4)
+            n = (lam_vec3){across.x / length_across, across.y / length_across, across.z / length_across};
+        other = t;
+    }
     double up = dot(other, n);
     lam_vec3 level = {other.x - up * n.x, other.y - up * n.y, other.z - up * n.z};
     double size = __builtin_sqrt(dot(level, level));
@@ -333,7 +345,10 @@ static bool put_vectors(const struct subject *s, struct drawing *d, struct sheet
     double angles[3] = {s->light->theta_rad * degrees, s->light->phi_rad * degrees, s->light->psi_rad * degrees};
     static const char *const names[3] = {"θ(n, l)", "φ(r, v)", "ψ(n, h)"};
     text[0] = 0;
-    for (int i = 0; i < 3; i++)
+    if (s->threads)
+        snprintf(text, sizeof text, "cos(t, l) = %.5g, cos(t, v) = %.5g", dot(s->point->t, s->light->l),
+                 dot(s->point->t, s->point->v));
+    for (int i = 0; !s->threads && i < 3; i++)
         if (angles[i] - angles[i] == 0)
             snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s = %.4g°", *text ? ", " : "", names[i],
                      angles[i]);
@@ -400,8 +415,9 @@ static void put_words(const struct explain_figure *f, const struct subject *s, s
     if (!s->light)
         snprintf(text, sizeof text, "no light adds anything here");
     else
-        snprintf(text, sizeof text, "l, r and h: %s light%s%.60s%s%s", lam_light_type_describe(s->light->type)->word,
-                 name ? " '" : "", name ? name : "", name ? "'" : "", adding > 1 ? ", the strongest here" : "");
+        snprintf(text, sizeof text, "%s: %s light%s%.60s%s%s", s->threads ? "l" : "l, r and h",
+                 lam_light_type_describe(s->light->type)->word, name ? " '" : "", name ? name : "", name ? "'" : "",
+                 adding > 1 ? ", the strongest here" : "");
     if (s->point->corner >= 0)
         snprintf(text + strlen(text), sizeof text - strlen(text), "; at corner %d, which is lit", s->point->corner);
     put(d, at, 0, ALIGN_LEFT, GREY, text);
@@ -443,6 +459,10 @@ static bool describe(const struct explain_figure *f, const struct subject *s, co
     if (s->light)
         used += snprintf(text + used, sizeof text - (size_t)used,
                          ", and the direction to the light l is (%.3g, %.3g, %.3g)", l.x, l.y, l.z);
+    if (s->threads)
+        used +=
+            snprintf(text + used, sizeof text - (size_t)used, ", and the tangent t of the thread is (%.3g, %.3g, %.3g)",
+                     s->vectors[5].x, s->vectors[5].y, s->vectors[5].z);
     lam_rgb sum = s->point->sum;
     snprintf(text + used, sizeof text - (size_t)used,
              ". The terms' sum is (%.3g, %.3g, %.3g), and the pixel is %u %u %u with alpha %u.", (double)sum.r,

@@ -43,7 +43,28 @@ static void matrix(struct json *json, const char *key, lam_rgb ambient, lam_rgb 
 
 static bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
-static void write_light(struct json *json, const lam_explained_light *l)
+// The cone of a spot light, or null.
+static void write_cone(struct json *json, const lam_light *light)
+{
+    if (light->type != LAM_LIGHT_SPOT) {
+        json_none(json, "cone");
+        return;
+    }
+    json_open(json, "cone", '{');
+    if (light->outer_rad > 0) {
+        degrees(json, "inner_deg", (double)light->inner_rad);
+        degrees(json, "outer_deg", (double)light->outer_rad);
+    } else {
+        if (light->cutoff_rad > 0 && (double)light->cutoff_rad < 3.14159)
+            degrees(json, "cutoff_deg", (double)light->cutoff_rad);
+        else
+            json_none(json, "cutoff_deg");
+        real(json, "exponent", light->exponent);
+    }
+    json_close(json, '}');
+}
+
+static void write_light(struct json *json, const lam_explained_light *l, const lam_light *given)
 {
     json_open(json, NULL, '{');
     index_of(json, "light", l->light);
@@ -72,6 +93,7 @@ static void write_light(struct json *json, const lam_explained_light *l)
         json_none(json, "range");
     real(json, "attenuation", l->attenuation);
     real(json, "cos_axis", l->cos_axis);
+    write_cone(json, given);
     real(json, "spot", l->spot);
     json_flag(json, "casts_shadows", l->casts_shadows);
     color(json, "passed", l->passed);
@@ -135,7 +157,7 @@ static void write_layers(struct json *json, const lam_explained_layers *layers)
     json_close(json, '}');
 }
 
-static void write_point(struct json *json, const lam_explained_point *p)
+static void write_point(struct json *json, const lam_explanation *e, const lam_explained_point *p)
 {
     json_open(json, NULL, '{');
     index_of(json, "corner", p->corner);
@@ -155,7 +177,7 @@ static void write_point(struct json *json, const lam_explained_point *p)
     write_layers(json, p->layers);
     json_open(json, "lights", '[');
     for (int i = 0; i < p->light_count; i++)
-        write_light(json, &p->lights[i]);
+        write_light(json, &p->lights[i], &e->lights[i]);
     json_close(json, ']');
     json_open(json, "hemispheres", '[');
     for (int i = 0; i < p->hemisphere_count; i++) {
@@ -253,13 +275,28 @@ static void write_maps(struct json *json, const lam_explained_fragment *f)
     json_close(json, '}');
 }
 
-// The corners and the point in each space, or null.
+static void write_rows(struct json *json, const char *key, const double *numbers, int size)
+{
+    json_open(json, key, '[');
+    for (int row = 0; row < size; row++)
+        json_numbers(json, NULL, numbers + row * size, size);
+    json_close(json, ']');
+}
+
+// The matrices, and the corners and the point in each space; or null.
 static void write_places(struct json *json, const lam_explained_fragment *f)
 {
-    if (!f->places) {
+    if (!f->places || !f->matrices) {
+        json_none(json, "matrices");
         json_none(json, "places");
         return;
     }
+    json_open(json, "matrices", '{');
+    write_rows(json, "model_view", &f->matrices->model_view.m[0][0], 4);
+    write_rows(json, "projection", &f->matrices->projection.m[0][0], 4);
+    write_rows(json, "normal", &f->matrices->normal[0][0], 3);
+    json_close(json, '}');
+    json_flag(json, "face_normal", f->face_normal);
     static const char *const names[] = {"corner 0", "corner 1", "corner 2", "point"};
     json_open(json, "places", '[');
     for (int i = 0; i < 4; i++) {
@@ -271,6 +308,8 @@ static void write_places(struct json *json, const lam_explained_fragment *f)
         json_numbers(json, "clip", p->clip, 4);
         json_numbers(json, "ndc", p->ndc, 3);
         json_numbers(json, "window", p->window, 3);
+        if (i < 3 && !f->face_normal)
+            json_vector(json, "normal", p->normal);
         json_close(json, '}');
     }
     json_close(json, ']');
@@ -290,7 +329,7 @@ static void write_formulas(struct json *json, const lam_explained_fragment *f)
     json_close(json, '}');
 }
 
-static void write_fragment(struct json *json, const lam_explained_fragment *f)
+static void write_fragment(struct json *json, const lam_explanation *e, const lam_explained_fragment *f)
 {
     const lam_material *m = &f->surface;
     json_open(json, NULL, '{');
@@ -328,7 +367,7 @@ static void write_fragment(struct json *json, const lam_explained_fragment *f)
     write_maps(json, f);
     json_open(json, "points", '[');
     for (int i = 0; i < f->point_count; i++)
-        write_point(json, &f->points[i]);
+        write_point(json, e, &f->points[i]);
     json_close(json, ']');
     if (f->ground)
         json_text(json, "ground", lam_ground_name(f->ground));
@@ -357,7 +396,7 @@ void explain_json(FILE *file, const lam_explanation *e, const char *model)
     json_text(&json, "viewer", e->distant_viewer ? "infinite" : "local");
     json_open(&json, "triangles", '[');
     for (int i = 0; i < e->fragment_count; i++)
-        write_fragment(&json, &e->fragments[i]);
+        write_fragment(&json, e, &e->fragments[i]);
     json_close(&json, ']');
     color4(&json, "sum", e->sum);
     color4(&json, "background", e->background);

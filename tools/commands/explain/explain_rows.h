@@ -14,6 +14,9 @@ void row_angle(const char *name, double radians, const char *remark); // in degr
 
 static inline bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
+// The matrices, and a triangle's corners and the point in each space (explain_places.c). Nothing of lines and points.
+void explain_places(const lam_explanation *explanation, const lam_explained_fragment *fragment);
+
 // The layers of a physical material (explain_layers.c): those that hold for light from everywhere; what they return of light
 // 1 from one direction; what each part of the surface returns of environment light.
 // `explain_layers_over` writes the factors of what lies over the base, "(1 − share) · left · ", of those that are there.

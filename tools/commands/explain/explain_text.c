@@ -2,6 +2,7 @@
 // them are in docs/lighting.md).
 #include "explain.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -102,6 +103,33 @@ static void product(char text[200], const lam_explained_light *l, const char *wh
                  (double)l->passed.b);
 }
 
+// How the factor of a spot light comes about, by OpenGL's cone or glTF's (lam_light).
+static void print_cone(const lam_explained_light *l, const lam_light *given)
+{
+    const double c = (double)l->cos_axis, exponent = (double)given->exponent;
+    char remark[200];
+    row_number(4, "c", c, "(−l)·axis");
+    if (given->outer_rad > 0) {
+        const double inner = cos((double)given->inner_rad), outer = cos((double)given->outer_rad);
+        row_number(4, "cos inner", inner, "of the half angle up to which the light is even");
+        row_number(4, "cos outer", outer, "of the half angle at which it ends");
+        snprintf(remark, sizeof remark, "%sclamp((c − cos outer) / max(0.001, cos inner − cos outer), 0, 1)²",
+                 l->spot > 0 ? "" : "outside of the cone, c ≤ cos outer: ");
+    } else {
+        const bool edge = given->cutoff_rad > 0 && (double)given->cutoff_rad < 3.14159;
+        row_number(4, "exponent ε", exponent, "");
+        if (edge)
+            row_number(4, "cos cutoff", cos((double)given->cutoff_rad), "of the cone's half angle");
+        if (l->spot > 0)
+            snprintf(remark, sizeof remark, "c^ε = %.7g^%.7g", c, exponent);
+        else if (edge && c < cos((double)given->cutoff_rad))
+            snprintf(remark, sizeof remark, "outside of the cone: c < cos cutoff");
+        else
+            snprintf(remark, sizeof remark, "max(c, 0)^ε");
+    }
+    row_number(4, "spot", (double)l->spot, remark);
+}
+
 static void print_light(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
                         const lam_explained_light *l, int number_in_list)
 {
@@ -126,10 +154,8 @@ static void print_light(const lam_explanation *e, const lam_explained_fragment *
     row_angle("φ", l->phi_rad, "between r and v");
     row_angle("ψ", l->psi_rad, "between n and h");
     print_attenuation(l);
-    if (l->type == LAM_LIGHT_SPOT) {
-        row_number(4, "c", (double)l->cos_axis, "(−l)·axis");
-        row_number(4, "spot", (double)l->spot, "the cone's factor");
-    }
+    if (l->type == LAM_LIGHT_SPOT)
+        print_cone(l, &e->lights[number_in_list]);
     print_shadow(l);
     if (l->occlusion < 1)
         row_number(4, "occlusion", (double)l->occlusion, "1 − occluded (1 − unoccluded)");
@@ -193,6 +219,8 @@ static void print_lights(const lam_explanation *e, const lam_explained_fragment 
 
 // --- a point and a triangle
 
+static bool same(lam_vec3 a, lam_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
 static void print_point(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
 {
     if (p->corner >= 0)
@@ -200,7 +228,14 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
     row_vector(2, "position in the mesh", p->mesh_position, "model units");
     row_vector(2, "position in the world", p->world_position, "");
     row_vector(2, "position in eye space", p->position, "");
-    row_vector(2, "n", p->n, f->flipped ? "reversed: the back is visible" : "");
+    const bool bent = f->values && !same(f->values->mesh_normal, p->n);
+    row_vector(2, "n", p->n,
+               f->flipped       ? "reversed: the back is visible"
+               : bent           ? "bent by a map"
+               : f->face_normal ? "the triangle's"
+               : p->corner >= 0 ? "the corner's"
+               : f->corners < 3 ? ""
+                                : "Σ weight · n of the corners, normalised");
     row_vector(2, "v", p->v, e->distant_viewer ? "to the eye, infinitely far" : "to the eye");
     if (!is_zero(p->t) && lam_reflection_describe(f->reflection)->tangents)
         row_vector(2, "t", p->t, "along the threads");
@@ -278,12 +313,23 @@ static const char *field_label(const lam_field *field, char text[64])
     return text;
 }
 
+static bool differs(const lam_field *field, const double numbers[4])
+{
+    int count = field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA ? 3 : 1;
+    for (int i = 0; i < count; i++)
+        if ((float)numbers[i] != (float)field->standard[i])
+            return true;
+    return false;
+}
+
 static void print_color(const lam_explanation *e, const lam_field *field, const lam_material *m)
 {
     double numbers[4];
     char text[64];
     bool mirrored = field->offset == offsetof(lam_material, reflectivity);
-    if (lam_field_get(field, m, numbers) > 1 && (e->has_environment || !mirrored))
+    // Of the fields that only physical materials use those at their defaults say nothing.
+    bool known = field->symbol || field->offset == offsetof(lam_material, emission);
+    if (lam_field_get(field, m, numbers) > 1 && (e->has_environment || !mirrored) && (known || differs(field, numbers)))
         row_three(4, field_label(field, text), numbers[0], numbers[1], numbers[2], "");
 }
 
@@ -297,7 +343,7 @@ static void print_number(const lam_explained_fragment *f, const lam_field *field
     if (field->offset == offsetof(lam_material, shininess))
         row_number(4, field_label(field, text), (double)f->shininess,
                    f->shininess == m->shininess ? "" : "as changed by the options");
-    else if (numbers[0] != field->standard[0])
+    else if (differs(field, numbers))
         row_number(4, field_label(field, text), numbers[0], field->unit ? field->unit : "");
 }
 
@@ -373,38 +419,6 @@ static void print_values(const lam_explained_fragment *f)
     printf("\n");
 }
 
-// The corners and the point in each space on their way to the window.
-static void print_places(const lam_explained_fragment *f)
-{
-    static const char *const names[] = {"corner 0", "corner 1", "corner 2", "the point"};
-    if (!f->places)
-        return;
-    printf("\n");
-    row_label(2, "on the way to the window");
-    printf("%13s %13s %13s %13s\n", "x", "y", "z", "w");
-    for (int i = 0; i < 4; i++) {
-        const lam_explained_place *p = &f->places[i];
-        printf("  %s\n", names[i]);
-        row_vector(4, "object", p->mesh_position, "");
-        row_vector(4, "eye", p->eye_position, i ? "" : "model-view matrix · object");
-        row_label(4, "clip");
-        printf("%13.7g %13.7g %13.7g %13.7g%s\n", p->clip[0] + 0.0, p->clip[1] + 0.0, p->clip[2] + 0.0,
-               p->clip[3] + 0.0, i ? "" : "   projection · eye");
-        if (!(p->clip[3] > 0)) {
-            row_label(4, "NDC, window");
-            printf("%13s   behind the eye: w ≤ 0\n", "none");
-            continue;
-        }
-        row_three(4, "NDC", p->ndc[0], p->ndc[1], p->ndc[2], i ? "" : "clip ÷ w");
-        row_three(4, "window", p->window[0], p->window[1], p->window[2],
-                  i ? "" : "pixels from the lower left; depth 0…1");
-    }
-    if (f->winding - f->winding == 0)
-        row_number(2, "winding", f->winding,
-                   f->winding > 0 ? "counter-clockwise; (x3−x2)(y1−y2) − (y3−y2)(x1−x2) in the window"
-                                  : "clockwise; (x3−x2)(y1−y2) − (y3−y2)(x1−x2) in the window");
-}
-
 static void print_fragment(const lam_explanation *e, const lam_explained_fragment *f)
 {
     char name[32];
@@ -436,7 +450,7 @@ static void print_fragment(const lam_explanation *e, const lam_explained_fragmen
         printf("pixels from the top left: sample %d, since the centre is outside the triangle\n", f->lit_sample);
     row_three(2, "weights of the corners", (double)f->weights[0], (double)f->weights[1], (double)f->weights[2],
               "barycentric, perspective-correct");
-    print_places(f);
+    explain_places(e, f);
     print_material(e, f);
     print_values(f);
     for (int i = 0; i < f->point_count; i++)

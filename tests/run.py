@@ -24,7 +24,7 @@ OUT = os.path.join(ROOT, "build-test")
 # Each variant is another build of the same tree. "only" names the tests for which it matters.
 VARIANTS = [
     {"name": "gcc-release", "cc": "gcc", "options": ["--buildtype=release"]},
-    {"name": "clang-sanitized", "cc": "clang", "options": ["--buildtype=debugoptimized", "-Db_sanitize=address,undefined",
+    {"name": "clang-sanitized", "cc": "clang", "options": ["--buildtype=debugoptimized", "-Doptimization=1", "-Dc_args=-g1", "-Db_sanitize=address,undefined",
                                                           "-Db_lundef=false"]},
     {"name": "gcc-debug", "cc": "gcc", "options": ["--buildtype=debug"], "only": ["images", "lighting-widths", "shapes"]},
     {"name": "clang-release", "cc": "clang", "options": ["--buildtype=release"], "only": ["images", "lighting-widths", "shapes"]},

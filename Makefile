@@ -9,7 +9,7 @@ MAKEFLAGS += --no-print-directory
 # looks there. The compiler knows the folder too; it prints nothing where there is none.
 folders  = --prefix=$(prefix) $$(gcc -print-multiarch 2>/dev/null | sed 's:.:--libdir=lib/&:')
 
-.PHONY: all demo web site test test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall clean help
+.PHONY: all demo web site test test-more test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall clean help
 
 all: $(build)/lambent
 
@@ -18,7 +18,8 @@ help:
 	@echo 'make demo       builds and renders the Utah teapot to out/demo.png'
 	@echo 'make web        builds the WebAssembly module and the page, in build-web/'
 	@echo 'make site       writes README and docs/ as pages, in build-site/; figures open in the Lab'
-	@echo 'make test       builds with both compilers, and with sanitizers, and runs the tests of every day (docs/testing.md)'
+	@echo 'make test       builds with gcc, and with clang and sanitizers, and runs the tests of every change (docs/testing.md)'
+	@echo 'make test-more  what continuous integration runs besides: clang, threads, the page in a browser, larger shares of tables'
 	@echo 'make test-long  the rest: whole tables, all with sanitizers, kills, 20,000 pictures, other processors under qemu, a Slurm'
 	@echo 'make test-gl    the tests of OpenGL alone; names the driver that they ran on'
 	@echo 'make test-debian13  make demo and make test on a fresh Debian 13 root, in build-debian13/ (needs root)'
@@ -57,9 +58,13 @@ site: $(build)/lambent web
 
 test:
 	@scripts/setup.sh build test
+	@python3 tests/run.py
+
+test-more:
+	@scripts/setup.sh build test
 	@scripts/setup.sh web browser || true # optional: what is missing is skipped
 	@command -v npm >/dev/null || scripts/setup.sh npm || true
-	@python3 tests/run.py
+	@python3 tests/run.py more
 
 test-gl:
 	@scripts/setup.sh build test

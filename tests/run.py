@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
-"""run.py [VARIANT …]: the whole test suite: builds with both compilers, in release and debug, with sanitizers, runs every test,
-counts. `run.py gl` runs only what needs OpenGL, and names the drivers that it ran on; `run.py long` what takes too long for every day:
-Meson's suite "long".
+"""run.py [more|long|gl] [VARIANT …]: builds Lambent, runs its tests and counts them. Without a word these are the tests of every
+change: the suite without a name in tests/meson.build. `more` runs the suite "more", `long` both "more" and "long", `gl` what needs OpenGL,
+and names the drivers that it ran on.
 
-Everything is built in build-test/. The tests of all variants share one pool of as many processes as there are processors; those that
-Meson knows as not parallel run alone, at the end. What a test printed is in build-test/VARIANT/tests/NAME.txt, and what each took in
-build-test/tests.json. The last line is `N passed, N failed`, counted from the test programs' own output; before it stands the processor
-time of all tests, which says more than the time by the clock where other programs run too (CONTRIBUTING.md has its bound).
+Everything is built in build-test/, and only what the tests need. The tests of all variants share one pool of as many processes as
+there are processors; those that Meson knows as not parallel run alone, at the end. What a test printed is in
+build-test/VARIANT/tests/NAME.txt, and what each took in build-test/tests.json. The last line is `N passed, N failed`, counted from the
+test programs' own output; before it stand the durations. Tests that take more than 5 s of processor time are listed.
 """
 import concurrent.futures
 import json
 import os
 import re
+import resource
 import signal
 import subprocess
 import sys
@@ -21,23 +22,21 @@ import time
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 OUT = os.path.join(ROOT, "build-test")
 
-# Each variant is another build of the same tree. "only" names the tests for which it matters.
+# Each variant is another build of the same tree. "only" names the tests for which it matters, "suites" the words with which it runs.
 VARIANTS = [
-    {"name": "gcc-release", "cc": "gcc", "options": ["--buildtype=release"]},
-    {"name": "clang-sanitized", "cc": "clang", "options": ["--buildtype=debugoptimized", "-Doptimization=1", "-Dc_args=-g1", "-Db_sanitize=address,undefined",
-                                                          "-Db_lundef=false"]},
-    {"name": "gcc-debug", "cc": "gcc", "options": ["--buildtype=debug"], "only": ["images", "lighting-widths", "shapes"]},
-    {"name": "clang-release", "cc": "clang", "options": ["--buildtype=release"], "only": ["images", "lighting-widths", "shapes"]},
-    {"name": "clang-threads", "cc": "clang", "options": ["--buildtype=debugoptimized", "-Db_sanitize=thread",
-                                                        "-Db_lundef=false"], "only": ["device", "obj", "obj-large", "ply", "stl"]},
+    {"name": "gcc-release", "cc": "gcc", "options": ["--buildtype=release"], "suites": ["now", "more", "long"]},
+    {"name": "clang-sanitized", "cc": "clang", "options": ["--buildtype=debugoptimized", "-Doptimization=1", "-Dc_args=-g1",
+                                                          "-Db_sanitize=address,undefined", "-Db_lundef=false"], "suites": ["now", "more", "long"]},
+    {"name": "clang-release", "cc": "clang", "options": ["--buildtype=release"], "suites": ["more", "long"], "only": ["images", "lighting-widths", "shapes"]},
+    {"name": "clang-threads", "cc": "clang", "options": ["--buildtype=debugoptimized", "-Db_sanitize=thread", "-Db_lundef=false"],
+     "suites": ["more", "long"], "only": ["device", "obj", "obj-large", "ply", "stl"]},
+    {"name": "gcc-debug", "cc": "gcc", "options": ["--buildtype=debug"], "suites": ["long"], "only": ["images", "lighting-widths", "shapes"]},
 ]
+SUITES = {"now": [""], "more": ["more"], "long": ["more", "long"]} # which suites of tests/meson.build a word runs
 
 # Not part of the whole suite: the same tests alone. Lines that match "tell" are printed.
 GL = {**VARIANTS[0], "env": {"LAMBENT_LONG": "1"}, "tell": r"^gl .*OpenGL.*|.*farthest off.*|^the mask: .*",
       "only": ["gl-context", "gl-classic", "gl-device", "gl-caller", "gl-state", "gl-parity", "glsl"]}
-
-# Not part of it either: tests/meson.build marks these tests with suite: 'long'.
-LONG = [{**variant, "long": True} for variant in VARIANTS[:2]]
 
 ENVIRONMENT = {
     # A sanitizer's report fails its test. Following the storage that OpenGL's libraries have for each
@@ -59,15 +58,29 @@ def run(command, **more):
     return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **more)
 
 
-def build(variant):
-    """Configures if needed and builds; returns an error text or None."""
+def introspect(variant, what):
+    done = subprocess.run(["meson", "introspect", "--" + what, os.path.join(OUT, variant["name"])], stdout=subprocess.PIPE, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def configure(variant):
+    """Returns an error text or None."""
     folder = os.path.join(OUT, variant["name"])
-    if not os.path.exists(os.path.join(folder, "build.ninja")):
-        done = run(["meson", "setup", folder, ROOT, "-Dtests=true"] + variant["options"], env={**os.environ, "CC": variant["cc"]})
-        if done.returncode:
-            return done.stdout
-    # If only some tests run, only they are built: the other variants have compiled the rest.
-    done = run(["ninja", "-C", folder] + ["tests/test-" + name for name in variant.get("only", [])])
+    if os.path.exists(os.path.join(folder, "build.ninja")):
+        done = run(["ninja", "-C", folder, "build.ninja"]) # what Meson says of tests is of its last look at meson.build
+        return done.stdout if done.returncode else None
+    done = run(["meson", "setup", folder, ROOT, "-Dtests=true"] + variant["options"], env={**os.environ, "CC": variant["cc"]})
+    return done.stdout if done.returncode else None
+
+
+def build(variant, tests):
+    """Builds what the tests run, and all that is installed if they are not chosen by name; returns an error text or None."""
+    folder = os.path.join(OUT, variant["name"])
+    wanted = {test["cmd"][0] for test in tests}.union(*(test["depends"] for test in tests))
+    files = [file for target in introspect(variant, "targets")
+             if target["id"] in wanted or (target["installed"] and "only" not in variant) or wanted.intersection(target["filename"])
+             for file in target["filename"]]
+    done = run(["ninja", "-C", folder] + sorted({os.path.relpath(file, folder) for file in files}))
     warnings = [line for line in done.stdout.splitlines() if "warning:" in line]
     if done.returncode:
         return done.stdout
@@ -84,14 +97,14 @@ def count(output, end):
     return passed, len(failures), skipped, failures
 
 
-def tests_of(variant):
+def tests_of(variant, suites):
     """What Meson knows of the variant's tests that are to run."""
-    done = subprocess.run(["meson", "introspect", "--tests", os.path.join(OUT, variant["name"])], stdout=subprocess.PIPE, text=True, check=True)
-    found = [test for test in json.loads(done.stdout) if any(suite.endswith(":long") for suite in test["suite"]) == variant.get("long", False)]
-    names = [test["name"] for test in found]
-    for name in variant.get("only", []):
-        assert name in names, "%s has no test '%s'" % (variant["name"], name)
-    return [dict(test, variant=variant) for test in found if test["name"] in variant.get("only", names)]
+    found, names = introspect(variant, "tests"), variant.get("only")
+    for name in names or []:
+        assert name in [test["name"] for test in found], "%s has no test '%s'" % (variant["name"], name)
+    if names: # in whichever suite: other variants run the rest
+        return [dict(test, variant=variant) for test in found if test["name"] in names]
+    return [dict(test, variant=variant) for test in found if (test["suite"][0].partition(":")[2] if test["suite"] else "") in suites]
 
 
 def end_of(status, late):
@@ -173,27 +186,31 @@ def minutes(seconds):
 
 def main():
     signal.signal(signal.SIGINT, signal.default_int_handler) # background jobs of a shell ignore it, and so would the tests
-    names = sys.argv[1:]
-    variants = {"gl": [GL], "long": LONG}.get(names[0] if len(names) == 1 else None)
-    variants = variants or [variant for variant in VARIANTS if not names or variant["name"] in names]
+    words = sys.argv[1:]
+    word = words.pop(0) if words and words[0] in ("more", "long", "gl") else "now"
     known = [variant["name"] for variant in VARIANTS]
-    if any(name not in known for name in names) and names not in (["gl"], ["long"]):
-        sys.exit("run.py: expected gl, long, or some of: " + " ".join(known))
-    tests, totals = [], [0, 0, 0]
+    if any(name not in known for name in words):
+        sys.exit("run.py: expected more, long or gl, then some of: " + " ".join(known))
+    variants = [GL] if word == "gl" else [variant for variant in VARIANTS if (variant["name"] in words if words else word in variant["suites"])]
+    tests, totals, begin = [], [0, 0, 0], time.time()
     for variant in variants:
-        start = time.time()
+        start, before = time.time(), resource.getrusage(resource.RUSAGE_CHILDREN)
         print("%s: building" % variant["name"], flush=True)
-        problem = build(variant)
+        problem = configure(variant)
+        if not problem:
+            chosen = tests_of(variant, SUITES.get(word))
+            problem = build(variant, chosen)
+            tests += chosen
         if problem:
             print(problem[-6000:])
             print("%s: a build that fails or warns counts as 1 failed" % variant["name"])
             totals[1] += 1  # a broken build and a warning both fail
-        print("%s: built in %.0f s" % (variant["name"], time.time() - start), flush=True)
-        tests += tests_of(variant)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        print("%s: built in %s, %.0f s of processor time" % (variant["name"], minutes(time.time() - start), after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime), flush=True)
     start = time.time()
     done, printed = run_tests(tests)
     wall = time.time() - start
-    with open(os.path.join(OUT, "tests.json"), "w") as out:
+    with open(os.path.join(OUT, "tests%s.json" % ("" if word == "now" else "-" + word)), "w") as out:
         json.dump([{"variant": test["variant"]["name"], "test": test["name"], "passed": counts[0], "failed": counts[1], "skipped": counts[2],
                     "processor_s": round(processor, 2), "wall_s": round(wall, 2)} for test, counts, processor, wall in done], out, indent=0)
     for variant in variants:
@@ -201,11 +218,16 @@ def main():
         sums = [sum(counts[i] for counts, _ in rows) for i in range(3)]
         totals = [a + b for a, b in zip(totals, sums)]
         print("%s: %d passed, %d failed, %d skipped, %.0f s of processor time" % (variant["name"], *sums, sum(processor for _, processor in rows)))
-    if GL in variants and not printed:
+    if word == "gl" and not printed:
         print("OpenGL was not found: `lambent devices` says why")
     if totals[2]:
         print("%d skipped: they say why in build-test/VARIANT/tests/" % totals[2])
+    slow = sorted(((processor, test) for test, _, processor, _ in done if processor > 5), key=lambda row: -row[0])
+    if slow:
+        print("more than 5 s of processor time: " + ", ".join("%s %s %.0f s" % (test["variant"]["name"], test["name"], processor) for processor, test in slow))
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
     print("tests took %.0f s of processor time, %s" % (sum(processor for _, _, processor, _ in done), minutes(wall)))
+    print("with the builds: %.0f s of processor time, %s" % (used.ru_utime + used.ru_stime, minutes(time.time() - begin)))
     print("%d passed, %d failed" % (totals[0], totals[1]))
     return 1 if totals[1] or not totals[0] else 0
 

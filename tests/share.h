@@ -1,5 +1,6 @@
-// share.h: how much of a large table of cases a test goes through. `make test` takes a share, in which each row and each
-// column of the table still occurs; the tests `long-…` of `make test-long` go through all of it (LAMBENT_LONG is set there).
+// share.h: how much of a large table of cases a test covers. `make test` takes a share, in which each row and each column of the
+// table still occurs; the tests `more-…` of `make test-more` take a larger one (LAMBENT_MORE is set there), and `long-…` of
+// `make test-long` the whole table (LAMBENT_LONG).
 #ifndef SHARE_H
 #define SHARE_H
 
@@ -8,6 +9,9 @@
 
 // True where the whole table is gone through.
 static inline bool is_long(void) { return getenv("LAMBENT_LONG") != NULL; }
+
+// True in `make test-more` and `make test-long`.
+static inline bool is_more(void) { return is_long() || getenv("LAMBENT_MORE") != NULL; }
 
 // Whether a case is taken: every n-th, or each. `number` is the case's own; for a table of several dimensions the sum of its
 // indices, so that no value of an index is left out.

@@ -518,7 +518,7 @@ int main(int argc, char **argv)
     struct CMUnitTest *tests = calloc((size_t)demo_count + 1, sizeof *tests);
     size_t count = 0;
     for (int i = 0; i < demo_count; i++) {
-        bool wanted = argc < 2;
+        bool wanted = argc < 2 && (is_more() || is_taken((size_t)i, 3));
         for (int k = 1; k < argc; k++)
             wanted |= strcmp(argv[k], demos[i].name) == 0;
         if (wanted)

@@ -35,7 +35,7 @@ struct side {
     struct light_rays *rays; // NULL: no light casts shadows
 };
 
-// Where the shadow rays of LANES vertices start: at the vertices, which no triangle there can shadow.
+// Where the shadow rays of LANES vertices start: at the vertices, where no triangle can shadow them.
 struct vertex_rays {
     _Alignas(64) double origin[3][LANES];
     int32_t own[LANES];
@@ -113,8 +113,9 @@ LANE_FN void pass_light(const struct side *side, const struct frame_light *l, co
     unsigned active = mask_bits(wanted);
     if (!active)
         return;
-    trace_light(side->rays, (const double *const[3]){rays->origin[0], rays->origin[1], rays->origin[2]}, rays->own,
-                rays->turn, l, active, passed);
+    const double *const o[3] = {rays->origin[0], rays->origin[1], rays->origin[2]};
+    struct ray_starts starts = {{o[0], o[1], o[2]}, {o[0], o[1], o[2]}, rays->own, rays->turn};
+    trace_light(side->rays, &starts, l, active, passed);
     num one = num_of(1.0f), red = pick(wanted, num_load(passed[0]), one);
     if (!side->frame->tints_rays) {
         t->attenuation = t->attenuation * red;

@@ -722,6 +722,8 @@ const struct demo_row demos[] = {
      layers_uniform},
     {"layers-environment", "the same in a studio", layers_environment},
     {"layers-gouraud", "the same lit at the vertices", layers_gouraud},
+    {"layers-leaning", "normals that face away from the eye: neither metals nor layers have holes there",
+     layers_leaning},
     {"layers-transmission", "coloured glass over a box, a background and other glass; a volume that tints",
      layers_transmission},
     {"textured-layers-environment", "every map of the layers in a studio, lit at the vertices",

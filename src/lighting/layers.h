@@ -319,10 +319,11 @@ FN vec3 layered_mix(layered m, vec3 dielectric, vec3 metal)
 
 // The light of one direction:
 //     base   = (1 - metallic) ((1 - max F_d) (1 - max f0_d) (1 - transmission) n.l, F_d S) + metallic F_m S
-//              without the second factor unless the material is one of specular and glossiness
+//              without the second factor unless the material is one of specular and glossiness; S is that of `lobe`, a
+//              microfacet model's, unless it is stretched
 //     sheen  = sheen_color S_s + base min(1 - max sheen_color E(n.v), 1 - max sheen_color E(n.l))
 //     coated = clearcoat F(n_c.v) S_c + (1 - clearcoat F(n_c.v)) sheen
-FN layered_value layered_light(surface s, layered m, vec3 l, int set)
+FN layered_value layered_light(surface s, layered m, vec3 l, lobe_value lobe, int set)
 {
     layered_value r;
     vec3 sum = add3(l, s.v);
@@ -331,8 +332,7 @@ FN layered_value layered_light(surface s, layered m, vec3 l, int set)
     vec3 dielectric = layered_dielectric(m, v_dot_h, weight, set);
     vec3 metal = layered_metal(m, v_dot_h, weight, set);
     num lambert = positive(cosine(dot3(s.n, l)));
-    lobe_sample b = ggx_lobe(s, l, m.roughness);
-    num strength = pick(b.lit, b.base, num_of(0.0f));
+    num strength = lobe.specular;
     if ((set & LAYER_ANISOTROPY) != 0) {
         strength = stretched_lobe(s, l, m);
     }

@@ -343,16 +343,18 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 //                 LOBE_TANGENT     it reads the surface's tangent
 //                 LOBE_BACKLIT     light from behind (n.l < 0) counts
 //                 LOBE_BACKLIT_FIBRE   it counts where the material is a fibre
+//                 LOBE_MIRRORED    Lambert's lobe with phong_base, r.v
+//                 LOBE_HALFWAY     Lambert's lobe with the base n.h (halfway_of), which needs four times the exponent
 //     the word, a one-line summary, the formula of D, the formula of the highlight's base ("": none)
 // clang-format off
 #define LOBES(X) \
     X(LAMBERT, lambert_lobe(s, l), 0, \
       "lambert", "ambient and diffuse light, no highlight", \
       "max(n·l, 0)", "") \
-    X(PHONG, phong_lobe(s, l), LOBE_HIGHLIGHT, \
+    X(PHONG, phong_lobe(s, l), LOBE_HIGHLIGHT | LOBE_MIRRORED, \
       "phong", "the highlight around the mirrored light", \
       "max(n·l, 0)", "max(r·v, 0)") \
-    X(BLINN_PHONG, blinn_phong_lobe(s, l), LOBE_HIGHLIGHT, \
+    X(BLINN_PHONG, blinn_phong_lobe(s, l), LOBE_HIGHLIGHT | LOBE_HALFWAY, \
       "blinn-phong", "the highlight by the half vector", \
       "max(n·l, 0)", "max(n·h, 0)") \
     X(KAJIYA_KAY, kajiya_kay_lobe(s, l, m.fibre), LOBE_HIGHLIGHT | LOBE_TANGENT | LOBE_BACKLIT_FIBRE, \
@@ -369,7 +371,15 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
       "max(n·l, 0) (1 − F)", "π D V max(n·l, 0)")
 // clang-format on
 
-enum { LOBE_HIGHLIGHT = 1, LOBE_TANGENT = 2, LOBE_BACKLIT = 4, LOBE_BACKLIT_FIBRE = 8, LOBE_MICROFACET = 16 };
+enum {
+    LOBE_HIGHLIGHT = 1,
+    LOBE_TANGENT = 2,
+    LOBE_BACKLIT = 4,
+    LOBE_BACKLIT_FIBRE = 8,
+    LOBE_MICROFACET = 16,
+    LOBE_MIRRORED = 32,
+    LOBE_HALFWAY = 64
+};
 
 STRUCT(lobe_parameters){
 #define MEMBER(name) num name;

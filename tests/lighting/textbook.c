@@ -241,7 +241,8 @@ void textbook_environment(int viewer, const float in[INPUTS], double out[ENVIRON
     vector v = viewer == VIEWER_INFINITE ? (vector){0, 0, 1} : normalize(times(-1, p));
     vector l = normalize(minus(take(in + IN_POSITION), p)), h = normalize(plus(l, v));
     double roughness = (double)in[IN_PARAMETERS + 3], metallic = (double)in[IN_PARAMETERS + 4];
-    double n_v = fabs(inner(n, v)), whole = tabulated(albedos, n_v, roughness), bias = tabulated(biases, n_v, roughness);
+    double n_v = fabs(inner(n, v)), whole = tabulated(albedos, n_v, roughness),
+           bias = tabulated(biases, n_v, roughness);
     double grazing = pow(1 - limit(inner(v, h), 0, 1), 5);
     *n_dot_v = n_v;
     for (int i = 0; i < 3; i++) {

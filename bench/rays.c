@@ -96,7 +96,7 @@ static void make_rays(const struct hierarchy *h, const double light[3])
         to[1] = fabs(to[1]);
         for (int k = 0; k < 3; k++) {
             double p = origin[k] + (nearest < 1e8 ? nearest : 0) * d[k];
-            a->origin[k][lane] = b->origin[k][lane] = p;
+            a->origin[k][lane] = a->point[k][lane] = b->origin[k][lane] = b->point[k][lane] = p;
             a->direction[k][lane] = light[k] - p;
             b->direction[k][lane] = to[k];
         }

@@ -81,6 +81,39 @@ bool layers_mapped_environment(struct demo *d, lam_error *error)
     return textured_layers(d, error) && textured_surround(d, "studio", 0, error);
 }
 
+// Squares that face the eye, whose normals lean: those at the left of each face away from it, and are lit from there. A metal,
+// a brushed one, sheen, a coat.
+bool layers_leaning(struct demo *d, lam_error *error)
+{
+    static const float positions[] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+    static const float normals[] = {-1, 0, -0.5f, -0.2f, 0, 1, -0.2f, 0, 1, -1, 0.3f, -0.5f};
+    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
+    lam_mesh mesh = {.positions = positions,
+                     .vertex_count = 4,
+                     .normals = normals,
+                     .normal_count = 4,
+                     .indices = indices,
+                     .triangle_count = 2};
+    lam_material m[SPHERES];
+    lam_object o = lam_object_default();
+    make_materials(m);
+    m[5].iridescence = 0;
+    m[5].roughness = 0.6f;
+    m[7].metallic = 1;
+    o.mesh = lam_scene_add_mesh(d->scene, &mesh, error);
+    bool ok = o.mesh >= 0;
+    for (int i = 0; ok && i < 4; i++) {
+        static const int of[4] = {5, 4, 3, 7};
+        o.material = lam_scene_add_material(d->scene, &m[of[i]], error);
+        o.transform.m[0][3] = 2.2 * i;
+        ok = o.material >= 0 && lam_scene_add_object(d->scene, &o, error) >= 0;
+    }
+    lam_light light = lam_light_default(LAM_LIGHT_DIRECTIONAL);
+    light.direction = (lam_vec3){1, 0.1, -0.3};
+    d->camera = lam_camera_fit(d->scene, d->width, d->height, NULL);
+    return ok && lam_scene_add_light(d->scene, &light, error) >= 0;
+}
+
 // Coloured glass in front of a white box and of one another, over a background; the last ball is tinted by its volume.
 bool layers_transmission(struct demo *d, lam_error *error)
 {

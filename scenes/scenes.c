@@ -618,6 +618,33 @@ static bool shadows_gouraud(struct demo *d, lam_error *error)
     return shadowed(d, 0, error);
 }
 
+// A turned box, each side of which consists of three triangles that overlap. Its corners are rounded to floats, so that no
+// three of them lie exactly in one plane.
+static bool shadows_coplanar(struct demo *d, lam_error *error)
+{
+    float corners[8][3];
+    uint32_t indices[54], *next = indices;
+    lam_mat4 turn = lam_mat4_rotation((lam_vec3){1, 2, 3}, 0.7);
+    for (uint32_t c = 0; c < 8; c++)
+        for (int i = 0; i < 3; i++)
+            corners[c][i] = (float)(turn.m[i][0] * (c & 1 ? 1 : -1) + turn.m[i][1] * (c & 2 ? 1 : -1) +
+                                    turn.m[i][2] * (c & 4 ? 1 : -1));
+    for (uint32_t side = 0; side < 6; side++) {
+        uint32_t k = side / 2, low = side % 2 << k, u = 1u << (k + 1) % 3, v = 1u << (k + 2) % 3;
+        uint32_t quad[4] = {low, low | (low ? u : v), low | u | v, low | (low ? v : u)};
+        for (int i = 0; i < 9; i++)
+            *next++ = quad["012023130"[i] - '0'];
+    }
+    lam_mesh mesh = {.positions = corners[0], .vertex_count = 8, .indices = indices, .triangle_count = 18};
+    int grey = material(d, (lam_rgba){0.7f, 0.7f, 0.68f, 1}, 0, 1, error);
+    d->params.shadows = true;
+    bool ok = put(d, lam_scene_add_mesh(d->scene, &mesh, error), grey, error) &&
+              light(d, LAM_LIGHT_DIRECTIONAL, (lam_vec3){0, 0, 0}, (lam_vec3){-1, -2, -1}, 0.7f, 0, error) &&
+              light(d, LAM_LIGHT_POINT, (lam_vec3){-1, 3, 4}, (lam_vec3){0, 0, 0}, 0.3f, 0, error);
+    fit(d);
+    return ok;
+}
+
 static bool on_ground(struct demo *d, lam_ground kind, lam_error *error)
 {
     bool ok = one_shape(d, "torus-knot", 80, 10, error);
@@ -686,6 +713,7 @@ const struct demo_row demos[] = {
     {"shadows", "a ball, a box and a knot: hard shadows of a directional, a point and a spot light", shadows_hard},
     {"shadows-soft", "the same lights with a size", shadows_soft},
     {"shadows-leaves", "the leaves again: light falls through holes, and in part through glass", textured_shadows},
+    {"shadows-coplanar", "a box whose sides are overlapping triangles: no side shadows itself", shadows_coplanar},
     {"shadows-gouraud", "the same, lit at the vertices", shadows_gouraud},
     {"occlusion-rays", "the things of the shadows under light from all around, occluded by rays", occlusion_rays},
     {"ground-shadow", "a ground that catches a soft shadow and occlusion, over nothing", ground_shadow},
@@ -694,6 +722,8 @@ const struct demo_row demos[] = {
      layers_uniform},
     {"layers-environment", "the same in a studio", layers_environment},
     {"layers-gouraud", "the same lit at the vertices", layers_gouraud},
+    {"layers-leaning", "normals that face away from the eye: neither metals nor layers have holes there",
+     layers_leaning},
     {"layers-transmission", "coloured glass over a box, a background and other glass; a volume that tints",
      layers_transmission},
     {"textured-layers-environment", "every map of the layers in a studio, lit at the vertices",

@@ -17,6 +17,7 @@ bool layers_uniform(struct demo *d, lam_error *error);
 bool layers_gouraud(struct demo *d, lam_error *error);
 bool layers_environment(struct demo *d, lam_error *error);
 bool layers_mapped_environment(struct demo *d, lam_error *error);
+bool layers_leaning(struct demo *d, lam_error *error);
 bool layers_transmission(struct demo *d, lam_error *error);
 
 // Sets the built-in environment `name`, turned about y.

@@ -4,7 +4,7 @@
 Two rules hold the house together (docs/architecture.md): files never depend on one another in a circle, in the library or in
 the program; and a room of the library uses no room below it in the list. The include paths of the build keep headers to that
 order; this test keeps function calls to it. A third keeps the way through the house: a file that a page or a comment names
-is there."""
+is there. A fourth keeps reflection models replaceable: what is asked of a lobe is asked of its row in src/lighting/lobes.h."""
 import collections
 import glob
 import os
@@ -121,10 +121,24 @@ def missing_files():
                 yield from ((file, name) for name in BARE.findall(line.split("//", 1)[1]) if name not in known | ELSEWHERE)
 
 
+NAMED_LOBE = re.compile(r"[!=]= *LAM_REFLECTION_(?!NONE\b|AUTO\b)\w+")
+STYLES = ("check/", "glsl/lecture.")  # programs of courses: which model they print, or which of its known mistakes
+
+
+def lobes_asked_by_name():
+    """(file, comparison) for each reflection model that the library compares by its name."""
+    src = os.path.join(ROOT, "src")
+    for path, _, names in os.walk(src):
+        for name in sorted(names):
+            file = os.path.relpath(os.path.join(path, name), src)
+            if file.endswith((".c", ".h", ".inc")) and not file.startswith(STYLES):
+                yield from ((file, found) for found in NAMED_LOBE.findall(open(os.path.join(src, file), encoding="utf-8").read()))
+
+
 def main():
     edges, order = graph(sys.argv[1]), rooms()
     bad = 0
-    print("1..3")
+    print("1..4")
     found = circles(edges)
     print("%s 1 - no circle between files" % ("not ok" if found else "ok"))
     for part in found:
@@ -145,6 +159,11 @@ def main():
     for file, name in absent:
         bad += 1
         print("#   %s names %s" % (file, name))
+    named = list(lobes_asked_by_name())
+    print("%s 4 - what is asked of a lobe is asked of its row" % ("not ok" if named else "ok"))
+    for file, comparison in named:
+        bad += 1
+        print("#   src/%s: %s" % (file, comparison))
     if not edges:
         print("# no objects were found in %s" % sys.argv[1])
     return 1 if bad or not edges else 0

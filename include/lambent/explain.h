@@ -98,7 +98,7 @@ typedef struct lam_explained_hemisphere {
 typedef struct lam_explained_layers {
     lam_rgb dielectric_f0, metal_f0; // of the base, along the normal
     float matt;                      // (1 − transmission) (1 − specular_glossiness max f0)
-    float sheen_left;                // 1 − max(sheen_color) E(n·v); 1: no sheen
+    float sheen_left;                // 1 − max(sheen_color) E(|n·v|); 1: no sheen
     lam_vec3 coat_normal;            // n_c, unit, eye space; zero: no coat
     float coat;                      // its share, clearcoat (0.04 + 0.96 (1 − |n_c·v|)⁵)
     lam_rgb transmittance;           // factor of the light behind; black: none goes through

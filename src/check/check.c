@@ -134,11 +134,12 @@ static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
     r->tolerance = p->tolerance > 0 ? p->tolerance : 2.0 / 255;
     if (!read_shaders(r, error))
         return false;
+    const lam_reflection_info *printed = lam_reflection_describe(r->interface.printed_model);
     r->frame = p->light_frame == LAM_FRAME_WORLD ? r->interface.light_frame : p->light_frame;
-    r->reflection = p->reflection != LAM_REFLECTION_AUTO ? p->reflection
-                    : r->interface.physical              ? LAM_REFLECTION_GGX
-                    : is_printed(r)                      ? r->interface.printed_model
-                                                         : r->interface.contract->reflection;
+    r->reflection = p->reflection != LAM_REFLECTION_AUTO            ? p->reflection
+                    : r->interface.physical && !printed->microfacet ? LAM_REFLECTION_GGX
+                    : is_printed(r)                                 ? r->interface.printed_model
+                                                                    : r->interface.contract->reflection;
     if (r->interface.physical && p->reflection != LAM_REFLECTION_AUTO)
         return fail(error, LAM_BAD_ARGUMENT,
                     "check: the shader has metalness and roughness, whose highlight is not a matter of choice; leave "

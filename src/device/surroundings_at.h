@@ -54,7 +54,7 @@ LANE_FN surroundings surroundings_at(const struct frame *frame, const struct env
 {
     surroundings e;
     vec3 n = to_environment_axes(frame, s.n), r = to_environment_axes(frame, mirror3(s.v, s.n));
-    num n_dot_v = dot3(s.n, s.v);
+    num n_dot_v = eye_cosine(s);
     e.irradiance = cube_gathered(&light->irradiance, n);
     e.prefiltered = prefiltered_gathered(light, prefilter_level(roughness), r);
     e.albedo = single_scattering(n_dot_v, roughness);

@@ -74,7 +74,7 @@ static void set_ray(struct ray_lanes *ray, int lane, const struct edge_view *vie
     for (int i = 0; i < 3; i++) {
         double p = ((1 - share) * line->over_w[0][i] + share * line->over_w[1][i]) * w;
         double d = view->frame->orthographic ? view->eye[i] : view->eye[i] - p;
-        ray->origin[i][lane] = p;
+        ray->origin[i][lane] = ray->point[i][lane] = p;
         ray->direction[i][lane] = d;
         depth += view->near_[i] * p;
         toward -= view->near_[i] * d;

@@ -23,6 +23,9 @@ struct frame_draw {
     float tangent[3][3]; // mesh directions to eye space, up to a positive factor
     // With rays only: mesh positions to world space, mesh normals to world space up to a positive factor.
     double world[3][4], world_normal[3][3];
+    // With rays only: how far along each axis of the world a vertex may be from where its file means it, if the numbers there
+    // are right to one unit in the last place of a float: 2⁻²³ Σ_j |world_ij| max |x_j|.
+    double rounding[3];
     bool mirrored; // the transform reverses the winding
     bool one_sided;
     // The mesh consists of the rectangles of lines or points (frame_strokes.h): made for this frame, in eye space. They are no

@@ -31,7 +31,7 @@ static lam_material converted(const lam_material *material, lam_reflection model
     if (frame_is_physical(model))
         return lam_material_as_physical(material);
     lam_material classic = lam_material_as_classic(material);
-    if (model == LAM_REFLECTION_PHONG) // Phong's highlight at α/4 looks like Blinn and Phong's at α
+    if (lobe_properties((int)model) & LOBE_MIRRORED) // its highlight at α/4 looks like that of the half vector at α
         classic.shininess /= 4;
     return classic;
 }
@@ -146,7 +146,7 @@ float frame_lobe_max(const lam_material *material)
 float frame_shininess(const struct frame *frame, const lam_material *material)
 {
     float shininess = material->shininess;
-    if (frame->match_highlights && frame_reflection(frame, material) == LAM_REFLECTION_BLINN_PHONG)
+    if (frame->match_highlights && lobe_properties((int)frame_reflection(frame, material)) & LOBE_HALFWAY)
         shininess *= 4;
     return frame->gl1 && shininess > 128 ? 128 : shininess;
 }

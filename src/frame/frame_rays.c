@@ -5,6 +5,18 @@
 
 #include <string.h>
 
+static void find_rounding(struct frame_draw *draw, const lam_scene *scene)
+{
+    const struct scene_extent *extent = scene_extent(scene, scene_object(scene, draw->object)->mesh);
+    const double *o = draw->mesh->origin, low[3] = {extent->minimum.x, extent->minimum.y, extent->minimum.z},
+                 high[3] = {extent->maximum.x, extent->maximum.y, extent->maximum.z};
+    for (int j = 0; j < 3; j++) {
+        double largest = o[j] - low[j] > high[j] - o[j] ? o[j] - low[j] : high[j] - o[j];
+        for (int i = 0; i < 3; i++)
+            draw->rounding[i] += 0x1p-23 * __builtin_fabs(draw->world[i][j]) * largest;
+    }
+}
+
 static void place_draw(struct frame_draw *draw, const lam_scene *scene, const lam_mat4 *eye_to_world)
 {
     const double *origin = draw->mesh->origin;
@@ -25,6 +37,8 @@ static void place_draw(struct frame_draw *draw, const lam_scene *scene, const la
         for (int j = 0; j < 3; j++)
             draw->world_normal[i][j] = cofactors[i][j] * scale;
     }
+    if (frame_draw_casts(draw))
+        find_rounding(draw, scene);
 }
 
 // The matrix from a light's frame to world space (frame.c has found the object).

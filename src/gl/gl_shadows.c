@@ -169,6 +169,8 @@ void shadows_use(struct gl_frame *f, struct gl_program *program)
     program_set(f, program, UNIFORM_SHADOW_PLACES, places, 4);
     float samples[4] = {(float)f->frame->shadow_samples, (float)h->scale, (float)f->left, (float)f->top};
     program_set(f, program, UNIFORM_SHADOW_SAMPLES, samples, 4);
+    float rounding[4] = {(float)h->rounding[0], (float)h->rounding[1], (float)h->rounding[2], 0};
+    program_set(f, program, UNIFORM_SHADOW_ROUNDING, rounding, 4);
 }
 
 void shadows_free(struct gl_device *device)

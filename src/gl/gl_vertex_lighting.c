@@ -35,7 +35,7 @@ struct side {
     struct light_rays *rays; // NULL: no light casts shadows
 };
 
-// Where the shadow rays of LANES vertices start: at the vertices, which no triangle there can shadow.
+// Where the shadow rays of LANES vertices start: at the vertices, where no triangle can shadow them.
 struct vertex_rays {
     _Alignas(64) double origin[3][LANES];
     int32_t own[LANES];
@@ -113,8 +113,9 @@ LANE_FN void pass_light(const struct side *side, const struct frame_light *l, co
     unsigned active = mask_bits(wanted);
     if (!active)
         return;
-    trace_light(side->rays, (const double *const[3]){rays->origin[0], rays->origin[1], rays->origin[2]}, rays->own,
-                rays->turn, l, active, passed);
+    const double *const o[3] = {rays->origin[0], rays->origin[1], rays->origin[2]};
+    struct ray_starts starts = {{o[0], o[1], o[2]}, {o[0], o[1], o[2]}, rays->own, rays->turn};
+    trace_light(side->rays, &starts, l, active, passed);
     num one = num_of(1.0f), red = pick(wanted, num_load(passed[0]), one);
     if (!side->frame->tints_rays) {
         t->attenuation = t->attenuation * red;
@@ -156,7 +157,8 @@ LANE_FN terms layered_terms(const struct side *side, const struct vertex_rays *r
         light_source light;
         light_sample t = sample_of(side, l, s, &light, &sum);
         pass_light(side, l, rays, true, s, &t, &light);
-        sum = add_layered(sum, light, t, layered_light(s, y, t.l, set));
+        lobe_value lobe = reflect_light(s, t.l, lobe_parameters_of(m, 0), (int)side->reflection);
+        sum = add_layered(sum, light, t, layered_light(s, y, t.l, lobe, set));
     }
     sum = cover_terms(sum, y, set);
     if (side->environment_light) {
@@ -193,7 +195,7 @@ LANE_FN terms evaluate_terms(const struct side *side, const struct vertex_rays *
         sum = add_hemisphere(
             sum, s, (hemisphere){of3(h->up), product3(&m->ambient.r, h->sky), product3(&m->ambient.r, h->ground)});
     }
-    if (model == LAM_REFLECTION_GGX && frame_layers(frame, m))
+    if (frame_is_physical(side->reflection) && frame_layers(frame, m))
         return layered_terms(side, rays, s, color, sign, sum, around);
     num gain = frame->single_scattering || !(lobe_properties(model) & LOBE_MICROFACET)
                    ? num_of(0.0f)
@@ -278,7 +280,7 @@ LANE_FN surface surface_of(const struct side *side, const struct mesh_vertex *fr
     s.n = unit3(side->flip ? negate3(n) : n);
     s.v = to_eye(s.p, frame->distant_viewer ? VIEWER_INFINITE : VIEWER_LOCAL);
     s.t = black3();
-    bool stretched = side->reflection == LAM_REFLECTION_GGX && material_layers(side->material) & LAYER_ANISOTROPY;
+    bool stretched = frame_is_physical(side->reflection) && material_layers(side->material) & LAYER_ANISOTROPY;
     if (lobe_properties((int)side->reflection) & LOBE_TANGENT || stretched || frame->output == LAM_OUTPUT_TANGENTS)
         s.t = perpendicular3(
             side->mesh->tangents ? unit3(turn(side->draw->tangent, load3(from, 10))) : field_tangent(side, s.n), s.n);

@@ -70,7 +70,9 @@ static void add_groups(struct text *text, const struct glsl_facts *f)
                        c->storage == GLSL_TEXTURE ? "list_texel(light_list, i * 4)" : "lights[i].position",
                        f->tangent || f->layers ? "1.0" : "dot3(s.n, t.l)", kind_words[group->kind]);
         if (f->layers) {
-            text_add(text, "        sum = add_layered(sum, light, t, layered_light(s, layering, t.l, 0));\n");
+            text_add(text, "        sum = add_layered(sum, light, t, layered_light(s, layering, t.l, ");
+            glsl_add_lobe(text, f);
+            text_add(text, ", 0));\n");
         } else {
             if (f->microfacet)
                 text_add(text, "        light = with_fresnel(light, mirror, s.v, t.l);\n");

@@ -4,6 +4,9 @@
 // Longer than 600 lines: one text that reads maps, built from the rows of its table.
 #include "glsl_rows.h"
 
+#define LANES 1
+#include "lighting.h"
+
 #include "texture_map.h"
 
 #include <stdio.h>
@@ -177,7 +180,7 @@ static bool reads(const struct glsl_facts *f, int side, lam_map map)
     if (f->output_material)
         return (!f->late && material_reads(f, side, map)) ||
                (f->value_masks && (map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY));
-    bool sums = f->adds_lights, surface = f->lit && !f->unlit;
+    bool sums = f->adds_lights, lit = f->lit && !f->unlit;
     switch (map) {
     case LAM_MAP_DIFFUSE:
     case LAM_MAP_OPACITY:
@@ -186,7 +189,7 @@ static bool reads(const struct glsl_facts *f, int side, lam_map map)
         return sums || (f->application && !f->output_vector);
     case LAM_MAP_NORMAL:
     case LAM_MAP_BUMP: // GLSL 120 has no textureSize
-        return surface && (f->lights || f->hemispheres || f->environment || f->output_vector) &&
+        return lit && (f->lights || f->hemispheres || f->environment || f->output_vector) &&
                (map == LAM_MAP_NORMAL || f->choices->version != GLSL_120);
     case LAM_MAP_SHININESS:
         return sums && f->highlights && !f->microfacet;
@@ -478,7 +481,7 @@ static void add_opacity(struct text *text, const struct glsl_facts *f, int side)
 // The numbers of a metallic-roughness material under a classic model (lam_material_as_classic).
 static void add_conversion(struct text *text, const struct glsl_facts *f, int side)
 {
-    bool phong = f->choices->reflection == LAM_REFLECTION_PHONG;
+    bool mirrored = lobe_properties((int)f->choices->reflection) & LOBE_MIRRORED;
     if (!has_member(f, SHININESS) || !has_member(f, SPECULAR))
         return;
     text_add(text, "    float slope = maps.roughness * maps.roughness;\n"
@@ -489,7 +492,7 @@ static void add_conversion(struct text *text, const struct glsl_facts *f, int si
     text_print(text,
                "    maps.specular = mix3(vec3(DIELECTRIC_F0), base, maps.metallic) * ((exponent + 8.0) * 0.125);\n"
                "    maps.shininess = exponent%s;\n",
-               phong ? " * 0.25" : "");
+               mirrored ? " * 0.25" : "");
 }
 
 // The normal of a map of normals, beside tangent, bitangent and the mesh's own.

@@ -32,7 +32,7 @@ struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_dr
     c.output = frame->output;
     c.distant_viewer = frame->distant_viewer;
     c.gl1 = frame->gl1;
-    c.single_scattering = range->reflection == LAM_REFLECTION_GGX && frame->single_scattering;
+    c.single_scattering = frame_is_physical(range->reflection) && frame->single_scattering;
     c.two_sided = !draw->one_sided;
     c.back_material = c.two_sided && range->back != range->front;
     c.colors = draw->mesh->colors != NULL;

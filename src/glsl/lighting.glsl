@@ -85,7 +85,7 @@ vec3 prefiltered_color(vec3 d, float level)
 surroundings surroundings_of(surface s, float roughness)
 {
     surroundings e;
-    float n_dot_v = dot3(s.n, s.v);
+    float n_dot_v = eye_cosine(s);
     e.irradiance = level_color(int(PREFILTERED_LAST) + 1, cube_point(environment_matrix * s.n));
     e.prefiltered = prefiltered_color(mirror3(s.v, s.n), prefilter_level(roughness));
     e.albedo = single_scattering(n_dot_v, roughness);

@@ -4,6 +4,7 @@
 uniform sampler2D shadow_tree; // nodes of the hierarchy, its triangles, and the place of each triangle by its number
 uniform mat4 shadow_matrix;    // eye space to the hierarchy's, where all triangles lie within -1...1
 uniform vec4 shadow_places;    // first texel of the triangles, and of the places; 1: the terminator is cured
+uniform vec4 shadow_rounding;  // hierarchy.rounding: how far a corner may have been moved, along each axis
 uniform vec4 shadow_samples;   // rays to a light with a radius; world units to the hierarchy's; the picture's pixel at the target's corner
 
 int lit_triangle = 0; // number in the frame of the triangle that the fragment shows, or that has the vertex
@@ -11,6 +12,7 @@ int lit_triangle = 0; // number in the frame of the triangle that the fragment s
 int lit_corner = 0; // of its corners that which is lit
 //@end
 vec3 ray_origin;
+vec3 ray_point; // of the surface that rays leave: their origin, unless that was moved off the surface
 float ray_twin; // of the triangle that rays start on; -1: they start at a vertex
 //@if from_vertices
 uvec2 ray_turn; // of the pattern: the vertex's element
@@ -31,6 +33,7 @@ void start_rays(vec3 p, int number, float side)
     int at = triangle_texel(number);
     bool apart = tree_texel(at + 1).w > 1.5; // a line or a point: in no ray's way, and not among the triangles
     ray_origin = apart ? (shadow_matrix * vec4(p, 1.0)).xyz : tree_texel(at + lit_corner).xyz;
+    ray_point = ray_origin;
     ray_twin = -1.0;
     ray_turn = uvec2(uint(tree_texel(at + 3 + lit_corner).w), 0u);
 }
@@ -50,6 +53,7 @@ void start_rays(vec3 p, int number, float side)
     vec4 c = tree_texel(at + 2);
     vec3 eye = (shadow_matrix * vec4(p, 1.0)).xyz;
     ray_origin = eye;
+    ray_point = eye;
     ray_twin = a.w;
     if (b.w > 1.5) { // a line, a point or the ground: in no ray's way
         return;
@@ -67,6 +71,7 @@ void start_rays(vec3 p, int number, float side)
     b1 = b1 / total;
     b2 = b2 / total;
     ray_origin = a.xyz + (e1 * b1 + e2 * b2);
+    ray_point = ray_origin;
     if (b.w > 0.5 && shadow_places.z > 0.5) {
         vec3 moved = moved_by(ray_origin, a.xyz, side * tree_texel(at + 3).xyz, 1.0 - b1 - b2)
                    + moved_by(ray_origin, b.xyz, side * tree_texel(at + 4).xyz, b1)
@@ -194,6 +199,17 @@ float edge_weight(vec2 a, vec2 b)
     return swapped ? -w : w;
 }
 
+// Whether ray_point lies in the plane of a triangle with these corners, as far as rounding allows to tell: through_points of
+// ray_lanes.h with the roundings of float, 2^-21 of the corners and of the point, and 2^-21 for 8 ulp of the determinant.
+bool through_point(vec3 a, vec3 b, vec3 c)
+{
+    vec3 u = (b - a).yzx * (c - a).zxy;
+    vec3 v = (b - a).zxy * (c - a).yzx;
+    vec3 q = a - ray_point;
+    vec3 moved = shadow_rounding.xyz + 4.8e-7 * max(max(abs(a), abs(b)), max(abs(c), abs(ray_point)));
+    return abs(dot(u - v, q)) <= 2.0 * dot(abs(u - v), moved) + 4.8e-7 * dot(abs(u) + abs(v), abs(q));
+}
+
 // The light that passes a triangle which may be in the way of the ray from ray_origin along d, whose component k is the largest.
 @passed@ passed_triangle(int at, vec3 d, int k, float end)
 {
@@ -203,9 +219,10 @@ float edge_weight(vec2 a, vec2 b)
     }
     int i = k == 2 ? 0 : k + 1;
     int j = k == 0 ? 2 : k - 1;
-    vec3 a = corner.xyz - ray_origin;
-    vec3 b = tree_texel(at + 1).xyz - ray_origin;
+    vec4 second = tree_texel(at + 1);
     vec4 last = tree_texel(at + 2);
+    vec3 a = corner.xyz - ray_origin;
+    vec3 b = second.xyz - ray_origin;
     vec3 c = last.xyz - ray_origin;
     vec2 slope = vec2(d[i], d[j]) / d[k];
     vec2 p = vec2(a[i], a[j]) - slope * a[k];
@@ -219,7 +236,7 @@ float edge_weight(vec2 a, vec2 b)
         return @passed@(1.0);
     }
     float t = (u * a[k] + v * b[k] + w * c[k]) / (d[k] * det);
-    if (!(t > 0.0 && t < end)) {
+    if (!(t > 0.0 && t < end) || through_point(corner.xyz, second.xyz, last.xyz)) {
         return @passed@(1.0);
     }
 //@if passes_rays

@@ -143,7 +143,7 @@ FN vec3 film_reflectance(vec3 f0, num film_ior, num thickness, num c)
 
 // Burley's GGX with two roughnesses, along t and b, as KHR_materials_anisotropy has it:
 //     D = 1 / (pi at ab ((h.t)^2 / at^2 + (h.b)^2 / ab^2 + (h.n)^2)^2)
-//     V = 1 / (2 (n.l |(at v.t, ab v.b, v.n)| + n.v |(at l.t, ab l.b, l.n)|))
+//     V = 1 / (2 (n.l |(at v.t, ab v.b, v.n)| + |n.v| |(at l.t, ab l.b, l.n)|))
 // S as in ggx_lobe.
 FN num stretched_root(vec3 w, vec3 n, layered m)
 {
@@ -156,22 +156,21 @@ FN num stretched_root(vec3 w, vec3 n, layered m)
 FN num stretched_lobe(surface s, vec3 l, layered m)
 {
     num n_dot_l = positive(dot3(s.n, l));
-    num n_dot_v = dot3(s.n, s.v);
     vec3 sum = add3(l, s.v);
     num square = dot3(sum, sum);
     num t = dot3(sum, m.stretch) * m.alpha_b;
     num b = dot3(sum, m.across) * m.alpha_t;
     num along = dot3(sum, s.n) * (m.alpha_t * m.alpha_b);
     num spread = square * (m.alpha_t * m.alpha_b) / max_of(t * t + b * b + along * along, num_of(1.0e-30f));
-    num shadow = n_dot_l * stretched_root(s.v, s.n, m) + n_dot_v * stretched_root(l, s.n, m);
+    num shadow = n_dot_l * stretched_root(s.v, s.n, m) + eye_cosine(s) * stretched_root(l, s.n, m);
     num value = 0.5f * spread * spread * (m.alpha_t * m.alpha_b) * n_dot_l / max_of(shadow, num_of(1.0e-30f));
-    return pick(both(both(n_dot_l > 0.0f, n_dot_v > 0.0f), square > 0.0f), value, num_of(0.0f));
+    return pick(both(both(n_dot_l > 0.0f, present(s.v)), square > 0.0f), value, num_of(0.0f));
 }
 
 // Conty and Kulla (2017): fibres that stand up from the surface, with a spread of alpha = roughness^2 and s = |n x h|:
 //     S = pi D V n.l
 //     D = (2 + 1/alpha) s^(1/alpha) / (2 pi)
-//     V = 1 / (4 n.l n.v (1 + L(n.v) + L(n.l)))
+//     V = 1 / (4 n.l |n.v| (1 + L(|n.v|) + L(n.l)))
 // L is their fit of the shadows that fibres throw on fibres.
 FN num sheen_fit(num x, num alpha)
 {
@@ -196,15 +195,15 @@ FN num sheen_lobe(surface s, vec3 l, num roughness)
     num rough = max_of(roughness, num_of(ROUGHNESS_MIN));
     num alpha = rough * rough;
     num n_dot_l = cosine(dot3(s.n, l));
-    num n_dot_v = cosine(dot3(s.n, s.v));
+    num n_dot_v = eye_cosine(s);
     vec3 sum = add3(l, s.v);
     vec3 across = cross3(s.n, sum);
     num square = dot3(sum, sum);
     num sine_square = min_of(dot3(across, across) / max_of(square, num_of(1.0e-30f)), num_of(1.0f));
     num spread = (2.0f + 1.0f / alpha) * unit_power(sine_square, 0.5f / alpha);
-    num shadow = 1.0f + sheen_shadow(positive(n_dot_v), alpha) + sheen_shadow(positive(n_dot_l), alpha);
+    num shadow = 1.0f + sheen_shadow(n_dot_v, alpha) + sheen_shadow(positive(n_dot_l), alpha);
     num value = spread / (8.0f * max_of(n_dot_v, num_of(1.0e-4f)) * shadow);
-    return pick(both(both(n_dot_l > 0.0f, n_dot_v > 0.0f), square > 0.0f), value, num_of(0.0f));
+    return pick(both(both(n_dot_l > 0.0f, present(s.v)), square > 0.0f), value, num_of(0.0f));
 }
 
 // The share of light from everywhere that the sheen returns: the integral of S over all l, divided by pi.
@@ -230,7 +229,7 @@ FN num mean_roughness(num roughness, num anisotropy)
 FN layered layered_of(surface s, layer_values m, int scattering, int set)
 {
     layered y;
-    num n_dot_v = dot3(s.n, s.v);
+    num n_dot_v = eye_cosine(s);
     y.dielectric = grey3(num_of(DIELECTRIC_F0));
     y.grazing = num_of(1.0f);
     if ((set & LAYER_DIELECTRIC) != 0) {
@@ -320,10 +319,11 @@ FN vec3 layered_mix(layered m, vec3 dielectric, vec3 metal)
 
 // The light of one direction:
 //     base   = (1 - metallic) ((1 - max F_d) (1 - max f0_d) (1 - transmission) n.l, F_d S) + metallic F_m S
-//              without the second factor unless the material is one of specular and glossiness
+//              without the second factor unless the material is one of specular and glossiness; S is that of `lobe`, a
+//              microfacet model's, unless it is stretched
 //     sheen  = sheen_color S_s + base min(1 - max sheen_color E(n.v), 1 - max sheen_color E(n.l))
 //     coated = clearcoat F(n_c.v) S_c + (1 - clearcoat F(n_c.v)) sheen
-FN layered_value layered_light(surface s, layered m, vec3 l, int set)
+FN layered_value layered_light(surface s, layered m, vec3 l, lobe_value lobe, int set)
 {
     layered_value r;
     vec3 sum = add3(l, s.v);
@@ -332,8 +332,7 @@ FN layered_value layered_light(surface s, layered m, vec3 l, int set)
     vec3 dielectric = layered_dielectric(m, v_dot_h, weight, set);
     vec3 metal = layered_metal(m, v_dot_h, weight, set);
     num lambert = positive(cosine(dot3(s.n, l)));
-    lobe_sample b = ggx_lobe(s, l, m.roughness);
-    num strength = pick(b.lit, b.base, num_of(0.0f));
+    num strength = lobe.specular;
     if ((set & LAYER_ANISOTROPY) != 0) {
         strength = stretched_lobe(s, l, m);
     }
@@ -401,7 +400,7 @@ FN surface coat_surface(surface s, layered m)
 // Light from all around: the split sum of each layer. The sheen takes the mean of the light above the surface.
 FN vec3 layered_surroundings(surface s, layered m, vec3 kd, surroundings e, surroundings top, int set)
 {
-    num c = saturate(dot3(s.n, s.v));
+    num c = eye_cosine(s);
     num scale = e.albedo - e.bias;
     vec3 d = add3(scale3(m.dielectric, scale), grey3(m.grazing * e.bias));
     vec3 f = add3(scale3(m.metal, scale), grey3(e.bias));
@@ -415,7 +414,7 @@ FN vec3 layered_surroundings(surface s, layered m, vec3 kd, surroundings e, surr
     vec3 light = mul3(scale3(kd, matt), e.irradiance);
     light = add3(light, mul3(layered_mix(m, d, f), e.prefiltered));
     if ((set & LAYER_SHEEN) != 0) {
-        vec3 fibres = scale3(m.sheen_color, sheen_albedo(dot3(s.n, s.v), m.sheen_roughness));
+        vec3 fibres = scale3(m.sheen_color, sheen_albedo(eye_cosine(s), m.sheen_roughness));
         light = add3(scale3(light, m.sheen_left), mul3(fibres, e.irradiance));
     }
     if ((set & LAYER_CLEARCOAT) != 0) {
@@ -429,7 +428,7 @@ FN vec3 layered_surroundings(surface s, layered m, vec3 kd, surroundings e, surr
 // attenuation, under sheen and coat.
 FN vec3 layered_transmittance(surface s, layered m, layer_values given, int set)
 {
-    num c = absolute(cosine(dot3(s.n, s.v)));
+    num c = eye_cosine(s);
     vec3 dielectric = layered_dielectric(m, c, fifth_power(1.0f - c), set);
     num entering = positive(1.0f - largest3(dielectric)) * (1.0f - m.metallic) * (1.0f - m.opaque);
     vec3 through = scale3(given.base, entering);

@@ -186,15 +186,20 @@ FN lobe_sample oren_nayar_lobe(surface s, vec3 l, num sigma)
     return b;
 }
 
+// The cosine between the eye and the mirrors' plane, |n.v|, as glTF 2.0 (appendix B) has it. An interpolated normal may face
+// away from an eye that sees its triangle's front. Such a point is lit by this cosine, or metals would have black holes.
+FN num eye_cosine(surface s) { return min_of(absolute(dot3(s.n, s.v)), num_of(1.0f)); }
+
 // Cook and Torrance (1982) with Walter's distribution GGX (2007): a surface of tiny mirrors, as glTF 2.0 (appendix B)
 // has it for metals and dielectrics. With alpha = roughness^2 and h halfway between l and v
-//     S = pi D V max(n.l, 0)
+//     S = pi D V max(n.l, 0)   where h.v > 0
 //     D = alpha^2 / (pi (|n x h|^2 + (n.h)^2 alpha^2)^2)
-//     V = 1 / (2 (n.l root((n.v)^2 (1 - alpha^2) + alpha^2) + n.v root((n.l)^2 (1 - alpha^2) + alpha^2)))
+//     V = 1 / (2 (n.l root((n.v)^2 (1 - alpha^2) + alpha^2) + |n.v| root((n.l)^2 (1 - alpha^2) + alpha^2)))
 //     D' = max(n.l, 0) (1 - F)
 // where V is Smith's shadowing of mirrors by mirrors, height-correlated (Heitz 2014), D' the diffuse share, and F
 // Schlick's Fresnel factor of a dielectric. pi is there because a matt surface returns kd here, not kd / pi. The
-// textbook's (n.h)^2 (alpha^2 - 1) + 1 for the bracket of D loses three digits on smooth surfaces.
+// textbook's (n.h)^2 (alpha^2 - 1) + 1 for the bracket of D loses three digits on smooth surfaces. h.v is |l + v| / 2, which
+// is 0 only for opposite directions.
 //
 // Smoother than ROUGHNESS_MIN, a highlight of a light without a size would fall between the pixels.
 #define ROUGHNESS_MIN 0.045f
@@ -211,7 +216,7 @@ FN num schlick_weight(vec3 v, vec3 l)
 // What a dielectric reflects along the normal: index of refraction 1.5.
 #define DIELECTRIC_F0 0.04f
 
-// The mirrors' visibility times 2 n.l: n.l / (n.l root(...) + n.v root(...)).
+// The mirrors' visibility times 2 n.l: n.l / (n.l root(...) + |n.v| root(...)).
 FN num smith_visibility(num n_dot_l, num n_dot_v, num alpha_square)
 {
     num beyond = 1.0f - alpha_square;
@@ -226,7 +231,6 @@ FN lobe_sample ggx_lobe(surface s, vec3 l, num roughness)
     num alpha = max_of(roughness, num_of(ROUGHNESS_MIN));
     alpha = alpha * alpha;
     num alpha_square = alpha * alpha;
-    num n_dot_v = cosine(dot3(s.n, s.v));
     vec3 sum = add3(l, s.v);
     vec3 across = cross3(s.n, sum);
     num along = dot3(s.n, sum);
@@ -234,8 +238,8 @@ FN lobe_sample ggx_lobe(surface s, vec3 l, num roughness)
     // All of it times |l + v|^2, so that h need not be made.
     num bracket = dot3(across, across) + along * along * alpha_square;
     num spread = alpha * square / max_of(bracket, num_of(1.0e-30f));
-    b.base = 0.5f * spread * spread * smith_visibility(positive(b.n_dot_l), n_dot_v, alpha_square);
-    b.lit = both(both(b.n_dot_l > 0.0f, n_dot_v > 0.0f), square > 0.0f);
+    b.base = 0.5f * spread * spread * smith_visibility(positive(b.n_dot_l), eye_cosine(s), alpha_square);
+    b.lit = both(b.lit, square > 0.0f);
     b.diffuse = b.diffuse * (1.0f - (DIELECTRIC_F0 + (1.0f - DIELECTRIC_F0) * schlick_weight(s.v, l)));
     return b;
 }
@@ -284,7 +288,7 @@ FN num schlick_scattering(num n_dot_v, num roughness)
 }
 
 // What light between the mirrors adds to what they return at once, for f0 = 1.
-FN num scattering_gain(surface s, num roughness) { return 1.0f / single_scattering(dot3(s.n, s.v), roughness) - 1.0f; }
+FN num scattering_gain(surface s, num roughness) { return 1.0f / single_scattering(eye_cosine(s), roughness) - 1.0f; }
 
 // The level of a prefiltered environment for a roughness: 0 at ROUGHNESS_MIN, PREFILTERED_LAST at 1, even in its fourth
 // root.
@@ -339,16 +343,18 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 //                 LOBE_TANGENT     it reads the surface's tangent
 //                 LOBE_BACKLIT     light from behind (n.l < 0) counts
 //                 LOBE_BACKLIT_FIBRE   it counts where the material is a fibre
+//                 LOBE_MIRRORED    Lambert's lobe with phong_base, r.v
+//                 LOBE_HALFWAY     Lambert's lobe with the base n.h (halfway_of), which needs four times the exponent
 //     the word, a one-line summary, the formula of D, the formula of the highlight's base ("": none)
 // clang-format off
 #define LOBES(X) \
     X(LAMBERT, lambert_lobe(s, l), 0, \
       "lambert", "ambient and diffuse light, no highlight", \
       "max(n·l, 0)", "") \
-    X(PHONG, phong_lobe(s, l), LOBE_HIGHLIGHT, \
+    X(PHONG, phong_lobe(s, l), LOBE_HIGHLIGHT | LOBE_MIRRORED, \
       "phong", "the highlight around the mirrored light", \
       "max(n·l, 0)", "max(r·v, 0)") \
-    X(BLINN_PHONG, blinn_phong_lobe(s, l), LOBE_HIGHLIGHT, \
+    X(BLINN_PHONG, blinn_phong_lobe(s, l), LOBE_HIGHLIGHT | LOBE_HALFWAY, \
       "blinn-phong", "the highlight by the half vector", \
       "max(n·l, 0)", "max(n·h, 0)") \
     X(KAJIYA_KAY, kajiya_kay_lobe(s, l, m.fibre), LOBE_HIGHLIGHT | LOBE_TANGENT | LOBE_BACKLIT_FIBRE, \
@@ -365,7 +371,15 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
       "max(n·l, 0) (1 − F)", "π D V max(n·l, 0)")
 // clang-format on
 
-enum { LOBE_HIGHLIGHT = 1, LOBE_TANGENT = 2, LOBE_BACKLIT = 4, LOBE_BACKLIT_FIBRE = 8, LOBE_MICROFACET = 16 };
+enum {
+    LOBE_HIGHLIGHT = 1,
+    LOBE_TANGENT = 2,
+    LOBE_BACKLIT = 4,
+    LOBE_BACKLIT_FIBRE = 8,
+    LOBE_MICROFACET = 16,
+    LOBE_MIRRORED = 32,
+    LOBE_HALFWAY = 64
+};
 
 STRUCT(lobe_parameters){
 #define MEMBER(name) num name;

@@ -33,11 +33,24 @@ static bool same_sources(const struct hierarchy_memory *memory, const struct fra
     return true;
 }
 
+// Besides the coordinates of the file (frame_draw.rounding), the operations round from there to the hierarchy's space, and to a
+// point of a triangle: fewer than eight, in double, of numbers up to the sum below.
+static void add_rounding(struct hierarchy *h, const struct frame_draw *draw)
+{
+    for (int i = 0; i < 3; i++) {
+        double away = __builtin_fabs(draw->world[i][3]) + __builtin_fabs(h->centre[i]);
+        double rounding = draw->rounding[i] * h->scale + 0x1p-50 * (1 + away * h->scale);
+        h->rounding[i] = rounding > h->rounding[i] ? rounding : h->rounding[i];
+    }
+}
+
 static void note_sources(struct hierarchy_memory *memory, const struct frame *frame)
 {
     struct source *sources = memory->sources.data;
     for (int i = 0; i < frame->draw_count; i++) {
         const struct frame_draw *draw = &frame->draws[i];
+        if (frame_draw_casts(draw))
+            add_rounding(&memory->hierarchy, draw);
         sources[i] = (struct source){draw->mesh->positions, draw->mesh->indices,    draw->mesh->triangle_count,
                                      draw->first_id,        frame_draw_casts(draw), {{0}}};
         memcpy(sources[i].world, draw->world, sizeof sources[i].world);

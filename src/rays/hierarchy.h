@@ -38,6 +38,8 @@ struct hierarchy {
     uint32_t node_count;                  // entries of `nodes`, of which some are not used, and 0
     uint32_t triangle_count;
     const uint32_t *twins; // of each triangle of the frame, as ray_triangle.twin
+    // How far, along each axis, rounding may have moved a corner from where its file means it, and a point of its triangle.
+    double rounding[3];
 };
 
 // The hierarchy that a device keeps from frame to frame, and what it was built from.

@@ -9,6 +9,13 @@
 
 #include <stdlib.h>
 
+// Where LANES rays start: their rows in ray_lanes, and the turns of the pattern of lights with a size (light_turn).
+struct ray_starts {
+    const double *origin[3], *point[3];
+    const int32_t *own;
+    const uint32_t *turn;
+};
+
 struct light_rays {
     const struct frame *frame;
     const struct hierarchy *hierarchy;
@@ -185,33 +192,40 @@ static void trace_disc(struct light_rays *r, const uint32_t turns[LANES], const 
         num_store(passed[c], num_load(sum[c]) / (float)pattern->count);
 }
 
-// Rays from LANES origins, in the hierarchy's space, to the middle of a light. `own` as in ray_lanes.
-LANE_FN void rays_to_light(struct ray_lanes *ray, const struct light_rays *r, const double *const origins[3],
-                           const int32_t *own, const struct frame_light *light)
+LANE_FN void rays_from(struct ray_lanes *ray, const struct ray_starts *from)
+{
+    for (int part = 0; part < LANES; part += DLANES)
+        for (int i = 0; i < 3; i++) {
+            dnum_store(ray->origin[i] + part, dnum_load(from->origin[i] + part));
+            dnum_store(ray->point[i] + part, dnum_load(from->point[i] + part));
+        }
+    inum_store(ray->own, inum_load(from->own));
+}
+
+// Rays to the middle of a light.
+LANE_FN void rays_to_light(struct ray_lanes *ray, const struct light_rays *r, const struct ray_starts *from,
+                           const struct frame_light *light)
 {
     bool directional = light->kind == LIGHT_DIRECTIONAL;
     double position[3], end = directional ? (double)__builtin_inf() : 1.0;
     ray_point(r->hierarchy, light->world_position, position);
+    rays_from(ray, from);
     for (int part = 0; part < LANES; part += DLANES) {
-        for (int i = 0; i < 3; i++) {
-            dnum origin = dnum_load(origins[i] + part);
-            dnum_store(ray->origin[i] + part, origin);
-            dnum_store(ray->direction[i] + part, directional ? dnum_of(-light->world_axis[i]) : position[i] - origin);
-        }
+        for (int i = 0; i < 3; i++)
+            dnum_store(ray->direction[i] + part,
+                       directional ? dnum_of(-light->world_axis[i]) : position[i] - dnum_load(ray->origin[i] + part));
         dnum_store(ray->end + part, dnum_of(end));
     }
-    inum_store(ray->own, inum_load(own));
 }
 
 // The share of a light that reaches LANES points, those of `active`; for each of passed_channels.
-LANE_FN void trace_light(struct light_rays *r, const double *const origins[3], const int32_t *own,
-                         const uint32_t turns[LANES], const struct frame_light *light, unsigned active,
-                         float passed[3][LANES])
+LANE_FN void trace_light(struct light_rays *r, const struct ray_starts *from, const struct frame_light *light,
+                         unsigned active, float passed[3][LANES])
 {
     struct ray_lanes ray;
-    rays_to_light(&ray, r, origins, own, light);
+    rays_to_light(&ray, r, from, light);
     if (light->radius > 0)
-        trace_disc(r, turns, light, &ray, active, passed);
+        trace_disc(r, from->turn, light, &ray, active, passed);
     else
         trace(r, &ray, active, passed);
 }

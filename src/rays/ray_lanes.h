@@ -8,6 +8,7 @@
 // with the origin at (0, 0), a triangle's edges are decided by the signs of cross products of its corners. Rounding is
 // monotonic, so that such a sign is never wrong, only 0, and 0 belongs to both triangles at an edge: no ray slips
 // between them. A corner that is the origin itself gives t = 0: triangles around a point are not in the way of its rays.
+// Nor is a triangle whose plane has the point that a ray leaves (through_points): there t is 0 but for rounding.
 //
 // Of LANES rays those that go nearly the same way, a bundle, walk the hierarchy together: at a node the intervals in which
 // their origins and directions lie are tested against the boxes of all its children at once (Boulos, Wald and Shirley,
@@ -29,6 +30,7 @@ struct ray_lanes {
     double end[LANES];                                         // may be infinite
     // The twin of the triangle that the ray starts on, which is not in its way; NO_TRIANGLE: of none.
     int32_t own[LANES];
+    double point[3][LANES]; // that the ray leaves: its origin, unless that was moved off the surface
 };
 
 // Rays seen along their directions d, of which component k is the largest: x = p_i − (d_i/d_k) p_k, y = p_j − (d_j/d_k) p_k
@@ -134,6 +136,33 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
     }
     hit &= active;
     return hit ? hit & mask_bits(inum_load(ray->own) != (int32_t)triangle->twin) : 0;
+}
+
+// Of `lanes`, whose rays cross a triangle, those whose points lie in its plane, as far as rounding allows to tell:
+//     |N·(p_0 − point)| ≤ 2 Σ_i |N_i| rounding_i + 2⁻⁵⁰ Σ_i (|a_j b_k| + |a_k b_j|) |p_0 − point|_i    N = a × b
+// where a and b lead from corner p_0 to the others. Triangle and point are both rounded (hierarchy.rounding); the last term is
+// the error of this determinant (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+// predicates", 1997, has 7 · 2⁻⁵³ for 8 · 2⁻⁵³).
+LANE_FN unsigned through_points(const struct hierarchy *h, const struct ray_triangle *triangle,
+                                const struct ray_lanes *ray, unsigned lanes)
+{
+    const double(*p)[3] = triangle->p;
+    unsigned through = 0;
+    for (int at = 0; at < LANES; at += DLANES) {
+        double rounding = 0;
+        dnum away = dnum_of(0), error = dnum_of(0);
+        if (!(lanes >> at & ((1u << DLANES) - 1)))
+            continue;
+        for (int i = 0, j = 1, k = 2; i < 3; j = k, k = i++) {
+            double u = (p[1][j] - p[0][j]) * (p[2][k] - p[0][k]), v = (p[1][k] - p[0][k]) * (p[2][j] - p[0][j]);
+            dnum q = p[0][i] - dnum_load(ray->point[i] + at);
+            away += (u - v) * q;
+            error += (__builtin_fabs(u) + __builtin_fabs(v)) * dabsolute(q);
+            rounding += 2 * __builtin_fabs(u - v) * h->rounding[i];
+        }
+        through |= dmask_bits(dabsolute(away) <= rounding + 0x1p-50 * error) << at;
+    }
+    return lanes & through;
 }
 
 // --- boxes
@@ -315,6 +344,7 @@ LANE_FN unsigned walk_bundle(const struct hierarchy *h, const struct ray_lanes *
         unsigned there = single ? lanes : lanes & meets_child(boxes, bundle, node, i);
         for (uint32_t n = child; n < child + count && there; n++) {
             unsigned found = crosses(&h->triangles[n], ray, view, there, NULL, NULL);
+            found = found ? found & ~through_points(h, &h->triangles[n], ray, found) : 0;
             if (filter && found)
                 found = filter(user, &h->triangles[n], ray, view, found);
             there &= ~found;
@@ -375,7 +405,8 @@ LANE_FN uint32_t nearest_hit(const struct hierarchy *h, const struct ray_lanes *
         for (uint32_t i = child; i < child + count; i++) {
             const struct ray_triangle *triangle = &h->triangles[i];
             double at;
-            if (!crosses(triangle, ray, &view, 1, NULL, &at) || !counts(user, triangle, ray, &view))
+            if (!crosses(triangle, ray, &view, 1, NULL, &at) || through_points(h, triangle, ray, 1) ||
+                !counts(user, triangle, ray, &view))
                 continue;
             if (found == (uint32_t)NO_TRIANGLE || at < *t || (at == *t && triangle->number < found)) {
                 found = triangle->number;

@@ -369,7 +369,8 @@ add("learnopengl-pbr with Smith's masking as a product", B_VERT, between(B_FRAG,
 add("learnopengl-pbr with correlated heights and glTF's diffuse part", B_VERT, edit(
     B_FRAG, ("float G = masking(nl) * masking(nv);", "float a2 = pow(roughness, 4.0), V = 0.5 / max(nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2), 1e-6);"),
     ("G * F / (" + B_SUM + ")", "(nv > 0.0 ? V : 0.0) * F"), ("(vec3(1.0) - F) * (1.0 - metallic)", "vec3(0.96 * (1.0 - pow(1.0 - max(dot(h, v), 0.0), 5.0)) * (1.0 - metallic))")))
-add("gltf with n.v clamped, as Khronos has it", G_VERT, edit(G_FRAG, ("nl > 0.0 && nv > 0.0 ?", "nl > 0.0 || nv > 0.0 ?")))
+add("gltf with n.v clamped, as Khronos has it", G_VERT, edit(G_FRAG, ("nv = abs(dot(n, v))", "nv = max(dot(n, v), 0.0)")))
+add("gltf without a highlight where n.v is below 0", G_VERT, edit(G_FRAG, ("float shine = nl > 0.0 ?", "float shine = nl > 0.0 && dot(n, v) > 0.0 ?")))
 add("gltf with Schlick's masking and the mixed F0", G_VERT, edit(
     G_FRAG, ("0.5 / (l + v) : 0.0", "1.0 / (4.0 * nl * nv + 0.0001) * nl * nv / ((nl * (1.0 - k) + k) * (nv * (1.0 - k) + k)) : 0.0"),
     ("    return l + v > 0.0", "    float k = (u_RoughnessFactor + 1.0) * (u_RoughnessFactor + 1.0) / 8.0;\n    return l + v > 0.0"),

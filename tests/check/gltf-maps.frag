@@ -73,7 +73,7 @@ void main()
     bump *= vec3(u_NormalScale, u_NormalScale, 1.0);
     vec3 n = normalize(v_TBN * bump);
     vec3 v = normalize(u_Camera - v_Position);
-    float nv = max(dot(n, v), 0.0);
+    float nv = abs(dot(n, v));
     float alpha = roughness * roughness;
     float a2 = alpha * alpha;
     vec3 color = vec3(0.0);
@@ -89,7 +89,7 @@ void main()
         if (light.type == LIGHT_SPOT)
             arriving *= cone(light, l);
         float power = pow(clamp(1.0 - dot(h, v), 0.0, 1.0), 5.0);
-        float shine = nl > 0.0 && nv > 0.0 ? visibility(nl, nv, a2) * distribution(max(dot(n, h), 0.0), a2) : 0.0;
+        float shine = nl > 0.0 ? visibility(nl, nv, a2) * distribution(max(dot(n, h), 0.0), a2) : 0.0;
         vec3 dielectric = mix(base.rgb / M_PI, vec3(shine), mix(0.04, 1.0, power));
         vec3 metal = shine * mix(base.rgb, vec3(1.0), power);
         color += arriving * nl * mix(dielectric, metal, metallic);

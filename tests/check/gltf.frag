@@ -59,7 +59,7 @@ void main()
 {
     vec3 n = normalize(v_Normal);
     vec3 v = normalize(u_Camera - v_Position);
-    float nv = max(dot(n, v), 0.0);
+    float nv = abs(dot(n, v));
     float alpha = u_RoughnessFactor * u_RoughnessFactor;
     float a2 = alpha * alpha;
     vec3 color = vec3(0.0);
@@ -75,7 +75,7 @@ void main()
         if (light.type == LIGHT_SPOT)
             arriving *= cone(light, l);
         float power = pow(clamp(1.0 - dot(h, v), 0.0, 1.0), 5.0);
-        float shine = nl > 0.0 && nv > 0.0 ? visibility(nl, nv, a2) * distribution(max(dot(n, h), 0.0), a2) : 0.0;
+        float shine = nl > 0.0 ? visibility(nl, nv, a2) * distribution(max(dot(n, h), 0.0), a2) : 0.0;
         vec3 dielectric = mix(u_BaseColorFactor.rgb / M_PI, vec3(shine), mix(0.04, 1.0, power));
         vec3 metal = shine * mix(u_BaseColorFactor.rgb, vec3(1.0), power);
         color += arriving * nl * mix(dielectric, metal, u_MetallicFactor);

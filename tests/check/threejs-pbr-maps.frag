@@ -28,12 +28,12 @@ void main()
     vec3 v = normalize(cameraPosition - vWorldPosition);
     vec3 l = normalize(lightPosition - vWorldPosition);
     vec3 h = normalize(l + v);
-    float dotNL = clamp(dot(n, l), 0.0, 1.0), dotNV = clamp(dot(n, v), 0.0, 1.0);
+    float dotNL = clamp(dot(n, l), 0.0, 1.0), dotNV = abs(dot(n, v));
     float dotNH = clamp(dot(n, h), 0.0, 1.0), dotVH = clamp(dot(v, h), 0.0, 1.0);
     float alpha = rough * rough, a2 = alpha * alpha;
     float f = dotNH * dotNH * (a2 - 1.0) + 1.0;
     float D = RECIPROCAL_PI * a2 / (f * f);
-    float V = dotNV <= 0.0 ? 0.0 : 0.5 / max(dotNL * sqrt(a2 + (1.0 - a2) * dotNV * dotNV) + dotNV * sqrt(a2 + (1.0 - a2) * dotNL * dotNL), 1e-6);
+    float V = 0.5 / max(dotNL * sqrt(a2 + (1.0 - a2) * dotNV * dotNV) + dotNV * sqrt(a2 + (1.0 - a2) * dotNL * dotNL), 1e-6);
     vec3 f0 = mix(vec3(0.04), base, metal);
     vec3 F = f0 + (1.0 - f0) * pow(1.0 - dotVH, 5.0);
     vec3 diffuse = base * (1.0 - metal) * RECIPROCAL_PI;

@@ -133,13 +133,13 @@ static struct reflected reflect_oren_nayar(const struct geometry *g)
 static struct reflected reflect_ggx(const struct geometry *g)
 {
     double roughness = fmax((double)g->parameters[3], 0.045), alpha = roughness * roughness, square = alpha * alpha;
-    double n_l = g->n_l, n_v = inner(g->n, g->v);
+    double n_l = g->n_l, n_v = fabs(inner(g->n, g->v));
     vector h = normalize(plus(g->l, g->v));
     double n_h = inner(g->n, h), sine = length(cross(g->n, h));
     double d = square / (PI * pow(sine * sine + n_h * n_h * square, 2));
     double v = 0.5 / (n_l * sqrt(n_v * n_v * (1 - square) + square) + n_v * sqrt(n_l * n_l * (1 - square) + square));
     double mirrored = 0.04 + 0.96 * pow(1 - limit(inner(g->v, h), 0, 1), 5);
-    int seen = n_l > 0 && n_v > 0 && !none(h);
+    int seen = n_l > 0 && inner(h, g->v) > 0;
     return (struct reflected){fmax(n_l, 0) * (1 - mirrored), seen ? PI * d * v * n_l : 0, seen, 1};
 }
 
@@ -155,7 +155,7 @@ static const struct lobe {
     [LAM_REFLECTION_KAJIYA_KAY] = {reflect_kajiya_kay, 0x7e895ba25bd9210a},
     [LAM_REFLECTION_KAJIYA_KAY_LECTURE] = {reflect_kajiya_kay_lecture, 0x7914335629de57cd},
     [LAM_REFLECTION_OREN_NAYAR] = {reflect_oren_nayar, 0xc42745003ceb023c},
-    [LAM_REFLECTION_GGX] = {reflect_ggx, 0xa41c98a56a026d0b},
+    [LAM_REFLECTION_GGX] = {reflect_ggx, 0xa71be5c4cae324a9},
 };
 
 uint64_t textbook_hash(int model) { return lobes[model].hash; }
@@ -241,7 +241,8 @@ void textbook_environment(int viewer, const float in[INPUTS], double out[ENVIRON
     vector v = viewer == VIEWER_INFINITE ? (vector){0, 0, 1} : normalize(times(-1, p));
     vector l = normalize(minus(take(in + IN_POSITION), p)), h = normalize(plus(l, v));
     double roughness = (double)in[IN_PARAMETERS + 3], metallic = (double)in[IN_PARAMETERS + 4];
-    double n_v = inner(n, v), whole = tabulated(albedos, n_v, roughness), bias = tabulated(biases, n_v, roughness);
+    double n_v = fabs(inner(n, v)), whole = tabulated(albedos, n_v, roughness),
+           bias = tabulated(biases, n_v, roughness);
     double grazing = pow(1 - limit(inner(v, h), 0, 1), 5);
     *n_dot_v = n_v;
     for (int i = 0; i < 3; i++) {

@@ -114,7 +114,7 @@ static void environment(int viewer, const float *const in[INPUTS], float *const 
         int parameter = IN_PARAMETERS;
         LOBE_PARAMETERS(TAKE)
         vec3 base = load3(in, IN_TINT, i), l = unit3(sub3(load3(in, IN_POSITION, i), s.p));
-        num n_dot_v = dot3(s.n, s.v);
+        num n_dot_v = eye_cosine(s);
         fresnel f = fresnel_of(base, m.metallic, scattering_gain(s, m.roughness));
         light_source white = {.specular = vec3_of(num_of(1.0f), num_of(1.0f), num_of(1.0f))};
         store3(out, OUT_FRESNEL, i, with_fresnel(white, f, s.v, l).specular);

@@ -165,6 +165,51 @@ static void test_back_of_the_other_kind(void **state)
     lam_scene_free(scene);
 }
 
+// A square that faces the eye, with normals that face away from it, and light that they face: neither a metal nor a layer is black.
+static void test_leaning_normals(void **state)
+{
+    (void)state;
+    static const float positions[] = {-2, -1, 0, 2, -1, 0, 2, 1, 0, -2, 1, 0};
+    static const float normals[] = {-1, 0, -0.2f, -1, 0, -0.2f, -1, 0, -0.8f, -1, 0, -0.8f};
+    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
+    lam_error error;
+    lam_mesh mesh = {.positions = positions,
+                     .vertex_count = 4,
+                     .normals = normals,
+                     .normal_count = 4,
+                     .indices = indices,
+                     .triangle_count = 2};
+    for (int layer = 0; layer < 4; layer++) {
+        lam_material m = physical(1, 0.7f, 0.3f, 1, 0.5f);
+        m.anisotropy = layer == 1 ? 0.7f : 0;
+        if (layer >= 2)
+            m.diffuse = (lam_rgba){0, 0, 0, 1};
+        if (layer == 2)
+            m.sheen_color = (lam_rgb){1, 1, 1};
+        m.sheen_roughness = 0.6f;
+        m.metallic = layer != 3;
+        m.clearcoat = layer == 3;
+        m.clearcoat_roughness = 0.8f;
+        lam_scene *scene = lam_scene_make(&error);
+        lam_object object = lam_object_default();
+        object.mesh = lam_scene_add_mesh(scene, &mesh, &error);
+        object.material = lam_scene_add_material(scene, &m, &error);
+        assert_true(lam_scene_add_object(scene, &object, &error) >= 0);
+        lam_light light = lam_light_default(LAM_LIGHT_DIRECTIONAL);
+        light.direction = (lam_vec3){1, 0, 0.1};
+        assert_true(lam_scene_add_light(scene, &light, &error) >= 0);
+        draw(scene, LAM_REFLECTION_AUTO, picture[0]);
+        int seen = 0;
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            const float *pixel = picture[0][i / WIDTH][i % WIDTH];
+            seen += pixel[3] == 1;
+            assert_true(pixel[3] == 0 || pixel[0] > 1e-3f);
+        }
+        assert_true(seen > 500);
+        lam_scene_free(scene);
+    }
+}
+
 static void test_words(void **state)
 {
     (void)state;
@@ -186,6 +231,7 @@ int main(void)
         cmocka_unit_test(test_two_kinds_in_one_scene),
         cmocka_unit_test(test_unlit),
         cmocka_unit_test(test_back_of_the_other_kind),
+        cmocka_unit_test(test_leaning_normals),
         cmocka_unit_test(test_words),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -439,6 +439,80 @@ static void test_twins(void **unused)
     lam_scene_free(scene);
 }
 
+// Adds overlapping triangles in one plane, in general position: the corners of two pentagons, whose coordinates are rounded to
+// floats. `spread` of the normals makes rays start above the plane (the cure of the terminator). *n: the plane's normal.
+static void add_pentagons(lam_scene *scene, double turn, double spread, lam_vec3 *n)
+{
+    static const uint32_t corners[] = {0, 1, 2, 0, 2, 3, 0, 3, 4, 1, 3, 4, 5, 6, 7, 6, 8, 9, 5, 7, 9};
+    float positions[10][3], normals[10][3];
+    lam_mat4 m = lam_mat4_rotation((lam_vec3){1, 2 - turn, turn}, turn);
+    for (int k = 0; k < 10; k++) {
+        double size = k < 5 ? 1 : 0.6, u = size * cos(1.2566370614 * k), v = size * sin(1.2566370614 * k);
+        for (int i = 0; i < 3; i++) {
+            double flat = m.m[i][0] * u + m.m[i][1] * v;
+            positions[k][i] = (float)(flat + 2 * turn);
+            normals[k][i] = (float)(m.m[i][2] + spread * flat);
+        }
+    }
+    lam_mesh mesh = {.positions = positions[0],
+                     .normals = normals[0],
+                     .vertex_count = 10,
+                     .normal_count = 10,
+                     .indices = corners,
+                     .triangle_count = sizeof corners / sizeof *corners / 3};
+    lam_object o = lam_object_default();
+    o.mesh = lam_scene_add_mesh(scene, &mesh, &error);
+    assert_true(o.mesh >= 0 && lam_scene_add_object(scene, &o, &error) >= 0);
+    *n = (lam_vec3){m.m[0][2], m.m[1][2], m.m[2][2]};
+}
+
+// None of them shadows another, wherever the light is: above, beside, or below, where spread normals still face it.
+static void test_coplanar(void **unused)
+{
+    (void)unused;
+    for (int turn = 1; turn < 17; turn++) {
+        lam_scene *scene = lam_scene_make(&error);
+        lam_vec3 n;
+        double middle = 2 * 0.35 * turn;
+        add_pentagons(scene, 0.35 * turn, turn % 2 ? 0 : 0.2, &n);
+        camera = lam_camera_default();
+        camera.target = (lam_vec3){middle, middle, middle};
+        camera.eye = (lam_vec3){middle + n.x, middle + n.y, middle + n.z};
+        camera.ortho_half_height = 1;
+        for (int k = 0; k < 3; k++) {
+            const double rise = k == 0 ? -1 : k == 1 ? -0.1 : 0.1;
+            lam_light l = lam_light_default(LAM_LIGHT_DIRECTIONAL);
+            l.direction = (lam_vec3){n.y - n.z + rise * n.x, n.z - n.x + rise * n.y, n.x - n.y + rise * n.z};
+            assert_true(lam_scene_add_light(scene, &l, &error) >= 0);
+        }
+        for (int shading = LAM_SHADING_PHONG; shading <= LAM_SHADING_FLAT; shading++) {
+            lam_draw_params params = {.samples = 1, .shading = (lam_shading)shading};
+            lam_image without = draw(scene, params);
+            params.shadows = true;
+            lam_image shadowed = draw(scene, params);
+            assert_int_equal(count_dark(&shadowed, &without, 0), 0);
+            lam_image_free(&without);
+            lam_image_free(&shadowed);
+        }
+        lam_scene_free(scene);
+    }
+}
+
+// A sheet right above another shadows it, unless it is nearer than numbers are rounded. It is culled, so that one sees through it.
+static void test_near_sheet(void **unused)
+{
+    (void)unused;
+    for (int apart = 0; apart < 2; apart++) {
+        lam_scene *scene = floor_scene();
+        int sheet = add_plate(scene, 1, apart ? 1e-12 : 1e-20, 0.5, 1);
+        lam_object o = *lam_scene_object(scene, sheet);
+        o.cull = LAM_CULL_FRONT;
+        assert_true(lam_scene_set_object(scene, sheet, &o, &error) && lam_scene_add_light(scene, sun(), &error) >= 0);
+        assert_true(explained(scene, with, 0.5, 0.2).passed.r == (apart ? 0 : 1));
+        lam_scene_free(scene);
+    }
+}
+
 // Limits: a budget that the hierarchy exceeds, and parameters out of range.
 static void test_refused(void **unused)
 {
@@ -479,10 +553,10 @@ static void test_refused(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_layers),  cmocka_unit_test(test_sides), cmocka_unit_test(test_lights),
-        cmocka_unit_test(test_kinds),   cmocka_unit_test(test_soft),  cmocka_unit_test(test_convex),
-        cmocka_unit_test(test_contact), cmocka_unit_test(test_twins), cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_models),
+        cmocka_unit_test(test_layers),  cmocka_unit_test(test_sides),    cmocka_unit_test(test_lights),
+        cmocka_unit_test(test_kinds),   cmocka_unit_test(test_soft),     cmocka_unit_test(test_convex),
+        cmocka_unit_test(test_contact), cmocka_unit_test(test_twins),    cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_models),  cmocka_unit_test(test_coplanar), cmocka_unit_test(test_near_sheet),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,9 @@
 // shader_interface.c: matches the declarations of two shaders with their contract.
 #include "shader_interface.h"
 
+#define LANES 1
+#include "lighting.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -173,20 +176,19 @@ static bool is_flat(const struct declarations *fragment)
     return false;
 }
 
-// What a shader printed by `lambent shader` computes, by the functions in it. Lambert's lobe alone has no row: the others
-// stand on it, and it is the contract's own model without a highlight.
+// What a shader printed by `lambent shader` computes, by the functions in it. Lambert's lobe does not count: the others call
+// it, and alone it is the contract's own model without a highlight. The last row wins, since a coat has GGX's lobe over that of
+// another base.
 static void find_printed(struct shader_interface *r)
 {
     static const struct {
-        const char *function;
+        const char *call;
         lam_reflection model;
-    } lobes[] = {{"ggx_lobe", LAM_REFLECTION_GGX},
-                 {"kajiya_kay_lecture_lobe", LAM_REFLECTION_KAJIYA_KAY_LECTURE},
-                 {"kajiya_kay_lobe", LAM_REFLECTION_KAJIYA_KAY},
-                 {"oren_nayar_lobe", LAM_REFLECTION_OREN_NAYAR},
-                 {"blinn_phong_lobe", LAM_REFLECTION_BLINN_PHONG},
-                 {"phong_lobe", LAM_REFLECTION_PHONG},
-                 {"unlit_terms", LAM_REFLECTION_NONE}};
+    } lobes[] = {{"unlit_terms", LAM_REFLECTION_NONE},
+#define LOBE(NAME, call, ...) {#call, LAM_REFLECTION_##NAME},
+                 LOBES(LOBE)
+#undef LOBE
+    };
     static const struct {
         const char *function;
         lam_tone tone;
@@ -195,9 +197,12 @@ static void find_printed(struct shader_interface *r)
                   {"agx_tone", LAM_TONE_AGX},
                   {"khronos_neutral_tone", LAM_TONE_KHRONOS_NEUTRAL}};
     const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
-    for (size_t i = 0; r->printed_model == LAM_REFLECTION_AUTO && i < sizeof lobes / sizeof *lobes; i++)
-        if (declarations_uses(lit, lobes[i].function))
+    for (size_t i = sizeof lobes / sizeof *lobes; r->printed_model == LAM_REFLECTION_AUTO && i-- > 0;) {
+        char function[32];
+        snprintf(function, sizeof function, "%.*s", (int)strcspn(lobes[i].call, "("), lobes[i].call);
+        if (lobes[i].model != LAM_REFLECTION_LAMBERT && declarations_uses(lit, function))
             r->printed_model = lobes[i].model;
+    }
     for (size_t i = 0; i < sizeof curves / sizeof *curves; i++)
         if (declarations_uses(&r->fragment, curves[i].function))
             r->printed_tone = curves[i].tone;
@@ -205,11 +210,6 @@ static void find_printed(struct shader_interface *r)
     r->gl1 = declarations_uses(lit, "add_arriving_ambient");
     for (int i = 0; i < lit->word_count; i++)
         r->infinite_viewer = r->infinite_viewer || words_match(lit, i, "to_eye ( p , VIEWER_INFINITE )");
-}
-
-static bool has_highlight(lam_reflection model)
-{
-    return model != LAM_REFLECTION_AUTO && model != LAM_REFLECTION_NONE && model != LAM_REFLECTION_OREN_NAYAR;
 }
 
 static void apply_lambent_rules(struct shader_interface *r)
@@ -238,7 +238,7 @@ static void apply_lambent_rules(struct shader_interface *r)
         if (words_match(&r->fragment, i, "light . a = 1.0 ;"))
             r->supports &= ~(unsigned)NEED_ALPHA;
     r->supports |= rules;
-    r->supports |= has_highlight(r->printed_model) ? 0 : RULE_NO_SPECULAR;
+    r->supports |= lam_reflection_describe(r->printed_model)->base ? 0 : RULE_NO_SPECULAR;
     r->supports |= is_flat(&r->fragment) ? RULE_FLAT : 0;
     for (int g = 0; g < MAX_LIGHT_GROUPS; g++) // the rules tell the kind of each
         r->groups[g].kinds |= NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT;

@@ -224,7 +224,7 @@ vec4 shade(Surface s)
         if (physical) {
             vec4 h = half_vector(i, s, l, way, v);
             vec3 matt, shine;
-            reflect_physical(Angles(is(ABSOLUTE_DIFFUSE) ? abs(nl) : max(nl, 0.0), max(dot(n, v), 0.0), max(dot(n, h), 0.0), clamp(dot(h, v), 0.0, 1.0), D), matt, shine);
+            reflect_physical(Angles(is(ABSOLUTE_DIFFUSE) ? abs(nl) : max(nl, 0.0), eye_cosine(dot(n, v)), max(dot(n, h), 0.0), clamp(dot(h, v), 0.0, 1.0), D), matt, shine);
             diffuse += diffuse_light(i) * kept_d * matt;
             specular += diffuse_light(i) * kept_s * shine;
             continue;

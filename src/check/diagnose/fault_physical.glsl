@@ -35,6 +35,10 @@ bool is_schlick()
     return is(USE_SCHLICK) || is(USE_SCHLICK_IBL) || is(K_OF_ALPHA) || masking == MASKING_SCHLICK;
 }
 
+// n.v, which is below 0 where an interpolated normal faces away: its absolute value, as in glTF's appendix B. Schlick's
+// approximation is written with n.v clamped everywhere, and then has no highlight there.
+float eye_cosine(float nv) { return is(RIM_CUT) || is(RIM_CLAMPED) || is_schlick() ? max(nv, 0.0) : abs(nv); }
+
 // Masking and shadowing, divided by 4 n.l n.v.
 float visibility(Angles a)
 {
@@ -97,7 +101,7 @@ void reflect_physical(Angles a, out vec3 diffuse, out vec3 specular)
     }
     float cosine = is(NO_N_DOT_L) ? (is(LIT_SIDE_ALONE) && a.nl <= 0.0 ? 0.0 : 1.0) : a.cosine;
     diffuse = share * base * cosine * (is(DIFFUSE_TIMES_PI) ? PI : 1.0);
-    specular = (a.nv > 0.0 || is(RIM_KEPT)) && a.nl > 0.0 ? F * (distribution(a) * visibility(a) * cosine) : vec3(0.0);
+    specular = (a.nv > 0.0 || is(RIM_CLAMPED)) && a.nl > 0.0 ? F * (distribution(a) * visibility(a) * cosine) : vec3(0.0);
     if (is(SPECULAR_WITHOUT_N_DOT_L) && a.nl > 0.0) {
         specular /= a.nl;
     }

@@ -714,9 +714,13 @@ const struct fault faults[] = {
         "the bitangent is transformed by the matrix, as the tangent is; where that stretches the surface, it differs "
         "from the cross product of normal and tangent, and both are in use",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_TANGENTS),
-    ROW("rim-kept", BITS(RIM_KEPT), WHERE_PHYSICAL | WHERE_SMITH, 0,
-        "the highlight is kept where n.v is not above 0, with n.v clamped there; only interpolated normals at rims are "
-        "turned so far, and lambent has no highlight there",
+    ROW("rim-cut", BITS(RIM_CUT), WHERE_PHYSICAL | WHERE_SMITH, 0,
+        "there is no highlight where n.v is not above 0; only interpolated normals at rims are turned so far, and "
+        "lambent has |n.v| there, as glTF's appendix B",
+        NULL, .style = true),
+    ROW("rim-clamped", BITS(RIM_CLAMPED), WHERE_PHYSICAL | WHERE_SMITH, 0,
+        "n.v is clamped at 0, and the highlight is kept there, as in Khronos' viewer and three.js; only interpolated "
+        "normals at rims are turned so far, and lambent has |n.v| there, as glTF's appendix B",
         NULL, .style = true),
     ROW("no-tone-curve", BITS(USE_NO_TONE), WHERE_PHYSICAL | WHERE_TONED, 0,
         "there is no tone curve, where the course has Reinhard's: the light is clamped at 1", NULL, .style = true),

@@ -83,10 +83,10 @@ struct vertex_cache {
     uint32_t count;
 };
 
-// Where the shadow rays of a batch start, in the space of the hierarchy, and the triangles that they start on.
+// Where the shadow rays of a batch start, as in ray_lanes.
 struct shadow_rows {
-    double origin[3][BATCH_ROW];
-    int32_t own[BATCH_ROW];   // as in ray_lanes
+    double origin[3][BATCH_ROW], point[3][BATCH_ROW];
+    int32_t own[BATCH_ROW];
     uint32_t turn[BATCH_ROW]; // of the pattern of lights with a size (light_pattern.h)
 };
 

@@ -15,7 +15,7 @@ void explain_light_layers(const lam_explained_light_layers *layers, const lam_ex
 {
     row_color(4, "base", layers->base, "F S");
     if (layers->sheen_left < 1 || !is_black(layers->sheen)) {
-        row_number(4, "left", (double)layers->sheen_left, "the smaller 1 − max(sheen_color) E, at n·v and at n·l");
+        row_number(4, "left", (double)layers->sheen_left, "the smaller 1 − max(sheen_color) E, at |n·v| and at n·l");
         row_color(4, "sheen", layers->sheen, "sheen_color π D V n·l of its fibres");
     }
     if (all->coat > 0)
@@ -34,7 +34,7 @@ void explain_layers(const lam_explained_layers *layers)
         row_color(4, "transmittance", layers->transmittance, "factor of the light behind the surface");
     if (layers->sheen_left < 1)
         row_number(4, "left", (double)layers->sheen_left,
-                   "1 − max(sheen_color) E(n·v): what the sheen leaves of the base");
+                   "1 − max(sheen_color) E(|n·v|): what the sheen leaves of the base");
     if (!is_zero(layers->coat_normal))
         row_vector(4, "n_c", layers->coat_normal, "the coat's normal");
     if (layers->coat > 0)
@@ -61,8 +61,8 @@ void explain_environment_parts(const lam_explained_point *p)
     row_color(4, "mirrored part", layers->mirrored_part, text);
     if (layers->sheen_left < 1 || !is_black(layers->sheen_part))
         row_color(4, "sheen part", layers->sheen_part,
-                  layers->coat > 0 ? "(1 − share) · sheen_color E(n·v) ⊙ irradiance/π"
-                                   : "sheen_color E(n·v) ⊙ irradiance/π");
+                  layers->coat > 0 ? "(1 − share) · sheen_color E(|n·v|) ⊙ irradiance/π"
+                                   : "sheen_color E(|n·v|) ⊙ irradiance/π");
     if (layers->coat > 0) {
         snprintf(text, sizeof text, "around the mirror image of v about n_c, at level %.7g",
                  (double)layers->coat_level);

@@ -6,6 +6,7 @@
 #include "spelling.h"
 #include "srgb.h"
 
+#include <stdio.h>
 #include <string.h>
 
 // The sixteen names of HTML 4 with their usual doubles, and orange.
@@ -88,6 +89,24 @@ enum { NAMES = sizeof names / sizeof names[0] };
 
 const char *lam_color_name(int index) { return index >= 0 && index < NAMES ? names[index].name : NULL; }
 
+// The hexadecimal form of a colour as other programs write it: "ff8800", "0xff8800", "255,136,0" or "rgb(255,136,0)". False: it is
+// none of these.
+static bool hex_of(const char *text, char hex[16])
+{
+    const char *digits = strncmp(text, "0x", 2) == 0 ? text + 2 : text;
+    unsigned r, g, b;
+    uint32_t rgba;
+    if (strlen(digits) >= 6 && read_hex(digits, &rgba)) {
+        snprintf(hex, 16, "#%s", digits);
+        return true;
+    }
+    if (sscanf(text + (strncmp(text, "rgb(", 4) == 0 ? 4 : 0), "%3u , %3u , %3u", &r, &g, &b) != 3 || r > 255 ||
+        g > 255 || b > 255)
+        return false;
+    snprintf(hex, 16, "#%02x%02x%02x", r, g, b);
+    return true;
+}
+
 bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam_error *error)
 {
     if (!text || !color)
@@ -112,15 +131,12 @@ bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam
         return true;
     }
     // The '#' is easily forgotten, and easily lost: in a shell it begins a comment.
-    char hex[16] = "#";
+    char hex[16];
     struct spelling spelling = spelling_of(text);
-    if (strlen(text) >= 6 && read_hex(text, &rgba))
-        spelling.nearest = strcat(hex, text);
-    for (int i = 0; i < NAMES && !hex[1]; i++)
+    for (int i = 0; i < NAMES; i++)
         spelling_try(&spelling, names[i].name);
-    if (!hex[1])
-        spelling_try(&spelling, "transparent");
-    const char *nearest = spelling.nearest;
+    spelling_try(&spelling, "transparent");
+    const char *nearest = hex_of(text, hex) ? hex : spelling.nearest;
     return fail(error, LAM_BAD_ARGUMENT,
                 "found '%.60s', expected a colour: #rrggbb, #rrggbbaa, r/g/b, one number, transparent, or a name such "
                 "as white%s%s%s",

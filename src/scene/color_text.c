@@ -6,7 +6,6 @@
 #include "spelling.h"
 #include "srgb.h"
 
-#include <stdio.h>
 #include <string.h>
 
 // The sixteen names of HTML 4 with their usual doubles, and orange.
@@ -89,22 +88,33 @@ enum { NAMES = sizeof names / sizeof names[0] };
 
 const char *lam_color_name(int index) { return index >= 0 && index < NAMES ? names[index].name : NULL; }
 
-// The hexadecimal form of a colour as other programs write it: "ff8800", "0xff8800", "255,136,0" or "rgb(255,136,0)". False: it is
-// none of these.
+// The hexadecimal form of a colour as other programs write it: "ff8800", "0xff8800", "255,136,0" or "rgb(255, 136, 0)". False: it
+// is none of these.
 static bool hex_of(const char *text, char hex[16])
 {
-    const char *digits = strncmp(text, "0x", 2) == 0 ? text + 2 : text;
-    unsigned r, g, b;
+    static const char digits[] = "0123456789abcdef";
+    const char *at = strncmp(text, "0x", 2) == 0 ? text + 2 : text;
     uint32_t rgba;
-    if (strlen(digits) >= 6 && read_hex(digits, &rgba)) {
-        snprintf(hex, 16, "#%s", digits);
+    hex[0] = '#';
+    if (strlen(at) >= 6 && read_hex(at, &rgba)) {
+        strcpy(hex + 1, at);
         return true;
     }
-    if (sscanf(text + (strncmp(text, "rgb(", 4) == 0 ? 4 : 0), "%3u , %3u , %3u", &r, &g, &b) != 3 || r > 255 ||
-        g > 255 || b > 255)
-        return false;
-    snprintf(hex, 16, "#%02x%02x%02x", r, g, b);
-    return true;
+    at = strncmp(text, "rgb(", 4) == 0 ? text + 4 : text;
+    for (int channel = 0; channel < 3; channel++) {
+        unsigned byte = 0;
+        at += strspn(at, channel ? ", " : "");
+        if (!(*at >= '0' && *at <= '9'))
+            return false;
+        for (; *at >= '0' && *at <= '9' && byte < 256; at++)
+            byte = byte * 10 + (unsigned)(*at - '0');
+        if (byte > 255)
+            return false;
+        hex[1 + 2 * channel] = digits[byte >> 4];
+        hex[2 + 2 * channel] = digits[byte & 15];
+    }
+    hex[7] = 0;
+    return *at == 0 || strcmp(at, ")") == 0;
 }
 
 bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam_error *error)

@@ -812,8 +812,8 @@ const struct option option_table[] = {
     {"allow-path", 0, GROUP_LIMITS, "DIR", NULL, "Let models name files in this folder, or this file; may be repeated.",
      "A model reads files of its own folder alone: for textures in `../textures` give `--allow-path ../textures`. "
      "Scene files with "
-     "`--files-inside` and links in a folder of `batch` may lead there too. The sandbox lets this folder be read and "
-     "written. With "
+     "`--files-inside` and links in a folder of `batch` may lead there too. The sandbox lets this folder be read. "
+     "With "
      "`--jobs` it holds the files of jobs, whose models still read their own folders; pages and `view` have no files "
      "of other "
      "folders.",

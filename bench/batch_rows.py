@@ -16,8 +16,8 @@ ROWS = {"batch 1024 px, no occlusion": (["--samples", "4", "--ao", "off"], 1024,
 
 
 def folder_of_models(count):
-    """One real model under many names, so that every file is read and drawn."""
-    source, folder = whole.small_model("spot"), os.path.join(paths.OUT, "models", "batch-%d" % count)
+    """One model under many names, so that every file is read and drawn."""
+    source, folder = whole.small_model("spot"), os.path.join(paths.MODELS, "batch-%d" % count)
     if not os.path.exists(folder):
         shutil.rmtree(folder + ".unfinished", ignore_errors=True)
         os.makedirs(folder + ".unfinished")
@@ -33,6 +33,7 @@ def busy(taken, others_s, workers):
 
 
 def batch(label, options, size, models, isas, display, seconds=6):
+    display.require()
     folder, out = folder_of_models(models), os.path.join(paths.PICTURES, "batch")
     one, name = os.path.join(folder, "spot_0000.obj"), label.replace(" ", "-").replace(",", "")
     alone, theirs = whole.picture(name + "-alone"), whole.picture(name + "-f3d")

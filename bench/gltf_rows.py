@@ -1,8 +1,9 @@
-"""gltf_rows.py: rows of glTF files: textured models from the collection next to the checkout, alone and under an environment, and GLB files of
+"""gltf_rows.py: rows of glTF files: textured models (the repository's, and with LAMBENT_MODELS more), alone and under an environment, and GLB files of
 1 and 10 million triangles, which are made here. Whole processes against F3D (whole.py); the prefilter of an environment by itself."""
 import base64
 import functools
 import json
+import math
 import os
 import struct
 
@@ -12,22 +13,46 @@ import scenes
 import whole
 
 # Textured files that both programs read (no extension that F3D 1.3 lacks).
-TEXTURED = {"knight": "glb/kaykit_adventurers/Knight.glb", "normal tangent": "glb/playcanvas/NormalTangentTest.glb",
-            "toy car": "gltf-tests/khronos/ToyCar/glTF/ToyCar.gltf"}
+TEXTURED = {"spot": lambda: os.path.join(paths.EXAMPLES, "spot.glb")}
+UNDER_ENVIRONMENT = ["spot"]
+if paths.REAL_MODELS:
+    TEXTURED.update({"knight": lambda: whole.real("glb/kaykit_adventurers/Knight.glb"),
+                     "normal tangent": lambda: whole.real("glb/playcanvas/NormalTangentTest.glb"),
+                     "toy car": lambda: whole.real("gltf-tests/khronos/ToyCar/glTF/ToyCar.gltf")})
+    UNDER_ENVIRONMENT += ["knight", "toy car"]
 BESIDES_DECODING = 8  # F3D's CPU time, at least so many times ours without that of decoding the pictures
-ENVIRONMENT = "env/kloppenheim_05_1k.hdr"
 
 
-def real(path):
-    found = os.path.normpath(os.path.join(paths.REAL_MODELS, path))
-    if not os.path.exists(found):
-        raise measure.Failed("%s is not here; LAMBENT_MODELS names the folder of models" % found)
-    return found
+def environment():
+    """A Radiance picture of a sky with a sun over a dark ground, made once. Its rows are not compressed."""
+    made, width, height = os.path.join(paths.MODELS, "sky.hdr"), 1024, 512
+    if os.path.exists(made):
+        return made
+    os.makedirs(paths.MODELS, exist_ok=True)
+    data = bytearray(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (height, width))
+    for y in range(height):
+        up = math.cos(math.pi * (y + 0.5) / height)
+        color = (0.3 + 0.2 * up, 0.45 + 0.2 * up, 0.9) if up > 0 else (0.1, 0.08, 0.06)
+        row = bytearray(rgbe(color) * width)
+        for x in range(width // 4 - 24, width // 4 + 24) if 0.4 < up < 0.7 else ():
+            distance = math.hypot(x - width // 4, y - height * 5 // 16)
+            row[4 * x:4 * x + 4] = rgbe([c + 200 * math.exp(-distance * distance / 20) for c in color])
+        data += row
+    with open(made + ".unfinished", "wb") as file:
+        file.write(data)
+    os.rename(made + ".unfinished", made)
+    return made
+
+
+def rgbe(color):
+    """Three numbers with one exponent (Ward, "Real Pixels")."""
+    fraction, exponent = math.frexp(max(color))
+    return bytes([int(c * fraction * 256 / max(color)) for c in color] + [exponent + 128])
 
 
 def glb(triangles):
     """A sphere as .glb, made from the PLY of the same size: positions and indices, one metallic-roughness material."""
-    made = os.path.join(paths.OUT, "models", "sphere_%d.glb" % triangles)
+    made = os.path.join(paths.MODELS, "sphere_%d.glb" % triangles)
     if os.path.exists(made):
         return made
     with open(scenes.model(triangles, "ply"), "rb") as file:
@@ -83,15 +108,17 @@ def pictures(path):
         view = document["bufferViews"][image["bufferView"]] if not uri else {}
         begin = view.get("byteOffset", 0)
         data = base64.b64decode(uri.partition(",")[2]) if uri else binary[begin:begin + view["byteLength"]]
-        files.append(os.path.join(paths.OUT, "models", "%s-%d.picture" % (os.path.basename(path), number)))
+        files.append(os.path.join(paths.MODELS, "%s-%d.picture" % (os.path.basename(path), number)))
         with open(files[-1], "wb") as file:
             file.write(data)
     return files
 
 
 def pair(label, path, isas, display, seconds, environment=None, decoding=False):
-    """One file by both programs; the result as of whole.whole. One sample for equal work, since F3D smooths no edges.
+    """One file by both programs, which the function `path` finds, as `environment` does; the result as of whole.whole. One sample for equal work, since F3D smooths no edges.
     `decoding`: that of its pictures is measured by itself too."""
+    display.require()
+    path, environment = path(), environment and environment()
     file_name = label.replace(" ", "-").replace(",", "")
     ours, theirs = whole.picture(file_name + "-lambent"), whole.picture(file_name + "-f3d")
     options = ["--samples", "1"] + (["--environment", environment] if environment else [])
@@ -103,7 +130,7 @@ def pair(label, path, isas, display, seconds, environment=None, decoding=False):
     contestants = {isa: (lambda isa=isa: measure.whole_process(command(isa), ours)) for isa in isas}
     contestants["f3d"] = lambda: display.f3d(peer, theirs)
     if decoding:
-        os.makedirs(os.path.join(paths.OUT, "models"), exist_ok=True)
+        os.makedirs(paths.MODELS, exist_ok=True)
         decode = [paths.program("decode"), *pictures(path)]
         contestants["decoding"] = lambda: measure.process(decode)
     taken = measure.in_turn(contestants, seconds)
@@ -123,27 +150,24 @@ def pair(label, path, isas, display, seconds, environment=None, decoding=False):
 def rows(isas, display):
     """(name, target of the CPU time's ratio or None, target of the wall time's, function that measures)."""
     for name, path in TEXTURED.items():
-        yield "glb " + name, 3, None, functools.partial(lambda label, file: pair(label, real(file), isas, display, 3, decoding=True), "glb " + name, path)
-    for name in ("knight", "toy car"):
+        yield "glb " + name, 3, None, functools.partial(pair, "glb " + name, path, isas, display, 3, decoding=True)
+    for name in UNDER_ENVIRONMENT:
         label = "glb %s, environment" % name
-        yield label, 40, None, functools.partial(lambda label, file: pair(label, real(file), isas, display, 3, real(ENVIRONMENT)),
-                                                 label, TEXTURED[name])
+        yield label, 40, None, functools.partial(pair, label, TEXTURED[name], isas, display, 3, environment)
     for triangles, word, target in ((1000000, "1M", 15), (10000000, "10M", 10)):
-        label = "glb " + word
-        yield label, None, target, functools.partial(lambda label, count: pair(label, glb(count), isas, display, 5), label, triangles)
+        yield "glb " + word, None, target, functools.partial(pair, "glb " + word, functools.partial(glb, triangles), isas, display, 5)
 
 
 def prefilter():
     """What an environment of 1024x512 adds to a process's first frame of a square: prefiltering it, all levels since its roughness varies."""
-    folder = os.path.join(paths.OUT, "models")
-    os.makedirs(folder, exist_ok=True)
+    folder = paths.MODELS
     os.makedirs(folder, exist_ok=True)
     files = {"rough.ppm": "P6 2 1 255\n" + 3 * "\x14" + 3 * "\x7a", "rough.mtl": "newmtl rough\nKd 1 0.8 0.3\nPm 1\nPr 1\nmap_Pr rough.ppm\n",
              "rough.obj": "mtllib rough.mtl\nusemtl rough\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n"}
     for name, text in files.items():
         with open(os.path.join(folder, name), "w") as file:
             file.write(text)
-    sphere = [os.path.join(folder, "rough.obj"), "-s", 64, "--samples", 1, "--environment", real(ENVIRONMENT)]
+    sphere = [os.path.join(folder, "rough.obj"), "-s", 64, "--samples", 1, "--environment", environment()]
     picture = whole.picture("prefilter")
 
     def frame(*more):

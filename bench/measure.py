@@ -22,6 +22,10 @@ class Failed(Exception):
     """A program failed; the text names it and the failure."""
 
 
+class Absent(Failed):
+    """A row's peer is not installed: the row says so, and the bench succeeds without it."""
+
+
 def output(command, **more):
     try:
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=LONGEST_S, **more)

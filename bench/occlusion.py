@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """occlusion.py: how far ambient occlusion from the screen is from that by rays.
 
-    occlusion.py LAMBENT [MODEL…]       a line for each model, by default all of the folder of real models (paths.py), and for all together
+    occlusion.py LAMBENT [MODEL…]       a line for each model, by default all of the folder LAMBENT_MODELS, and for all together
     occlusion.py LAMBENT --write        writes the table of docs/lighting/occlusion.md
 
 Differences (screen − rays) of `--show ao` at the covered pixels of the fitted view, one sample a pixel, at two sizes, since pictures of more than 512² pixels have
@@ -23,6 +23,8 @@ KINDS = ("obj", "stl", "ply", "glb")
 
 def models():
     """The first of each folder of each format; broken files and those that only test a reader are too small to count."""
+    if not paths.REAL_MODELS:
+        sys.exit("occlusion.py: no model given, expected some or LAMBENT_MODELS=FOLDER")
     for kind in KINDS:
         for folder, _, names in sorted(os.walk(os.path.join(paths.REAL_MODELS, kind))):
             found = [os.path.join(folder, name) for name in sorted(names) if name.lower().endswith("." + kind)]

@@ -7,8 +7,9 @@ OUT = os.path.join(ROOT, "build-bench")  # its own build of everything, models, 
 RESULTS = os.path.join(BENCH, "results")
 PICTURES = os.path.join(OUT, "pictures")
 LAMBENT = os.path.join(OUT, "lambent")
-# The folder of real models, by default next to the checkout.
-REAL_MODELS = os.environ.get("LAMBENT_MODELS", os.path.join(ROOT, "..", "shared", "models"))
+MODELS = os.path.join(OUT, "models")  # made by the bench
+EXAMPLES = os.path.join(ROOT, "examples", "models")
+REAL_MODELS = os.environ.get("LAMBENT_MODELS") and os.path.abspath(os.environ["LAMBENT_MODELS"])  # a folder of other models, of which there are rows too; None: only those above
 
 
 def program(name):

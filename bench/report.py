@@ -30,6 +30,11 @@ def ms(value):
     return "%.0f" % value if value >= 100 else "%.1f" % value if value >= 10 else "%.2f" % value
 
 
+def is_absent(row):
+    """Whether the row's peer is not installed (measure.Absent)."""
+    return row.get("not_measured", "").startswith("Absent: ")
+
+
 def measured(row):
     """The deciding values of a row for each instruction set, in one cell."""
     if "not_measured" in row:
@@ -101,7 +106,7 @@ def beside(row):
 
 
 def line(row):
-    return "%-34s %-7s %s (target %s)  [%.0f s]" % (row["name"], "" if row["target"] == "none" else "reached" if row["reached"] else "NOT", measured(row), row["target"],
+    return "%-34s %-7s %s (target %s)  [%.0f s]" % (row["name"], "" if row["target"] == "none" or is_absent(row) else "reached" if row["reached"] else "NOT", measured(row), row["target"],
                                                   row["took_s"])
 
 
@@ -126,7 +131,7 @@ def verdict(reached):
 
 def rows_section(result):
     return conditions(result) + table(("", "row", "target", "measured", "spread", "", "times, and beside"), (
-        (str(row["number"]), row["name"], row["target"], measured(row), spread_of(row), verdict(row["reached"]),
+        (str(row["number"]), row["name"], row["target"], measured(row), spread_of(row), "" if is_absent(row) else verdict(row["reached"]),
          beside(row)) for row in result["rows"])) + [""] + [
         "- Frames against llvmpipe, %s: geometric mean of %d rows %s (target ≥ 10 ×: %s), least %s (target ≥ 3 ×: %s)." % (
             ISA_NAMES[isa], mean["rows"], times(mean["mean"]), verdict(mean["mean"] >= 10), times(mean["least"]), verdict(mean["least"] >= 3))

@@ -132,6 +132,8 @@ def run_row(number, name, target, judge):
     row = {"number": number, "name": name, "target": target}
     try:
         row.update(judge())
+    except measure.Absent as problem:
+        row.update(not_measured="Absent: %s" % problem, reached=False)
     except Exception as problem:  # after any failure, the other rows are still measured
         row.update(not_measured="%s: %s" % (type(problem).__name__, problem), reached=False)
     row["took_s"] = round(time.monotonic() - begun, 1)
@@ -142,6 +144,8 @@ def run_row(number, name, target, judge):
 def attempt(what, run, problems):
     try:
         return run()
+    except measure.Absent:
+        return None  # its rows say so
     except Exception as problem:
         problems.append("%s: %s" % (what, problem))
         print("    not measured: %s: %s" % (what, problem), flush=True)
@@ -216,10 +220,10 @@ def main():
         report.write_files(result)
     if words and os.environ.get("BENCH") == "again":
         into_newest(result)
-    reached, aimed = (sum(1 for row in result["rows"] if row["target"] != NO_TARGET and (row["reached"] or every)) for every in (0, 1))
+    reached, aimed = (sum(1 for row in result["rows"] if row["target"] != NO_TARGET and not report.is_absent(row) and (row["reached"] or every)) for every in (0, 1))
     print("%d of %d targets reached, in %.0f s, others took %.0f %% of the processors' time; written: %s" % (
         reached, aimed, took, 100 * facts["share_of_others"], os.path.relpath(path, paths.ROOT)))
-    return 1 if problems or any("not_measured" in row for row in result["rows"]) else 0
+    return 1 if problems or any("not_measured" in row and not report.is_absent(row) for row in result["rows"]) else 0
 
 
 if __name__ == "__main__":

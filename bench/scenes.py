@@ -13,7 +13,7 @@ EYE, UP, FOVY, PLANES = (1.7, 1.2, 3.4), (0.0, 1.0, 0.0), 32.0, (1.5, 7.0)
 
 def model(triangles, kind="ply", shape="sphere"):
     """A model's file, made if it is missing."""
-    folder = os.path.join(paths.OUT, "models")
+    folder = paths.MODELS
     os.makedirs(folder, exist_ok=True)
     path = os.path.join(folder, "%s_%d.%s" % (shape, triangles, kind))
     if not os.path.exists(path):

@@ -25,16 +25,19 @@ MOST_DIFFERENT = 0.04
 
 
 class Browser:
-    """three.mjs, as a context: tasks in, answers out."""
+    """three.mjs, as a context: tasks in, answers out. `folder` has the files of the tasks."""
+
+    def __init__(self, folder):
+        self.folder = folder
 
     def __enter__(self):
         chromium = shutil.which("chromium")
         if not chromium or not shutil.which("node"):
-            raise measure.Failed("three.js: %s is not installed" % ("node" if chromium else "chromium"))
+            raise measure.Absent("three.js: %s is not installed" % ("node" if chromium else "chromium"))
         modules = build.packages(paths.OUT, os.path.join(paths.BENCH, "three"))
         if not modules:
-            raise measure.Failed("three.js: npm is missing or cannot install it")
-        self.process = subprocess.Popen(["node", os.path.join(paths.BENCH, "three", "three.mjs"), modules, chromium, paths.REAL_MODELS],
+            raise measure.Absent("three.js: npm is missing or cannot install it")
+        self.process = subprocess.Popen(["node", os.path.join(paths.BENCH, "three", "three.mjs"), modules, chromium, self.folder],
                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         return self
 
@@ -85,9 +88,11 @@ def camera_of(report):
     return {**camera, "near": far / 1000, "far": far * 1.01}
 
 
-def row(label, file, isas, gl_device, environment):
-    path, name = gltf_rows.real(file), label.replace(" ", "-").replace(",", "").replace(".", "")
-    lit = (["--environment", gltf_rows.real(environment)] if environment else
+def row(label, path, isas, gl_device, environment):
+    path, name = path(), label.replace(" ", "-").replace(",", "").replace(".", "")
+    environment = environment and environment()
+    folder = os.path.commonpath([os.path.dirname(file) for file in (path, environment) if file])
+    lit = (["--environment", environment] if environment else
            ["--light", "directional:direction=%g/%g/%g,intensity=%g" % (*LIGHT["direction"], LIGHT["intensity"])])
     options = ["-s", SIZE, "--samples", 1, "--ao", "off", *lit]
     ours, theirs = frames.picture(name + "-lambent"), frames.picture(name + "-three")
@@ -99,9 +104,9 @@ def row(label, file, isas, gl_device, environment):
         wall = measure.lambent("--repeat", count, *options, *more, "-o", frames.picture(name, "ppm"), path)["times_ms"]["frame"]
         first, all_of_them = (measure.process([*command, "--repeat", str(n)]).cpu_ms for n in (1, 1 + count))
         return measure.Taken(wall, (all_of_them - first) / count)
-    with Browser() as browser:
-        task = {"load": file, "size": [SIZE, SIZE], "camera": camera_of(report)}
-        told = browser.answer(**task, **({"environment": environment} if environment else {"light": LIGHT}))
+    with Browser(folder) as browser:
+        task = {"load": os.path.relpath(path, folder), "size": [SIZE, SIZE], "camera": camera_of(report)}
+        told = browser.answer(**task, **({"environment": os.path.relpath(environment, folder)} if environment else {"light": LIGHT}))
         browser.answer(save=theirs)
         difference = json.loads(measure.output([paths.LAMBENT, "diff", "--json", "--tolerance", "255", ours, theirs]))
         if difference["mean"] > MOST_DIFFERENT:
@@ -127,8 +132,8 @@ def row(label, file, isas, gl_device, environment):
 
 
 def rows(isas, gl_device):
-    for name, file in gltf_rows.TEXTURED.items():
-        yield "three.js " + name, 5, functools.partial(row, "three.js " + name, file, isas, gl_device, None)
-    for name in ("knight", "toy car"):
+    for name, path in gltf_rows.TEXTURED.items():
+        yield "three.js " + name, 5, functools.partial(row, "three.js " + name, path, isas, gl_device, None)
+    for name in gltf_rows.UNDER_ENVIRONMENT:
         label = "three.js %s, environment" % name
-        yield label, 5, functools.partial(row, label, gltf_rows.TEXTURED[name], isas, gl_device, gltf_rows.ENVIRONMENT)
+        yield label, 5, functools.partial(row, label, gltf_rows.TEXTURED[name], isas, gl_device, gltf_rows.environment)

@@ -23,9 +23,13 @@ class Display:
     def __init__(self):
         self.server = None
 
-    def open(self):
+    @staticmethod
+    def require():
         if not (shutil.which("f3d") and shutil.which("Xvfb")):
-            raise measure.Failed("f3d or Xvfb is not installed (packages.txt, group bench)")
+            raise measure.Absent("f3d or Xvfb is not installed (packages.txt, group bench)")
+
+    def open(self):
+        self.require()
         self.start()
         measure.output(["f3d", scenes.model(1000), "--dry-run", "--quiet", "--output=" + picture("try-f3d")])
 
@@ -80,8 +84,10 @@ def carries_normals(path):
 
 
 def whole(name, path, isas, display, seconds, size=SIZE):
-    """One file: lambent with each instruction set, for F3D's work and by default, and F3D. Returns the results of the two rows:
+    """One file, which the function `path` makes or finds: lambent with each instruction set, for F3D's work and by default, and F3D. Returns the results of the two rows:
     {same_work: result}."""
+    display.require()
+    path = path()
     file_name = name.replace(" ", "-").replace(",", "")
     ours, theirs = picture(file_name + "-lambent"), picture(file_name + "-f3d")
     options = {True: ["--samples", "1"] + ([] if carries_normals(path) else ["--normals", "facet"]), False: []}
@@ -111,19 +117,33 @@ def whole(name, path, isas, display, seconds, size=SIZE):
     return {same_work: row(same_work) for same_work in options}
 
 
+def real(path):
+    """A file of the folder LAMBENT_MODELS."""
+    found = os.path.normpath(os.path.join(paths.REAL_MODELS, path))
+    if not os.path.exists(found):
+        raise measure.Failed("%s is not in the folder that LAMBENT_MODELS names" % found)
+    return found
+
+
+REAL = {"koala": "obj/koala/koala.obj", "koala.stl": "stl/derived/koala.stl", "gallery": "ply/derived/gallery.ply"}
+
+
 def small_model(name):
-    """A real model from the collection next to the checkout, readable by lambent and F3D."""
-    path = os.path.normpath(os.path.join(paths.REAL_MODELS, {"spot": "obj/spot/spot_triangulated.obj", "teapot": "obj/teapot/teapot.obj",
-                                                             "koala": "obj/koala/koala.obj", "koala.stl": "stl/derived/koala.stl",
-                                                             "gallery": "ply/derived/gallery.ply"}[name]))
-    if not os.path.exists(path):
-        raise measure.Failed("%s is not here; LAMBENT_MODELS names the folder of models" % path)
-    return path
+    """A model that lambent and F3D read: the repository's, made here, or of LAMBENT_MODELS."""
+    if name == "spot":
+        return os.path.join(paths.EXAMPLES, "spot.obj")
+    if name == "teapot":
+        made = os.path.join(paths.MODELS, "teapot.obj")
+        if not os.path.exists(made):
+            os.makedirs(paths.MODELS, exist_ok=True)
+            measure.output([paths.LAMBENT, "shape", "teapot", "-q", "-o", made])
+        return made
+    return real(REAL[name])
 
 
 def both(label, target, path, isas, display, seconds, size=SIZE):
     """The two rows of a file, measured side by side when the first is asked for; `path` is a function. Targets are for equal work."""
-    measured = functools.cache(lambda: whole(label, path(), isas, display, seconds, size))
+    measured = functools.cache(lambda: whole(label, path, isas, display, seconds, size))
     yield label, target, lambda: measured()[True]
     yield label + ", default", None, lambda: measured()[False]
 
@@ -139,7 +159,7 @@ def rows(isas, display, full):
     if not full:
         return
     for size in (256, 1024):
-        for name in ("koala", "koala.stl", "gallery"):
+        for name in REAL if paths.REAL_MODELS else ():
             yield from both("whole %s %d px" % (name, size), None, lambda name=name: small_model(name), isas, display, 6, size)
         for triangles in (10000, 100000, 1000000, 10000000):
             for kind in ("ply", "stl", "obj"):

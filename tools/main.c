@@ -28,25 +28,30 @@ static struct options scan_report_options(int count, char **words)
     return options;
 }
 
-// Removes the command's name from the front of the words; the default command where they name none.
+// Removes the command's name from the words, in which options may come before it; the default command if they name none.
 static const struct command *take_command(int *count, char **words)
 {
-    const struct command *command = *count ? find_command(words[0]) : NULL;
+    int first = options_first_operand(*count, words);
+    const struct command *command = first >= 0 ? find_command(words[first]) : NULL;
     if (!command)
         return command_table;
-    memmove(words, words + 1, (size_t)--*count * sizeof *words);
+    memmove(words + first, words + first + 1, (size_t)(--*count - first) * sizeof *words);
     return command;
 }
 
-static bool check_operands(const struct command *command, int count, char **operands, lam_error *error)
+static bool check_operands(const struct command *command, int count, char **operands, const struct options *options,
+                           lam_error *error)
 {
+    if (options->lists.count) // whose names are models
+        return true;
     if (count < command->min_operands && command == command_table)
         return complain(error, LAM_BAD_ARGUMENT, "no model given, expected a file, a shape's name or -");
     if (count < command->min_operands)
         return complain(error, LAM_BAD_ARGUMENT, "%s: missing argument: %s", command->name, command->operands);
     if (command->max_operands >= 0 && count > command->max_operands)
-        return complain(error, LAM_BAD_ARGUMENT, "%s: unexpected argument '%s'", command->name,
-                        operands[command->max_operands]);
+        return complain(error, LAM_BAD_ARGUMENT, "%s: unexpected argument '%s'%s%s", command->name,
+                        operands[command->max_operands], command->one_more ? "; " : "",
+                        command->one_more ? command->one_more : "");
     return true;
 }
 
@@ -65,7 +70,7 @@ static int execute(const struct command *command, int operands, char **words, st
     }
     if (options->output && strcmp(options->output, "/dev/stdout") == 0)
         options->output = "-"; // nothing but the picture may be written there
-    if (!check_operands(command, operands, words, &error))
+    if (!check_operands(command, operands, words, options, &error))
         return report_failure(&error, options);
     options->files_inside |= options->sandbox == SANDBOX_REQUIRE && !options->allow_paths.count;
 #define RUN(name) run_##name,

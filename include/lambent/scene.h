@@ -75,7 +75,7 @@ typedef struct lam_load_params {
     // all of them later. Not for scene files, and not for other devices.
     bool normals_when_drawn;
     // Scene files: true: the models and pictures that they name may lie in any folder. false: only in the scene file's
-    // folder and below, links followed. Files that models name always stay in the model's folder.
+    // folder and below, links followed. Files that models name stay in the model's folder (see `allowed_paths`).
     bool models_anywhere;
     // Opens the files that a model names. NULL: those beside the model; for a model in memory none can be opened.
     lam_open_fn *open;
@@ -97,7 +97,11 @@ typedef struct lam_load_params {
     double time_s;
     // OBJ and PLY: keeps which edges cutting polygons into triangles made (lam_mesh.inner_edges), for wireframes.
     bool polygon_edges;
-    LAM_RESERVED(10);
+    // Folders and files that the files named by a model or a scene file may lie in, besides the folder of the one that names
+    // them. Without them a name that leads out of that folder, such as "../textures/wood.png", is cut to its last part.
+    const char *const *allowed_paths;
+    int allowed_path_count;
+    LAM_RESERVED(8);
 } lam_load_params;
 
 // Loads a model file into a new scene: its meshes, materials and lights, and an object for each mesh. Where everything is

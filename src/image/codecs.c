@@ -41,19 +41,35 @@ static const char *list_names(const char *before, char list[LIST_BYTES])
     return list;
 }
 
+// The formats that take the place of one that cannot be written; NULL: it is not known.
+static const char *instead_of(const char *word)
+{
+    static const struct {
+        const char *words[12], *instead;
+    } rows[] = {
+        {{"mp4", "mov", "avi", "mkv", "webm", "m4v", "mpg", "mpeg", "ogv", "gif", "apng"},
+         "webp, which holds animations"},
+        {{"bmp", "tga", "tif", "tiff", "heic", "avif", "jp2", "svg", "pdf", "eps", "ico"}, "png"},
+        {{"hdr", "rgbe"}, "exr"},
+    };
+    for (size_t row = 0; row < sizeof rows / sizeof *rows; row++)
+        for (const char *const *known = rows[row].words; *known; known++)
+            if (strcasecmp(*known, word) == 0)
+                return rows[row].instead;
+    return NULL;
+}
+
 static bool fail_unknown(lam_error *error, const char *subject, const char *before, const char *word)
 {
-    const char *names[WRITTEN], *nearest;
+    const char *names[WRITTEN], *instead = instead_of(word);
     for (int i = 0; i < WRITTEN; i++)
         names[i] = codecs[i]->name;
     char list[LIST_BYTES];
     list_names(before, list);
-    if ((nearest = nearest_word(word, names, WRITTEN)))
-        return fail(error, LAM_UNSUPPORTED,
-                    "%s: '%s%s' is no picture format that can be written, did you mean %s%s? (%s)", subject, before,
-                    word, before, nearest, list);
-    return fail(error, LAM_UNSUPPORTED, "%s: '%s%s' is no picture format that can be written, expected %s", subject,
-                before, word, list);
+    if (instead || (instead = nearest_word(word, names, WRITTEN)))
+        return fail(error, LAM_UNSUPPORTED, "%s: lambent cannot write %s%s; use %s%s (it writes %s)", subject, before,
+                    word, before, instead, list);
+    return fail(error, LAM_UNSUPPORTED, "%s: lambent cannot write %s%s; use %s", subject, before, word, list);
 }
 
 static const struct codec *codec_for(const char *path, lam_error *error)

@@ -39,18 +39,62 @@ static bool copy_components(const char *name, char *out, size_t capacity)
     return used > 0;
 }
 
-bool confine(const char *name, char *out, size_t capacity)
+static char *join(struct arena *arena, const char *folder, const char *name)
 {
+    size_t length = strlen(folder), rest = strlen(name);
+    char *path = arena_alloc(arena, length + rest + 1);
+    if (path) {
+        // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the name follows, with its zero
+        memcpy(path, folder, length);
+        memcpy(path + length, name, rest + 1);
+    }
+    return path;
+}
+
+// The path after every link is followed, if it lies in one of params->allowed_paths, as of path_within.
+static char *path_allowed(const struct import_source *source, const char *path, size_t *length)
+{
+    char *real = NULL;
+    bool outside;
+    for (int i = 0; !real && i < source->params->allowed_path_count; i++)
+        real = path_within(path, source->params->allowed_paths[i], &outside, length);
+    return real;
+}
+
+// Whether a name that leads out of the folder leads to a file that the caller allows.
+static bool is_allowed(const struct import_source *source, const char *name)
+{
+    const struct companions *companions = source->open_state;
+    char path[2 * COMPANION_NAME_SIZE];
+    size_t length;
+    if (!source->params->allowed_path_count || companions->open || !companions->folder)
+        return false;
+    snprintf(path, sizeof path, "%s%s", name[0] == '/' ? "" : companions->folder, name);
+    file_list_add(companions->files, path);
+    char *real = path_allowed(source, path, &length);
+    free(real);
+    return real != NULL;
+}
+
+bool companion_name(const struct import_source *source, const char *name, char out[COMPANION_NAME_SIZE], bool *cut)
+{
+    char slashed[COMPANION_NAME_SIZE];
     size_t length = strlen(name);
-    if (length >= capacity)
+    *cut = false;
+    if (length >= sizeof slashed)
         return false;
     for (size_t i = 0; i <= length; i++)
-        out[i] = name[i] == '\\' ? '/' : name[i];
-    bool rooted = out[0] == '/' || (out[0] && out[1] == ':');
-    if (!rooted && copy_components(out, out, capacity))
+        slashed[i] = name[i] == '\\' ? '/' : name[i];
+    bool rooted = slashed[0] == '/' || (slashed[0] && slashed[1] == ':');
+    if (!rooted && copy_components(slashed, out, COMPANION_NAME_SIZE))
         return true;
-    const char *kept = path_name(out); // whose bytes are as they were: components only move to the front
-    return strcmp(kept, "..") != 0 && copy_components(kept, out, capacity);
+    if (is_allowed(source, slashed)) {
+        memcpy(out, slashed, length + 1);
+        return true;
+    }
+    const char *kept = path_name(slashed);
+    *cut = true;
+    return strcmp(kept, "..") != 0 && copy_components(kept, out, COMPANION_NAME_SIZE);
 }
 
 static bool fail_name(const struct import_source *source, const char *name, const char *why, lam_error *error)
@@ -89,18 +133,6 @@ static bool open_by_caller(const struct import_source *source, const char *name,
     return ok;
 }
 
-static char *join(struct arena *arena, const char *folder, const char *name)
-{
-    size_t length = strlen(folder), rest = strlen(name);
-    char *path = arena_alloc(arena, length + rest + 1);
-    if (path) {
-        // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the name follows, with its zero
-        memcpy(path, folder, length);
-        memcpy(path + length, name, rest + 1);
-    }
-    return path;
-}
-
 // Opens a file on disk. With `confined` it must lie in the folder or below.
 static bool open_beside(const struct import_source *source, const char *name, bool confined, const char *advice,
                         struct arena *arena, struct companion *out, lam_error *error)
@@ -116,7 +148,7 @@ static bool open_beside(const struct import_source *source, const char *name, bo
     bool outside;
     size_t length = 0;
     char *real = path_within(out->path, confined ? root : "/", &outside, &length);
-    if (outside)
+    if (outside && !(real = path_allowed(source, out->path, &length)))
         return fail(error, LAM_CANNOT_READ, "%s: leads out of the folder %s%s", out->shown, *root ? root : ".", advice);
     if (!real && errno == ENOMEM)
         return fail_memory(error, COMPANION_NAME_SIZE);
@@ -128,17 +160,30 @@ static bool open_beside(const struct import_source *source, const char *name, bo
                      : call_memory_error(source->call, COMPANION_NAME_SIZE, error);
 }
 
+// Says of a file that was not found that its name was cut: the file may lie where the name says.
+static void explain_cut(const char *name, lam_error *error)
+{
+    char shown[SHOWN_NAME_SIZE];
+    size_t used = strlen(error->text);
+    snprintf(error->text + used, sizeof error->text - used, " (the name is '%s', outside of this folder%s)",
+             shown_name(name, shown), name[1] == ':' ? "" : "; --allow-path FOLDER lets it be read");
+}
+
 bool companion_open(const struct import_source *source, const char *name, struct arena *arena, struct companion *out,
                     lam_error *error)
 {
     const struct companions *companions = source->open_state;
     char confined[COMPANION_NAME_SIZE];
     *out = (struct companion){0};
-    if (!confine(name, confined, sizeof confined))
+    bool cut;
+    if (!companion_name(source, name, confined, &cut))
         return fail_name(source, name, "which is not a valid name", error);
     if (companions->open || !companions->folder)
         return open_by_caller(source, confined, arena, out, error);
-    return open_beside(source, confined, true, "", arena, out, error);
+    bool ok = open_beside(source, confined, true, "", arena, out, error);
+    if (!ok && cut && error && error->code == LAM_CANNOT_READ)
+        explain_cut(name, error);
+    return ok;
 }
 
 bool companion_open_of_scene(const struct import_source *source, const char *name, struct arena *arena,

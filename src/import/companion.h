@@ -23,13 +23,13 @@ struct companion {
     const char *shown; // stands for it in messages: the folder, and the name cut by shown_name
 };
 
-// import_source.open. The name is confined first (confine); the file must lie in the model's folder or below, links
-// followed. The strings of `out` are in `arena`.
+// import_source.open. The name is confined first (companion_name); the file must lie in the model's folder or below, or in one
+// of params->allowed_paths, links followed. The strings of `out` are in `arena`.
 bool companion_open(const struct import_source *source, const char *name, struct arena *arena, struct companion *out,
                     lam_error *error);
 
 // import_source.open_of_scene. The file must lie in the scene file's folder or below, links and ".." followed, unless
-// params->models_anywhere is set; one that does not is an error.
+// params->models_anywhere is set, or in one of params->allowed_paths; one that does not is an error.
 bool companion_open_of_scene(const struct import_source *source, const char *name, struct arena *arena,
                              struct companion *out, lam_error *error);
 
@@ -38,10 +38,11 @@ bool companion_open_of_scene(const struct import_source *source, const char *nam
 bool companions_of_model(const struct import_source *scene, const char *name, const struct companion *model,
                          struct arena *arena, struct companions *out, lam_error *error);
 
-// Confines a file name to a folder: backslashes become slashes, "." and empty components go, ".." takes the component
-// before it away, and a name that begins at a root or a drive, or leads out of the folder, is cut to its last component. So the names of one file are the same text. False:
-// nothing is left, or `capacity` is too small.
+// The name by which a file that the model names is opened. It is confined to the model's folder: backslashes become slashes,
+// "." and empty components go, ".." takes the component before it away, and a name that begins at a root or a drive, or leads out
+// of the folder, is cut to its last component, unless it leads to a file of params->allowed_paths. So the names of one file in the
+// folder are the same text. *cut: it was. False: nothing is left, or COMPANION_NAME_SIZE is too small.
 enum { COMPANION_NAME_SIZE = 4096 };
-bool confine(const char *name, char *out, size_t capacity);
+bool companion_name(const struct import_source *source, const char *name, char out[COMPANION_NAME_SIZE], bool *cut);
 
 #endif

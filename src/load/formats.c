@@ -22,13 +22,22 @@ const char *lam_model_format_extensions(int format)
     return format >= 0 && format < IMPORTERS ? importers[format]->extensions : NULL;
 }
 
-// "obj, stl and ply"
-static const char *format_list(char out[128])
+const char *format_list(char out[FORMAT_LIST_SIZE])
 {
     size_t used = 0;
+    out[0] = 0;
     for (int i = 0; i < IMPORTERS; i++) {
-        const char *between = i == 0 ? "" : i == IMPORTERS - 1 ? " and " : ", ";
-        used += (size_t)snprintf(out + used, 128 - used, "%s%s", between, importers[i]->name);
+        const char *word = importers[i]->extensions;
+        while (*word && used < FORMAT_LIST_SIZE) {
+            size_t length = strcspn(word, " ");
+            used += (size_t)snprintf(out + used, FORMAT_LIST_SIZE - used,
+                                     importers[i]->is_scene_file ? "%s (.%.*s)" : "%s.%.*s",
+                                     importers[i]->is_scene_file ? " and scene files"
+                                     : used                      ? ", "
+                                                                 : "",
+                                     (int)length, word);
+            word += length + strspn(word + length, " ");
+        }
     }
     return out;
 }
@@ -51,13 +60,13 @@ static bool has_ending(const struct importer *importer, const char *ending)
 const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
                                     lam_error *error)
 {
-    char list[128];
+    char list[FORMAT_LIST_SIZE];
     if (wanted) {
         for (int i = 0; i < IMPORTERS; i++) {
             if (strcasecmp(importers[i]->name, wanted) == 0 || has_ending(importers[i], wanted))
                 return importers[i];
         }
-        fail(error, LAM_UNSUPPORTED, "%s: the format '%s' cannot be read; this version reads %s", name, wanted,
+        fail(error, LAM_UNSUPPORTED, "%s: the format '%s' cannot be read; lambent reads %s", name, wanted,
              format_list(list));
         return NULL;
     }
@@ -82,19 +91,21 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
         return by_content;
     // Recognised as another kind of file, whatever its name.
     const struct unsupported_format *foreign = unsupported_format_of(file->data, file->size);
-    if (foreign && foreign->is_model) {
-        fail(error, LAM_UNSUPPORTED, "%s: this is %s, which this version cannot read yet; it reads %s", name,
-             foreign->name, format_list(list));
+    if (!foreign && !by_ending)
+        foreign = unsupported_format_named(ending);
+    if (foreign && foreign->instead) {
+        fail(error, LAM_UNSUPPORTED, "%s: this is %s; lambent reads %s: export the model as %s", name, foreign->name,
+             format_list(list), foreign->instead);
         return NULL;
     }
     if (foreign) {
-        fail(error, LAM_CANNOT_READ, "%s: this is %s, not a 3D model; expected %s", name, foreign->name,
+        fail(error, LAM_CANNOT_READ, "%s: this is %s, not a 3D model; lambent reads %s", name, foreign->name,
              format_list(list));
         return NULL;
     }
     if (by_ending)
         return by_ending; // its reader reports the error
-    fail(error, LAM_CANNOT_READ, "%s: this is no model format known here; expected %s", name, format_list(list));
+    fail(error, LAM_CANNOT_READ, "%s: unknown model format; lambent reads %s", name, format_list(list));
     return NULL;
 }
 

@@ -5,6 +5,7 @@
 #include "file_list.h"
 #include "float_state.h"
 #include "formats.h"
+#include "unsupported_formats.h"
 
 #include <lambent/image.h>
 
@@ -92,6 +93,24 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     return true;
 }
 
+// Adds to the error of a path that cannot be opened that it names no file that could be read: an address, or a format of other
+// programs.
+static void explain_path(const char *path, lam_error *error)
+{
+    char list[FORMAT_LIST_SIZE];
+    const struct unsupported_format *foreign = unsupported_format_named(path_ending(path));
+    bool address = strstr(path, "://") != NULL;
+    if (!error || error->code != LAM_CANNOT_READ || (!address && !foreign))
+        return;
+    size_t used = strlen(error->text);
+    if (address)
+        used += (size_t)snprintf(error->text + used, sizeof error->text - used,
+                                 "; this is an address, expected a file: download it first");
+    if (used < sizeof error->text)
+        snprintf(error->text + used, sizeof error->text - used, "; lambent reads %s%s%s", format_list(list),
+                 foreign ? ": export the model as " : "", foreign ? foreign->instead : "");
+}
+
 // Streams a large file of a supported layout. NULL: not such a file; no error is reported.
 static struct lam_scene *load_stream(struct import_source *source, const struct importer **importer)
 {
@@ -160,6 +179,8 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     ok = ok && (scene  ? true
                 : path ? file_read(path, source.pool, &call, &file, error)
                        : file_copy(bytes, size, &call, &file, error));
+    if (!ok && path)
+        explain_path(path, error);
     if (ok && !scene) {
         source.bytes = file.data;
         source.size = file.size;

@@ -1,7 +1,9 @@
-// unsupported_formats.c: kinds of files that are recognised by content, so that an error can name them.
+// unsupported_formats.c: kinds of files that are recognised by content or by name, so that an error can name them.
 #include "unsupported_formats.h"
 
+#include <stdbool.h>
 #include <string.h>
+#include <strings.h>
 
 // A file is of the first kind whose `magic` is at `offset` and that contains `within` (NULL: no such test).
 static const struct kind {
@@ -10,47 +12,47 @@ static const struct kind {
     const char *magic;
     const char *within;
 } kinds[] = {
-    {{"an FBX file", true}, 0, 18, "Kaydara FBX Binary", NULL},
-    {{"an FBX file", true}, 0, 5, "; FBX", NULL},
-    {{"a STEP file", true}, 0, 12, "ISO-10303-21", NULL},
-    {{"a VRML file", true}, 0, 5, "#VRML", NULL},
-    {{"a USD file", true}, 0, 5, "#usda", NULL},
-    {{"a USD file", true}, 0, 8, "PXR-USDC", NULL},
-    {{"an OFF file", true}, 0, 3, "OFF", NULL},
-    {{"an OFF file", true}, 0, 4, "COFF", NULL},
-    {{"an OFF file", true}, 0, 4, "NOFF", NULL},
-    {{"an OFF file", true}, 0, 5, "STOFF", NULL},
-    {{"a Draco file", true}, 0, 5, "DRACO", NULL},
-    {{"an Alembic file", true}, 0, 5, "Ogawa", NULL},
-    {{"a Blender file", true}, 0, 7, "BLENDER", NULL},
-    {{"an AutoCAD drawing (DWG)", true}, 0, 4, "AC10", NULL},
-    {{"a LightWave file", true}, 8, 3, "LWO", NULL},
-    {{"a 3MF file", true}, 0, 4, "PK\3\4", "3D/3dmodel"},
-    {{"a USDZ file", true}, 0, 4, "PK\3\4", ".usd"},
-    {{"a ZIP archive", false}, 0, 4, "PK\3\4", NULL},
-    {{"a gzip-compressed file (unpack it first)", false}, 0, 2, "\x1f\x8b", NULL},
-    {{"a zstd-compressed file (unpack it first)", false}, 0, 4, "\x28\xb5\x2f\xfd", NULL},
-    {{"UTF-16 text (save it as UTF-8)", false}, 0, 2, "\xff\xfe", NULL},
-    {{"UTF-16 text (save it as UTF-8)", false}, 0, 2, "\xfe\xff", NULL},
-    {{"a PNG picture", false}, 0, 8, "\x89PNG\r\n\x1a\n", NULL},
-    {{"a JPEG picture", false}, 0, 3, "\xff\xd8\xff", NULL},
-    {{"a GIF picture", false}, 0, 4, "GIF8", NULL},
-    {{"a WebP picture", false}, 8, 4, "WEBP", NULL},
-    {{"a TIFF picture", false}, 0, 4, "II*\0", NULL},
-    {{"a TIFF picture", false}, 0, 4, "MM\0*", NULL},
-    {{"a Radiance picture", false}, 0, 10, "#?RADIANCE", NULL},
-    {{"an OpenEXR picture", false}, 0, 4, "\x76\x2f\x31\x01", NULL},
-    {{"a PDF document", false}, 0, 5, "%PDF-", NULL},
-    {{"a program", false},
+    {{"an FBX file", ".glb"}, 0, 18, "Kaydara FBX Binary", NULL},
+    {{"an FBX file", ".glb"}, 0, 5, "; FBX", NULL},
+    {{"a STEP file", ".stl"}, 0, 12, "ISO-10303-21", NULL},
+    {{"a VRML file", ".glb"}, 0, 5, "#VRML", NULL},
+    {{"a USD file", ".glb"}, 0, 5, "#usda", NULL},
+    {{"a USD file", ".glb"}, 0, 8, "PXR-USDC", NULL},
+    {{"an OFF file", ".ply"}, 0, 3, "OFF", NULL},
+    {{"an OFF file", ".ply"}, 0, 4, "COFF", NULL},
+    {{"an OFF file", ".ply"}, 0, 4, "NOFF", NULL},
+    {{"an OFF file", ".ply"}, 0, 5, "STOFF", NULL},
+    {{"a Draco file", ".glb"}, 0, 5, "DRACO", NULL},
+    {{"an Alembic file", ".glb"}, 0, 5, "Ogawa", NULL},
+    {{"a Blender file", ".glb"}, 0, 7, "BLENDER", NULL},
+    {{"an AutoCAD drawing (DWG)", ".stl"}, 0, 4, "AC10", NULL},
+    {{"a LightWave file", ".glb"}, 8, 3, "LWO", NULL},
+    {{"a 3MF file", ".stl"}, 0, 4, "PK\3\4", "3D/3dmodel"},
+    {{"a USDZ file", ".glb"}, 0, 4, "PK\3\4", ".usd"},
+    {{"a ZIP archive", NULL}, 0, 4, "PK\3\4", NULL},
+    {{"a gzip-compressed file (unpack it first)", NULL}, 0, 2, "\x1f\x8b", NULL},
+    {{"a zstd-compressed file (unpack it first)", NULL}, 0, 4, "\x28\xb5\x2f\xfd", NULL},
+    {{"UTF-16 text (save it as UTF-8)", NULL}, 0, 2, "\xff\xfe", NULL},
+    {{"UTF-16 text (save it as UTF-8)", NULL}, 0, 2, "\xfe\xff", NULL},
+    {{"a PNG picture", NULL}, 0, 8, "\x89PNG\r\n\x1a\n", NULL},
+    {{"a JPEG picture", NULL}, 0, 3, "\xff\xd8\xff", NULL},
+    {{"a GIF picture", NULL}, 0, 4, "GIF8", NULL},
+    {{"a WebP picture", NULL}, 8, 4, "WEBP", NULL},
+    {{"a TIFF picture", NULL}, 0, 4, "II*\0", NULL},
+    {{"a TIFF picture", NULL}, 0, 4, "MM\0*", NULL},
+    {{"a Radiance picture", NULL}, 0, 10, "#?RADIANCE", NULL},
+    {{"an OpenEXR picture", NULL}, 0, 4, "\x76\x2f\x31\x01", NULL},
+    {{"a PDF document", NULL}, 0, 5, "%PDF-", NULL},
+    {{"a program", NULL},
      0,
      4,
      "\x7f"
      "ELF",
      NULL},
-    {{"a film", false}, 4, 4, "ftyp", NULL},
-    {{"a web page", false}, 0, 9, "<!DOCTYPE", NULL},
-    {{"a web page", false}, 0, 9, "<!doctype", NULL},
-    {{"a web page", false}, 0, 5, "<html", NULL},
+    {{"a film", NULL}, 4, 4, "ftyp", NULL},
+    {{"a web page", NULL}, 0, 9, "<!DOCTYPE", NULL},
+    {{"a web page", NULL}, 0, 9, "<!doctype", NULL},
+    {{"a web page", NULL}, 0, 5, "<html", NULL},
 };
 
 // Text formats without a magic number: recognised by the first character after white space, and a later word.
@@ -59,14 +61,53 @@ static const struct text_kind {
     char first;
     const char *within;
 } text_kinds[] = {
-    {{"a JSON file with neither the key \"asset\" of glTF nor \"lambent\" of scene files", false}, '{', "\":"},
-    {{"a COLLADA file", true}, '<', "<COLLADA"},
-    {{"an X3D file", true}, '<', "<X3D"},
-    {{"an AMF file", true}, '<', "<amf"},
-    {{"an XML file", false}, '<', "<?xml"},
-    {{"a DXF file", true}, '0', "SECTION"},
-    {{"a MTL file (materials only; give the .obj that names it)", false}, 'n', "newmtl "},
+    {{"a JSON file with neither the key \"asset\" of glTF nor \"lambent\" of scene files", NULL}, '{', "\":"},
+    {{"a COLLADA file", ".glb"}, '<', "<COLLADA"},
+    {{"an X3D file", ".glb"}, '<', "<X3D"},
+    {{"an AMF file", ".stl"}, '<', "<amf"},
+    {{"an XML file", NULL}, '<', "<?xml"},
+    {{"a DXF file", ".stl"}, '0', "SECTION"},
+    {{"a MTL file (materials only; give the .obj that names it)", NULL}, 'n', "newmtl "},
 };
+
+// Formats by the endings of their files, separated by blanks.
+static const struct named_kind {
+    const char *endings;
+    struct unsupported_format kind;
+} named_kinds[] = {
+    {"fbx", {"an FBX file", ".glb"}},
+    {"blend", {"a Blender file", ".glb"}},
+    {"dae", {"a COLLADA file", ".glb"}},
+    {"usd usda usdc usdz", {"a USD file", ".glb"}},
+    {"3ds max", {"a 3ds Max file", ".glb"}},
+    {"ma mb", {"a Maya file", ".glb"}},
+    {"c4d", {"a Cinema 4D file", ".glb"}},
+    {"lwo", {"a LightWave file", ".glb"}},
+    {"abc", {"an Alembic file", ".glb"}},
+    {"x3d wrl", {"an X3D or VRML file", ".glb"}},
+    {"skp", {"a SketchUp file", ".glb"}},
+    {"drc", {"a Draco file", ".glb"}},
+    {"off", {"an OFF file", ".ply"}},
+    {"step stp", {"a STEP file", ".stl"}},
+    {"iges igs", {"an IGES file", ".stl"}},
+    {"3mf", {"a 3MF file", ".stl"}},
+    {"amf", {"an AMF file", ".stl"}},
+    {"dxf dwg", {"an AutoCAD drawing", ".stl"}},
+    {"f3d ipt iam sldprt sldasm fcstd 3dm scad brep x_t", {"a CAD file", ".stl"}},
+};
+
+const struct unsupported_format *unsupported_format_named(const char *ending)
+{
+    size_t length = strlen(ending);
+    for (size_t i = 0; length && i < sizeof named_kinds / sizeof *named_kinds; i++)
+        for (const char *word = named_kinds[i].endings; *word; word += strspn(word, " ")) {
+            size_t end = strcspn(word, " ");
+            if (end == length && strncasecmp(word, ending, length) == 0)
+                return &named_kinds[i].kind;
+            word += end;
+        }
+    return NULL;
+}
 
 static bool holds(const uint8_t *bytes, size_t size, const char *word)
 {
@@ -85,7 +126,7 @@ static bool is_iges(const uint8_t *bytes, size_t size) { return size > 80 && mem
 
 const struct unsupported_format *unsupported_format_of(const uint8_t *bytes, size_t size)
 {
-    static const struct unsupported_format studio = {"a 3DS file", true}, iges = {"an IGES file", true};
+    static const struct unsupported_format studio = {"a 3DS file", ".glb"}, iges = {"an IGES file", ".stl"};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         const struct kind *kind = &kinds[i];
         if (size >= kind->offset + kind->length && memcmp(bytes + kind->offset, kind->magic, kind->length) == 0 &&

@@ -88,6 +88,35 @@ enum { NAMES = sizeof names / sizeof names[0] };
 
 const char *lam_color_name(int index) { return index >= 0 && index < NAMES ? names[index].name : NULL; }
 
+// The hexadecimal form of a colour as other programs write it: "ff8800", "0xff8800", "255,136,0" or "rgb(255, 136, 0)". False: it
+// is none of these.
+static bool hex_of(const char *text, char hex[16])
+{
+    static const char digits[] = "0123456789abcdef";
+    const char *at = strncmp(text, "0x", 2) == 0 ? text + 2 : text;
+    uint32_t rgba;
+    hex[0] = '#';
+    if (strlen(at) >= 6 && read_hex(at, &rgba)) {
+        strcpy(hex + 1, at);
+        return true;
+    }
+    at = strncmp(text, "rgb(", 4) == 0 ? text + 4 : text;
+    for (int channel = 0; channel < 3; channel++) {
+        unsigned byte = 0;
+        at += strspn(at, channel ? ", " : "");
+        if (!(*at >= '0' && *at <= '9'))
+            return false;
+        for (; *at >= '0' && *at <= '9' && byte < 256; at++)
+            byte = byte * 10 + (unsigned)(*at - '0');
+        if (byte > 255)
+            return false;
+        hex[1 + 2 * channel] = digits[byte >> 4];
+        hex[2 + 2 * channel] = digits[byte & 15];
+    }
+    hex[7] = 0;
+    return *at == 0 || strcmp(at, ")") == 0;
+}
+
 bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam_error *error)
 {
     if (!text || !color)
@@ -112,15 +141,12 @@ bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam
         return true;
     }
     // The '#' is easily forgotten, and easily lost: in a shell it begins a comment.
-    char hex[16] = "#";
+    char hex[16];
     struct spelling spelling = spelling_of(text);
-    if (strlen(text) >= 6 && read_hex(text, &rgba))
-        spelling.nearest = strcat(hex, text);
-    for (int i = 0; i < NAMES && !hex[1]; i++)
+    for (int i = 0; i < NAMES; i++)
         spelling_try(&spelling, names[i].name);
-    if (!hex[1])
-        spelling_try(&spelling, "transparent");
-    const char *nearest = spelling.nearest;
+    spelling_try(&spelling, "transparent");
+    const char *nearest = hex_of(text, hex) ? hex : spelling.nearest;
     return fail(error, LAM_BAD_ARGUMENT,
                 "found '%.60s', expected a colour: #rrggbb, #rrggbbaa, r/g/b, one number, transparent, or a name such "
                 "as white%s%s%s",

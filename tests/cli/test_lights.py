@@ -294,9 +294,9 @@ class Materials(Pictures):
     def test_warnings_and_errors(self):
         for value in ("kd=1.5", "specular=1/2/1", "ambient=3"):
             done = self.good("sphere", "-s", 16, "--material", value)
-            self.assertIn(b"over 1", done.stderr)
-            self.assertIn("over 1", self.report("sphere", "-s", 16, "--material", value)["warnings"][0])
-        self.assertNotIn(b"over 1", self.good("sphere", "-s", 16, "--material", "emission=3,kd=1,diffuse=1").stderr)
+            self.assertIn(b"above 1", done.stderr)
+            self.assertIn("above 1", self.report("sphere", "-s", 16, "--material", value)["warnings"][0])
+        self.assertNotIn(b"above 1", self.good("sphere", "-s", 16, "--material", "emission=3,kd=1,diffuse=1").stderr)
         (self.folder / "sphere.png").unlink()
         for value, says in {
             "bras": "did you mean 'brass'?", "": "empty", "kd=-1": "at least 0", "diffuse=-1/0/0": "at least 0", "kd=nan": "a number",

@@ -146,7 +146,7 @@ ROWS = [
      TOLERANCE, PIXELS_OVER_CHECK),
     ("tools/options/option_table.c", "fills {} % of the picture's tighter side", PERCENT_FILL),
     ("tools/options/option_table.c", "a vertical field of view of {} degrees", FOVY),
-    ("tools/options/option_table.c", "`fovy` (the full vertical angle in degrees: {})", FOVY),
+    ("tools/options/option_table.c", "`fovy` (the full vertical angle in degrees: {};", FOVY),
     ("tools/options/option_table.c", "With more than {} lights, each part of the picture skips", FEW_LIGHTS),
     ("include/lambent/camera.h", "in (0, π); 0: {}°", FOVY),
     ("include/lambent/camera.h", "in (0, 1]. 0: {}.", FILL),
@@ -203,7 +203,7 @@ NOT_VALUES = {"output", "quality", "color", "view", "camera", "light", "material
 CONTEXT = {
     "turntable-light": (["--turntable", "3"], "model"), "frames": (["--sweep", "zoom=1..2"], "4"), "fps": (["--turntable", "3"], "12"),
     "sandbox": ([], None), "retry-failed": ([], None), "shard": ([], None), "shard-by": ([], None), "size": ([], "64"), "samples": ([], "16"), "exposure": ([], "1"), "tone": ([], "aces"), "crease-angle": ([], "20"), "compress": ([], None), "term": ([], None),
-    "background": ([], "white"), "color-mode": ([], "raw"), "azimuth": ([], "31"), "elevation": ([], "21"), "zoom": ([], "1.1"),
+    "background": ([], "white"), "color-mode": ([], "raw"), "azimuth": ([], "31"), "elevation": ([], "21"), "zoom": ([], "1.1"), "fov": ([], "40"),
     "projection": ([], "orthographic"), "rig": ([], "headlight"), "ambient": ([], "0.1"), "light-cutoff": (["lights.json"], "0.1"),
     "light-scale": ([], "1.1"), "shading": ([], "flat"), "stage": ([], None), "flat-normal": (["--shading", "flat"], "vertex"),
     "reference": (["--environment", "studio", "--material", "#ffc356,metallic=1,roughness=0.3"], "64"),

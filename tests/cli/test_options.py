@@ -334,7 +334,7 @@ class CommandLine(Case):
         for word, nearest in {"--szie": "--size", "--ouput": "--output", "--backgroun": "--background",
                               "--colour": "--color", "-size": "--size", "--crease": "--crease-angle"}.items():
             self.bad(1, "cube.obj", word, "3", says=[f"unknown option '{word}'", f"did you mean '{nearest}'?"])
-        for word, nearest in {"--resolution": "size", "--bg": "background", "--fov": "camera", "--antialias": "samples", "--width": "size",
+        for word, nearest in {"--resolution": "size", "--bg": "background", "--antialias": "samples", "--width": "size",
                               "--transparency": "opacity", "--gpu": "device", "--ortho": "projection",
                               "--smooth": "shading", "--hdri": "environment", "--sun": "light", "--Size": "size", "--light_scale": "light-scale"}.items():
             self.bad(1, "cube.obj", word, "3", says=[f"unknown option '{word}'", f"did you mean '--{nearest}'?"])
@@ -432,10 +432,10 @@ class CommandLine(Case):
         self.bad(1, "generate", says="missing argument")
         self.bad(1, "generate", "mna", says="did you mean 'man'?")
         self.bad(1, "help", "shaeps", says="did you mean 'shapes'?")
-        self.bad(1, "help", "colour", says="did you mean 'color'?")
-        self.bad(1, "help", "bg", says="did you mean 'background'?")
+        self.assertIn(b"did you mean 'color'?", self.good("help", "colour").stdout)
+        self.assertIn(b"did you mean 'background'?", self.good("help", "bg").stdout)
         self.bad(1, "help", "nope", says=("nothing is named 'nope'", "`lambent help` lists them"))
-        self.bad(1, "help", "light", "spot", says="unexpected argument 'spot'")
+        self.assertIn(b"--light ", self.good("help", "light", "spot").stdout)
         render = self.good("help", "render").stdout
         self.assertTrue(render.startswith(b"Usage: lambent render MODEL"))
         self.assertIn(b"--exposure", render)
@@ -443,7 +443,7 @@ class CommandLine(Case):
         self.assertEqual(self.good("help", "shapes").stdout, self.good("shapes", "--help").stdout)
         self.assertIn(b"lambent plot spot cutoff=", self.good("help", "plot").stdout)
         self.assertNotIn(b"lambent compare", self.good("help", "plot").stdout)
-        self.bad(2, "-q", "shapes", says="a command comes first")
+        self.assertEqual(self.good("--json", "devices").stdout, self.good("devices", "--json").stdout)
 
     def test_version(self):
         text = self.good("--version").stdout.decode()

@@ -9,8 +9,9 @@ import json
 import os
 import re
 import shutil
+import subprocess
 
-from harness import OWN_MODELS, ROOT, Case, write_png
+from harness import OWN_MODELS, PROGRAM, ROOT, Case, write_png
 
 SCRIPT = "console.log('</bo' + 'dy>');"
 POLICY = "default-src 'none'; script-src 'sha256-%s'" % base64.b64encode(hashlib.sha256(SCRIPT.encode()).digest()).decode()
@@ -155,10 +156,24 @@ class Page(Case):
         self.assertIn('"cube.obj"', text)
         return text.replace('"cube.obj"', json.dumps(name))
 
+    def missing_page(self):
+        """Without a page one sentence names the command that makes it: for the program in a build folder of its sources, and for others."""
+        place = self.folder / "a b"
+        (place / "build").mkdir(parents=True)
+        program = shutil.copy(PROGRAM, place / "build" / "lambent")
+        for sources, command in ((False, "`make web install`"), (True, f"make -C '{place}' web")):
+            if sources:
+                (place / "web").mkdir()
+                (place / "web" / "build.py").touch()
+            for words in (["cube.obj", "-o", "out.html"], ["view", "cube.obj"]):
+                done = subprocess.run([program, *words], cwd=self.folder, capture_output=True, env={**os.environ, "LAMBENT_PAGE": ""})
+                self.assertEqual(done.returncode, 3)
+                self.assertRegex(done.stderr.decode(), r"^lambent: (cube.obj: )?the page, lambent.html, is not (built|installed)")
+                self.assertIn(command, done.stderr.decode())
+        shutil.rmtree(place)
+
     def test_what_is_refused(self):
-        nothing = {"LAMBENT_PAGE": ""}
-        if not os.path.exists(ROOT / "build-web" / "lambent.html"):
-            self.bad(3, "cube.obj", "-o", "out.html", env=nothing, says=["lambent.html is not installed; build it with `make web`"])
+        self.missing_page()
         self.bad(2, "cube.obj", "-o", "out.html", env={"LAMBENT_PAGE": "/nowhere/lambent.html"}, says="/nowhere/lambent.html: cannot read")
         self.bad(2, "missing.obj", "-o", "out.html", env=self.env, says="missing.obj")
         self.bad(1, "-", "-o", "out.html", env=self.env, says="needs a model with a name", stdin=b"solid\nendsolid\n")

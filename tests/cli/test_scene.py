@@ -393,14 +393,14 @@ class Environment(Case):
         """Warnings about legal but unlikely input: coefficients over 1, the lights of a file without any, a scene file without --show."""
         (self.folder / "s.json").write_text(json.dumps({"lambent": 1, "objects": [{"shape": "cube", "material": {"diffuse": [2, 0, 0], "ambient": [0, 0, 0]}}]}))
         self.given.add("s.json")
-        self.assertIn(b"diffuse is 2: a surface that returns more light than arrives", self.good("s.json", "-s", 8).stderr)
+        self.assertIn(b"diffuse is 2, which reflects more light than it receives", self.good("s.json", "-s", 8).stderr)
         lights = [{"type": "point", "position": [0, 0, 3], "name": name} for name in ("key", "fill", "key")]
         (self.folder / "l.json").write_text(json.dumps({"lambent": 1, "objects": [{"shape": "cube"}], "lights": lights}))
         self.given.add("l.json")
         self.assertIn(b"l.json: lights[0] and lights[2] are both named 'key'", self.good("l.json", "-s", 8).stderr)
         (self.folder / "l.json").write_text(json.dumps({"lambent": 1, "objects": [{"shape": "cube"}], "lights": lights[:2]}))
         self.assertNotIn(b"warning", self.good("l.json", "-s", 8).stderr)
-        self.assertIn(b"over 1", self.good("cube", "-s", 8, "--reflectivity", 1.5, "--environment", "sky").stderr)
+        self.assertIn(b"above 1", self.good("cube", "-s", 8, "--reflectivity", 1.5, "--environment", "sky").stderr)
         self.assertIn(b"the model has no lights", self.good("cube", "-s", 8, "--rig", "file").stderr)
         self.assertIn(b"describes the picture without --show", self.good("cube", "-s", 8, "--show", "normals", "--save-scene", "t.json").stderr)
         for words in (["cube", "-s", 8], ["cube", "-s", 8, "--rig", "file", "--light", "+point"], ["cube", "-s", 8, "--save-scene", "t.json"]):

@@ -90,23 +90,26 @@ static void test_foreign(void **unused)
         lam_code code;
     } rows[] = {
 #define ROW(text, name, sentence, code) {text, sizeof text - 1, name, sentence, code}
-#define YET                             ", which this version cannot read yet; it reads obj, stl, ply, gltf and scene"
-#define NOT                             ", not a 3D model; expected obj, stl, ply, gltf and scene"
+#define READS                           "; lambent reads .obj, .stl, .ply, .gltf, .glb and scene files (.json)"
+#define EXPORT(ending)                  READS ": export the model as " ending
+#define NOT                             ", not a 3D model" READS
         ROW("{\"name\": 1}", "a.json",
             "a.json: this is a JSON file with neither the key \"asset\" of glTF nor \"lambent\" of scene files" NOT,
             LAM_CANNOT_READ),
-        ROW("Kaydara FBX Binary  \0", "a.fbx", "a.fbx: this is an FBX file" YET, LAM_UNSUPPORTED),
-        ROW("\x4d\x4d\x8\0\0\0xx", "a.3ds", "a.3ds: this is a 3DS file" YET, LAM_UNSUPPORTED),
-        ROW("ISO-10303-21;\nHEADER;", "a.step", "a.step: this is a STEP file" YET, LAM_UNSUPPORTED),
-        ROW("OFF\n8 6 12\n", "a.off", "a.off: this is an OFF file" YET, LAM_UNSUPPORTED),
-        ROW("PK\3\4....3D/3dmodel.model", "a.3mf", "a.3mf: this is a 3MF file" YET, LAM_UNSUPPORTED),
+        ROW("Kaydara FBX Binary  \0", "a.fbx", "a.fbx: this is an FBX file" EXPORT(".glb"), LAM_UNSUPPORTED),
+        ROW("\x4d\x4d\x8\0\0\0xx", "a.3ds", "a.3ds: this is a 3DS file" EXPORT(".glb"), LAM_UNSUPPORTED),
+        ROW("ISO-10303-21;\nHEADER;", "a.step", "a.step: this is a STEP file" EXPORT(".stl"), LAM_UNSUPPORTED),
+        ROW("OFF\n8 6 12\n", "a.off", "a.off: this is an OFF file" EXPORT(".ply"), LAM_UNSUPPORTED),
+        ROW("PK\3\4....3D/3dmodel.model", "a.3mf", "a.3mf: this is a 3MF file" EXPORT(".stl"), LAM_UNSUPPORTED),
         ROW("PK\3\4....word/document.xml", "a.obj", "a.obj: this is a ZIP archive" NOT, LAM_CANNOT_READ),
-        ROW("<?xml version=\"1.0\"?>\n<COLLADA>", "a.dae", "a.dae: this is a COLLADA file" YET, LAM_UNSUPPORTED),
+        ROW("<?xml version=\"1.0\"?>\n<COLLADA>", "a.dae", "a.dae: this is a COLLADA file" EXPORT(".glb"),
+            LAM_UNSUPPORTED),
         ROW("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "a.obj", "a.obj: this is a PNG picture" NOT, LAM_CANNOT_READ),
         ROW("# x\nnewmtl a\nKd 1 1 1\n", "a.mtl",
             "a.mtl: this is a MTL file (materials only; give the .obj that names it)" NOT, LAM_CANNOT_READ),
-        ROW("hello there\n", "a.txt",
-            "a.txt: this is no model format known here; expected obj, stl, ply, gltf and scene", LAM_CANNOT_READ),
+        ROW("hello there\n", "a.txt", "a.txt: unknown model format" READS, LAM_CANNOT_READ),
+        ROW("hello there\n", "a.STP", "a.STP: this is a STEP file" EXPORT(".stl"), LAM_UNSUPPORTED),
+        ROW("hello there\n", "a.usdz", "a.usdz: this is a USD file" EXPORT(".glb"), LAM_UNSUPPORTED),
         ROW("", "a.obj", "a.obj: the file is empty", LAM_CANNOT_READ),
         ROW("hello there\n", "a.obj",
             "a.obj:1: found 'hello', expected a statement of OBJ (v, f, …); the file holds nothing to draw",
@@ -124,9 +127,7 @@ static void test_arguments(void **unused)
         lam_code code;
         const char *sentence;
     } rows[] = {
-        {{.format = "xyz"},
-         LAM_UNSUPPORTED,
-         "a: the format 'xyz' cannot be read; this version reads obj, stl, ply, gltf and scene"},
+        {{.format = "xyz"}, LAM_UNSUPPORTED, "a: the format 'xyz' cannot be read" READS},
         {{.crease_angle_rad = -1}, LAM_BAD_ARGUMENT, "a: crease_angle_rad is -1, expected 0 to pi"},
         {{.threads = -1}, LAM_BAD_ARGUMENT, "a: threads is -1, expected 0 to 1024"},
         {{.up = (lam_up)9}, LAM_BAD_ARGUMENT, "a: up, color or normals is not one of its constants"},

@@ -177,8 +177,6 @@ bool batch_reach_enter(const struct batch *b, size_t first, size_t count, lam_er
 bool batch_reach_enter_job(const struct batch_job *job, lam_error *error)
 {
     struct sandbox_paths paths = {0};
-    struct options options = job->options;
-    options.allow_paths.count = 0;
     if (!job->in_answer && !make_folder(batch_plan_folder(&job->plan), error))
         return false;
     if (!job->in_answer)
@@ -187,5 +185,5 @@ bool batch_reach_enter_job(const struct batch_job *job, lam_error *error)
         sandbox_add_input(&paths, job->plan.models[0].path);
     if (!job->in_answer)
         add_page(&paths);
-    return sandbox_start(&options, &paths, error);
+    return sandbox_start(&job->options, &paths, error);
 }

@@ -31,7 +31,8 @@ struct command {
     unsigned groups;                    // bit g: accepts the options of group g; TAKES_…: single options
     int min_operands, max_operands;     // max −1: no limit
     const struct own_default *defaults; // NULL: none of its own
-    bool verbatim;                      // its words are no options, but for -h and --help as the first
+    const char *one_more; // what to write instead, for the error about more operands; NULL: nothing is known
+    bool verbatim;        // its words are no options, but for -h and --help as the first
 };
 
 extern const struct command command_table[]; // in the order of COMMANDS; ends with a NULL name

@@ -42,13 +42,16 @@ const struct command command_table[] = {
                          "Draw one labelled sheet of pictures: methods, lights or terms side by side.",
                          (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET |
                              TAKES_JSON,
-                         .min_operands = 1, .max_operands = 1, .defaults = compare_defaults},
+                         .min_operands = 1, .max_operands = 1,
+                         .one_more = "it shows one model in several ways; lambent diff compares pictures",
+                         .defaults = compare_defaults},
     [COMMAND_explain] =
         {"explain", "MODEL X,Y",
          "Print the calculation of one pixel: vectors, angles and terms of each light, the sum, the byte; -o FILE "
          "(SVG, "
          "PNG) draws it: the arrows over the picture, the point's coordinates, the terms. --save-scene has no effect.",
-         ALL | 1u << GROUP_CAPTIONS | TAKES_TITLE, .min_operands = 2, .max_operands = 2, .defaults = explain_defaults},
+         ALL | 1u << GROUP_CAPTIONS | TAKES_TITLE, .min_operands = 2, .max_operands = 2,
+         .one_more = "the pixel is one word, such as 512,400", .defaults = explain_defaults},
     [COMMAND_info] = {"info", "MODEL...",
                       "Print what is in models: size, triangles, materials, pictures, lights, cameras, animations, "
                       "extensions.",
@@ -66,7 +69,8 @@ const struct command command_table[] = {
     [COMMAND_diff] = {"diff", "A B", "Measure the difference of two pictures, and draw it.",
                       ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET | TAKES_MEMORY |
                           TAKES_PICTURE_LIMITS,
-                      .min_operands = 2, .max_operands = 2, .defaults = diff_defaults},
+                      .min_operands = 2, .max_operands = 2, .one_more = "it compares two pictures",
+                      .defaults = diff_defaults},
     [COMMAND_plot] = {"plot", "attenuation|spot|highlight [CURVE...]",
                       "Plot a law of light as curves (PNG or SVG), and print its numbers.",
                       ABOUT | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
@@ -76,7 +80,7 @@ const struct command command_table[] = {
                         "Print the lights of a model, or of the rig if it has none, in scene file form.",
                         ABOUT | 1u << GROUP_MODEL | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING |
                             1u << GROUP_WORK | 1u << GROUP_LIMITS,
-                        .min_operands = 1, .max_operands = 1},
+                        .min_operands = 1, .max_operands = 1, .one_more = "it prints the lights of one model"},
     [COMMAND_shape] = {"shape", "[NAME]",
                        "Draw a built-in shape or a surface given by formulas (--parametric, --implicit), or save it as "
                        "OBJ, STL or PLY.",
@@ -87,20 +91,24 @@ const struct command command_table[] = {
                       ABOUT | 1u << GROUP_VIEWER | 1u << GROUP_PICTURE | 1u << GROUP_MODEL | 1u << GROUP_VIEW |
                           1u << GROUP_LIGHTS | 1u << GROUP_MATERIALS | 1u << GROUP_SHADING | 1u << GROUP_LIMITS |
                           TAKES_THREADS | TAKES_QUIET | WRITES_NO_FILE,
-                      .min_operands = 1, .max_operands = 1},
-    [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, .min_operands = 0, .max_operands = 0},
+                      .min_operands = 1, .max_operands = 1,
+                      .one_more = "it shows one model, or the models of one folder"},
+    [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, .min_operands = 0, .max_operands = 0,
+                        .one_more = "it lists all shapes; lambent teapot draws one"},
     [COMMAND_formats] = {"formats", NULL, "List the formats of models and pictures.", ABOUT, .min_operands = 0,
-                         .max_operands = 0},
+                         .max_operands = 0, .one_more = "it lists all formats"},
     [COMMAND_looks] = {"looks", "[NAME]", "List the looks that are built in (--look), or print the file of one.", ABOUT,
                        .min_operands = 0, .max_operands = 1},
     [COMMAND_materials] = {"materials", NULL,
                            "List the named materials with their numbers; -o FILE also draws a sheet of them.",
                            ABOUT | 1u << GROUP_PICTURE | 1u << GROUP_CAPTIONS | TAKES_JSON, .min_operands = 0,
-                           .max_operands = 0, .defaults = materials_defaults},
+                           .max_operands = 0,
+                           .one_more = "it lists all materials; lambent teapot --material gold shows one",
+                           .defaults = materials_defaults},
     [COMMAND_devices] = {"devices", NULL, "List the devices that can draw on this machine, and why others cannot.",
                          ABOUT | TAKES_JSON, .min_operands = 0, .max_operands = 0},
     [COMMAND_help] = {"help", "[TOPIC]", "Explain a subject, a command or an option; alone, list them.", ABOUT,
-                      .min_operands = 0, .max_operands = 1, .verbatim = true},
+                      .min_operands = 0, .max_operands = -1, .verbatim = true},
     [COMMAND_complete] = {"complete", "-- WORD...",
                           "Print the words that may take the last one's place, for the completion of a shell.", ABOUT,
                           .min_operands = 0, .max_operands = -1, .verbatim = true},
@@ -143,9 +151,10 @@ const struct example examples[] = {
     {"lambent batch models/ -o 'thumbs/{dir}/{stem}.png'", "all models of a folder and below it, with a journal",
      false},
     {"lambent - -o - < part.stl > part.png", "from standard input to standard output", false},
-    {"lambent koala.obj -o koala.html", "a page in one file, in which the model is turned", false},
-    {"lambent view koala.obj", "shows it in the browser, and again whenever the file changes", false},
-    {"lambent view models/", "a gallery of the folder, to scroll and to click", false},
+    {"lambent koala.obj -o koala.html", "a page in one file, in which the model is turned (after `make web`)", false},
+    {"lambent view koala.obj", "shows it in the browser, and again whenever the file changes (after `make web`)",
+     false},
+    {"lambent view models/", "a gallery of the folder, to scroll and to click (after `make web`)", false},
     {"lambent koala.obj --turntable 36 --fps 12", "an animated PNG in which the model turns", false},
     {"lambent koala.obj --sweep light.azimuth=0..360 -o 'light-{frame}.png'", "36 pictures, the light all around",
      false},

@@ -26,8 +26,13 @@ static bool load_pair(struct pair *pair, const struct options *o, lam_error *err
 {
     lam_control control = limits_control(o);
     for (int i = 0; i < 2; i++)
-        if (!lam_image_load(&pair->image[i], pair->name[i], &control, error))
+        if (!lam_image_load(&pair->image[i], pair->name[i], &control, error)) {
+            size_t used = strlen(error->text);
+            if (is_model_name(pair->name[i]))
+                snprintf(error->text + used, sizeof error->text - used,
+                         "; diff compares pictures: draw the models first");
             return false;
+        }
     const lam_image *a = &pair->image[0], *b = &pair->image[1];
     if (a->width != b->width || a->height != b->height)
         return complain(error, LAM_BAD_ARGUMENT, "%.180s has %dx%d pixels and %.180s %dx%d, expected the same size",

@@ -28,9 +28,9 @@ static bool check_together(int count, char **models, const struct options *o, la
                         o->jobs    ? "jobs"
                         : o->ahead ? "ahead"
                                    : "line-limit");
-    if (o->save_scene && count > 1)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--save-scene' goes only with a single model, but there are %d", count);
+    if (o->save_scene && (count > 1 || o->lists.count))
+        return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' goes only with a single model, found %s",
+                        o->lists.count ? "a list of models" : "several");
     if (o->save_scene && strcmp(models[0], "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--save-scene' needs a model with a name; standard input has none");

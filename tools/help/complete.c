@@ -115,12 +115,16 @@ int run_complete(int count, char **words, const struct options *options)
     if (count && strcmp(words[0], "--") == 0)
         words++, count--;
     const char *last = count ? words[count - 1] : "";
-    const struct command *command = count > 1 ? find_command(words[0]) : NULL;
-    int at = command ? 1 : 0, operands = 0;
+    int first = options_first_operand(count - 1, words), operands = 0;
+    const struct command *command = first >= 0 ? find_command(words[first]) : NULL;
+    if (!command)
+        first = -1;
     command = command ? command : command_table;
     bool only_operands = false;
     const struct option *waiting = NULL; // for its value
-    for (; at < count - 1; at++) {
+    for (int at = 0; at < count - 1; at++) {
+        if (at == first)
+            continue;
         if (waiting)
             waiting = NULL;
         else if (only_operands || words[at][0] != '-' || !words[at][1])

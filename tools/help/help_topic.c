@@ -9,6 +9,7 @@
 #include "field_tables.h"
 #include "help.h"
 #include "help_print.h"
+#include "help_search.h"
 #include "suggest.h"
 #include "topics.h"
 
@@ -91,7 +92,8 @@ static void print_list(void)
         "\nOptions: lambent help light, lambent help --light or lambent help -o; lambent --help lists all of them.\n");
 }
 
-static bool fail_unknown(const char *word, lam_error *error)
+// The name that may have been meant; NULL: none is near.
+static const char *nearest_name(const char *word)
 {
     struct suggestion nearest = suggest_start(word);
     for (const struct topic *t = topics; t->word; t++)
@@ -102,22 +104,36 @@ static bool fail_unknown(const char *word, lam_error *error)
         suggest_try(&nearest, o->name);
         suggest_also(&nearest, o->name, o->others);
     }
-    return complain(error, LAM_BAD_ARGUMENT,
-                    "help: nothing is named '%.60s', expected a subject, a command or an option (`lambent help` lists "
-                    "them)%s%s%s",
-                    word, nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
-                    nearest.best ? "'?" : "");
+    return nearest.best;
+}
+
+// A word that names nothing is searched for. Returns the exit code.
+static int search(int count, char **words)
+{
+    const char *nearest = nearest_name(words[0]);
+    char meant[80] = "", heading[200];
+    lam_error error;
+    if (nearest)
+        snprintf(meant, sizeof meant, "; did you mean '%s'?", nearest);
+    snprintf(heading, sizeof heading, "No subject, command or option is named '%.60s'%s", words[0],
+             *meant ? meant : "; found in:");
+    if (help_search(count, words, heading))
+        return 0;
+    complain(&error, LAM_BAD_ARGUMENT,
+             "help: nothing is named '%.60s', expected a subject, a command or an option (`lambent help` lists them)%s",
+             words[0], meant);
+    say_error(error.text);
+    return exit_code_of(error.code)->code;
 }
 
 int run_help(int operand_count, char **operands, const struct options *options)
 {
     (void)options;
-    const char *word = operand_count ? operands[0] : NULL;
+    const char *word = operand_count == 1 ? operands[0] : NULL; // several are searched for
     const struct topic *topic = word ? find_topic(word) : NULL;
     const struct command *command = word ? find_command(word) : NULL;
     const struct option *option = word ? find_option(word) : NULL;
-    lam_error error;
-    if (!word) {
+    if (!operand_count) {
         print_list();
     } else if (topic) {
         print_topic(topic);
@@ -135,12 +151,10 @@ int run_help(int operand_count, char **operands, const struct options *options)
         for (const struct topic *t = topics; t->word; t++)
             if (t->groups & 1u << option->group)
                 printf("\nMore: lambent help %s\n", t->word);
-    } else if (strcmp(word, "all") == 0) {
+    } else if (word && strcmp(word, "all") == 0) {
         print_help(command_table);
     } else {
-        fail_unknown(word, &error);
-        say_error(error.text);
-        return exit_code_of(error.code)->code;
+        return search(operand_count, operands);
     }
     return 0;
 }

@@ -24,8 +24,9 @@ const struct topic topics[] = {
     {"viewer", "The viewer", BIT(VIEWER), TOPIC_NO_TABLE,
      "`lambent view bunny.obj` shows a model in the browser, and again whenever its file changes; `lambent view "
      "models/` is a gallery of a "
-     "folder. It serves the page of `make web` on 127.0.0.1 alone, at an address that holds a secret, and ends with "
-     "Ctrl-C. "
+     "folder. It needs the page that `make web` builds, once, in the folder of Lambent's sources. It serves that page "
+     "on "
+     "127.0.0.1 alone, at an address that holds a secret, and ends with Ctrl-C. "
      "`docs/view.md` has the details."},
     {"picture", "The picture", BIT(PICTURE), TOPIC_NO_TABLE, NULL},
     {"output", "Output", 0, TOPIC_NO_TABLE,

@@ -89,7 +89,7 @@ bool animation_arrange(struct job *job, lam_error *error)
     struct animation *a = job->animation;
     if (!a)
         return true;
-    if (!a->has_camera && !animation_sweeps(a, "zoom")) {
+    if (!a->has_camera && !animation_sweeps(a, "zoom") && !animation_sweeps(a, "fov")) {
         a->camera = job->camera;
         a->has_camera = true;
     }

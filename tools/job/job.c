@@ -8,19 +8,17 @@
 #include <unistd.h>
 
 #include "animate_frame.h"
-#include "command.h"
 #include "console.h"
 #include "environment_apply.h"
 #include "interrupt.h"
 #include "job_scene.h"
 #include "light_markers.h"
 #include "limit_options.h"
+#include "model_guess.h"
 #include "output.h"
-#include "sandbox_start.h"
 #include "scene_settings.h"
 #include "show_all.h"
 #include "show_option.h"
-#include "suggest.h"
 #include "material_option.h"
 
 const char *model_counts_text(const struct model_counts *counts, char out[MODEL_COUNTS_SIZE])
@@ -124,45 +122,6 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
     return NULL;
 }
 
-// The name that may have been meant for a model that cannot be read, as the end of a sentence; "": nothing is known.
-static void guess(const struct job *job, const lam_error *error, char *text, size_t size)
-{
-    const char *model = job->model;
-    lam_pixel_format format;
-    *text = 0;
-    if (!job->options->output && lam_image_format_for(model, &format, NULL))
-        snprintf(text, size, "; the name of the picture to write follows -o");
-    if (*text || error->code != LAM_CANNOT_READ || access(model, F_OK) == 0)
-        return;
-    if (strpbrk(model, "*?")) {
-        snprintf(text, size, "; no file matches this pattern");
-    } else if (strpbrk(model, "./")) {
-        return;
-    } else if (find_command(model)) {
-        snprintf(text, size, "; a command comes first: lambent %s", model);
-    } else if (option_find(model)) {
-        snprintf(text, size, "; an option begins with dashes: --%s", model);
-    } else {
-        struct suggestion nearest = suggest_start(model);
-        for (int i = 0; i < lam_shape_count(); i++)
-            suggest_try(&nearest, lam_shape_name(i));
-        for (const struct command *c = command_table; c->name; c++)
-            suggest_try(&nearest, c->name);
-        if (nearest.best)
-            snprintf(text, size, "; did you mean '%s'?", nearest.best);
-        else
-            snprintf(text, size, "; no built-in shape has this name either: `lambent shapes` lists them");
-    }
-}
-
-static void add_guess(const struct job *job, lam_error *error)
-{
-    char text[200];
-    size_t length = strlen(error->text);
-    guess(job, error, text, sizeof text);
-    snprintf(error->text + length, sizeof error->text - length, "%s%s", text, *text ? "" : sandbox_advice(error));
-}
-
 // True if only one frame is drawn, so that normals of its visible triangles suffice.
 static bool draws_once(const struct job *job)
 {
@@ -221,6 +180,8 @@ static bool make_scene(struct job *job, struct progress *progress, lam_error *er
                                   .color = (lam_color_mode)o->color_mode,
                                   .override_color = option_given(o, "color-mode"),
                                   .models_anywhere = !o->files_inside,
+                                  .allowed_paths = o->allow_paths.items,
+                                  .allowed_path_count = o->allow_paths.count,
                                   .normals = (lam_normals)o->normals,
                                   .crease_angle_rad = crease_of(o),
                                   .threads = o->threads,
@@ -239,9 +200,44 @@ static bool make_scene(struct job *job, struct progress *progress, lam_error *er
         if (job->scene)
             lam_scene_times(job->scene, &job->times.read, &job->times.prepare);
         else if (!bytes)
-            add_guess(job, error);
+            model_guess(job->model, o, error);
     }
     return job->scene != NULL;
+}
+
+// Warns of numbers of a colour that are above 1, or are bytes.
+static void warn_color(lam_scene *scene, const char *option, const char *value, bool reflects, lam_color_mode mode)
+{
+    lam_rgba color;
+    char advice[COLOR_ADVICE_SIZE], text[200];
+    if (!lam_color_parse(value, mode, &color, NULL))
+        return;
+    const double rgb[3] = {(double)color.r, (double)color.g, (double)color.b};
+    color_advice(rgb, advice);
+    bool above = rgb[0] > 1 || rgb[1] > 1 || rgb[2] > 1;
+    snprintf(text, sizeof text, "option '--%s': found %.40s, expected numbers from 0 to 1%s%s", option, value,
+             reflects ? ": it reflects more light than it receives" : "", advice);
+    if (reflects ? above : *advice != 0)
+        lam_scene_add_warning(scene, text);
+}
+
+// Lights may well be above 1: only numbers of a light that does not fade with distance may be bytes.
+static void warn_colors(struct job *job)
+{
+    const struct options *o = job->options;
+    lam_color_mode mode = (lam_color_mode)o->color_mode;
+    for (int i = 0; option_table[i].name; i++)
+        if (option_table[i].kind == VALUE_COLOR && o->given[i])
+            warn_color(job->scene, option_table[i].name, o->values[i], strcmp(option_table[i].name, "color") == 0,
+                       mode);
+    for (int i = 0; i < o->lights.count; i++) {
+        const char *text = o->lights.items[i], *color = strstr(text, "color=");
+        char value[40];
+        if (!color || strstr(text, "attenuation=") || strstr(text, "intensity=") || strstr(text, "range="))
+            continue;
+        snprintf(value, sizeof value, "%.*s", (int)strcspn(color + 6, ","), color + 6);
+        warn_color(job->scene, "light", value, false, mode);
+    }
 }
 
 bool job_load(struct job *job, struct progress *progress, lam_error *error)
@@ -261,6 +257,7 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     if (!find_background(job, error))
         return false;
     warn_maps(job);
+    warn_colors(job);
     if (o->slices && !formula_of(o).text && lam_shape_find(job->model) < 0)
         lam_scene_add_warning(job->scene, "option '--segments' changes nothing: the model is a file");
     if ((o->model_scene || o->variant || o->animation || o->has_time || o->lenient) &&

@@ -19,6 +19,7 @@ static lam_view view_of(const struct options *o)
         view.elevation_rad = radians(o->elevation_deg);
     view.orthographic = o->projection == 1;
     view.zoom = o->zoom;
+    view.fovy_rad = radians(o->fov_deg);
     return view;
 }
 

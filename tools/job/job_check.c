@@ -29,10 +29,15 @@ bool job_check_options(const struct options *o, lam_error *error)
                        : o->has_azimuth   ? "azimuth"
                        : o->has_elevation ? "elevation"
                        : o->zoom > 0      ? "zoom"
+                       : o->fov_deg > 0   ? "fov"
                        : o->projection    ? "projection"
                                           : NULL;
     if (o->camera && view)
         return complain(error, LAM_BAD_ARGUMENT, "options '--camera' and '--%s' cannot be used together", view);
+    if (o->fov_deg > 0 && o->projection)
+        return complain(
+            error, LAM_BAD_ARGUMENT,
+            "options '--fov' and '--projection orthographic' cannot be used together: parallel rays span no angle");
     if (o->two_sided && o->one_sided)
         return complain(error, LAM_BAD_ARGUMENT, "options '--two-sided' and '--one-sided' cannot be used together");
     if (!check_stage(o, error) || !animation_check(o, error))

@@ -43,8 +43,6 @@ static bool set_color(const struct options *o, lam_scene *scene, lam_error *erro
         return complain(error, LAM_LIMIT, "out of memory");
     bool ok = material_option_parse(text, (lam_color_mode)o->color_mode, &color, error) &&
               material_option_set(&color, false, "color", scene, error);
-    if (ok)
-        material_option_warn(&color, "color", scene);
     free(text);
     warn_of_own_colors(scene);
     return ok;

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -117,6 +118,24 @@ bool output_format(const char *path, lam_pixel_format *format, lam_error *error)
     if (!strchr(slash ? slash : path, '.'))
         snprintf(error->text + used, sizeof error->text - used, "; the name of a folder ends in a slash: %.100s/",
                  path);
+    else if (is_model_name(path))
+        snprintf(error->text + used, sizeof error->text - used, "; lambent draws models and does not convert them");
+    return false;
+}
+
+bool is_model_name(const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    for (int format = 0; dot && dot != name && lam_model_format_name(format); format++) {
+        if (strcmp(lam_model_format_name(format), "scene") == 0)
+            continue;
+        for (const char *ending = lam_model_format_extensions(format); *ending; ending += strspn(ending, " ")) {
+            size_t length = strcspn(ending, " ");
+            if (strlen(dot + 1) == length && strncasecmp(dot + 1, ending, length) == 0)
+                return true;
+            ending += length;
+        }
+    }
     return false;
 }
 

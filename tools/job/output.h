@@ -34,6 +34,9 @@ bool output_is_stream(const char *path);
 // The pixels of the format that the extension of `path` selects; bytes for a stream. Error: LAM_UNSUPPORTED.
 bool output_format(const char *path, lam_pixel_format *format, lam_error *error);
 
+// True if the name ends like a file of a model format. Scene files (.json) do not count: most JSON files are not one.
+bool is_model_name(const char *name);
+
 // Writes a picture to a file, whose missing folder is made, or to a stream. `size` receives the bytes written, 0 for a
 // file that is not regular.
 bool output_save(const lam_image *image, const char *path, const lam_save_params *params, uint64_t *size,

@@ -80,8 +80,7 @@ bool environment_apply(const struct options *options, struct environment_cache *
 {
     if (options->has_reflectivity &&
         (options->reflectivity.r > 1 || options->reflectivity.g > 1 || options->reflectivity.b > 1))
-        lam_scene_add_warning(scene,
-                              "option '--reflectivity': a surface that returns more light than arrives (over 1)");
+        lam_scene_add_warning(scene, "option '--reflectivity': reflects more light than it receives (above 1)");
     if (options->has_reflectivity && !set_reflectivity(scene, options->reflectivity, error))
         return false;
     double rotation_rad = radians(options->environment_rotation_deg);

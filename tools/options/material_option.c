@@ -42,6 +42,21 @@ static bool is_fraction(const lam_field *field)
     return (field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA) && field->symbol;
 }
 
+const char *color_advice(const double rgb[3], char text[COLOR_ADVICE_SIZE])
+{
+    unsigned bytes[3];
+    bool fits = rgb[0] >= 16 || rgb[1] >= 16 || rgb[2] >= 16; // smaller ones may be meant
+    for (int i = 0; i < 3 && fits; i++) {
+        fits = rgb[i] >= 0 && rgb[i] <= 255;
+        bytes[i] = fits ? (unsigned)rgb[i] : 0;
+        fits = fits && rgb[i] == bytes[i];
+    }
+    text[0] = 0;
+    if (fits)
+        snprintf(text, COLOR_ADVICE_SIZE, "; for 0 to 255 write #%02x%02x%02x", bytes[0], bytes[1], bytes[2]);
+    return text;
+}
+
 // Adds warnings for the coefficients over 1, `limit` of them at most, and returns their number.
 static int warn(const lam_material *material, const char *subject, int limit, lam_scene *scene)
 {
@@ -55,9 +70,9 @@ static int warn(const lam_material *material, const char *subject, int limit, la
         largest = largest > color[2] ? largest : color[2];
         if (!(largest > 1) || ++over > limit)
             continue;
-        char text[200];
-        snprintf(text, sizeof text, "%s: %s is %g: a surface that returns more light than arrives (over 1)", subject,
-                 lam_material_field(i)->key, largest);
+        char text[240], advice[COLOR_ADVICE_SIZE];
+        snprintf(text, sizeof text, "%s: %s is %g, which reflects more light than it receives (above 1)%s", subject,
+                 lam_material_field(i)->key, largest, color_advice(color, advice));
         lam_scene_add_warning(scene, text);
     }
     return over;

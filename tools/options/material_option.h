@@ -27,4 +27,8 @@ void material_option_warn(const struct material_option *option, const char *name
 // The same for the materials that the scene itself has: for the first few each, for the others together.
 void materials_warn(lam_scene *scene);
 
+// "; for 0 to 255 write #ff0000" if a colour's three numbers look like bytes, else "". Returns `text`.
+enum { COLOR_ADVICE_SIZE = 40 };
+const char *color_advice(const double rgb[3], char text[COLOR_ADVICE_SIZE]);
+
 #endif

@@ -9,6 +9,10 @@
 #include "sandbox.h"
 #include "terminal.h"
 
+// Degrees of --fov, and of --camera with fovy alone.
+#define FOV_MIN 0.1
+#define FOV_MAX 179.9
+
 #define FIELD(name) .field = offsetof(struct options, name)
 
 const char *const group_titles[GROUP_COUNT] = {
@@ -152,7 +156,7 @@ static const struct word view_words[] = {
     {"iso", LAM_SIDE_ISO, "45 degrees to the right, 35.26 above: all three axes equally long"},
     {NULL, 0, NULL}};
 
-static const struct word projection_words[] = {{"perspective", 0, "a vertical field of view of 30 degrees"},
+static const struct word projection_words[] = {{"perspective", 0, "a vertical field of view of 30 degrees (`--fov`)"},
                                                {"orthographic", 1, "parallel, as in a drawing"},
                                                {NULL, 0, NULL}};
 
@@ -301,12 +305,14 @@ const struct option option_table[] = {
      "existing files replaced. Two models whose pictures would have one name are an error before the start. `{{` "
      "and `}}` are braces.\n"
      "`.html` writes a page in one file that shows the picture, with the model in it: who opens it turns the model and "
-     "changes every option of the picture, without a network (`docs/web.md`).",
+     "changes every option of the picture, without a network (`docs/web.md`). It needs the page that `make web` "
+     "builds.",
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .of_file = true, .store = store_text,
-     .alias = "out", .others = "outfile file format export save write", FIELD(output), .single = TAKES_OUTPUT},
+     .alias = "out", .others = "outfile file format export save write out-dir outdir directory folder f", FIELD(output),
+     .single = TAKES_OUTPUT},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.", NULL,
-     .brief = "pixels: 800, or 1920x1080", .store = store_size, .others = "resolution width height dimensions pixels",
-     .max = 65535, .single = TAKES_SIZE},
+     .brief = "pixels: 800, or 1920x1080", .store = store_size,
+     .others = "resolution width height dimensions pixels viewport window", .max = 65535, .single = TAKES_SIZE},
     {"samples", 0, GROUP_PICTURE, "N", "8 up to 512x512 pixels, 4 above", "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges, which matters most in small pictures; each picture of a sheet has the samples "
      "of "
@@ -393,7 +399,7 @@ const struct option option_table[] = {
      "`.pfm` and `.exr` store the values unchanged; 8-bit pictures store an encoding of them, without the sRGB "
      "curve. `docs/show.md` has the complete table.",
      show_words, .brief = "one term or quantity: diffuse, normals, depth ...", .store = store_show,
-     .others = "pass aov channel layer debug term only", FIELD(show)},
+     .others = "unlit pass aov channel layer debug term only", FIELD(show)},
 
     {"save-scene", 0, GROUP_PICTURE, "FILE", NULL, "Also write a scene file (JSON) that reproduces this picture.",
      "The file stores the result of the command line: the model's path relative to FILE, the camera, all lights "
@@ -436,6 +442,12 @@ const struct option option_table[] = {
      .min = -90, .max = 90},
     {"zoom", 0, GROUP_VIEW, "FACTOR", "1", "Magnification; 2 shows the model twice as large.", NULL,
      .store = store_number, .others = "scale magnify magnification distance", FIELD(zoom), .min = 0.001, .max = 1000},
+    {"fov", 0, GROUP_VIEW, "DEGREES", "30", "The fitted camera's vertical field of view, above 0 and below 180.",
+     "A wide angle brings the camera closer, so that near parts of the model look larger beside far ones; the model "
+     "fills the "
+     "picture as before. `--camera fovy=60` is the same.",
+     .store = store_number, .others = "field-of-view view-angle perspective-angle focal-length", .alias = "fovy",
+     FIELD(fov_deg), .min = FOV_MIN, .max = FOV_MAX},
     {"projection", 0, GROUP_VIEW, "KIND", "perspective", "The projection: perspective or orthographic.", NULL,
      projection_words, .store = store_word, .others = "ortho orthographic perspective parallel", FIELD(projection)},
     {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z, -x, -y, -z or auto.",
@@ -449,17 +461,18 @@ const struct option option_table[] = {
      "(except those in the model's frame), and radii refer to the model before the turn. One camera serves every "
      "angle, so that the model does not jump in size or place: that of the model before the turn or, where a turn "
      "about the axis would cut the model, one farther away. All pictures of a sheet share it.",
-     .brief = "turn the model: y:30", .store = store_rotation, .others = "rotation turn spin", FIELD(rotations)},
+     .brief = "turn the model: y:30", .store = store_rotation, .others = "r rotation turn spin", FIELD(rotations)},
     {"camera", 0, GROUP_VIEW, "KEYS|NAME|N", "fitted",
      "An exact camera: eye=x/y/z,target=x/y/z,fovy=30 and more; or one of the file's, by name or number.",
      "A text without `=` names a camera of the model's file (glTF), or gives its number from 0. Otherwise keys are "
      "separated by commas and use the model's own coordinates: `eye` (required), `target` (default: "
-     "the middle of the model), `up` (the model's up axis), `fovy` (the full vertical angle in degrees: 30) or "
+     "the middle of the model), `up` (the model's up axis), `fovy` (the full vertical angle in degrees: 30; alone it "
+     "is `--fov`) or "
      "`ortho` (parallel projection: model units from the picture's middle to its top), `near` and `far` (both "
      "or neither; fitted by default). The option cannot be combined with `--view`, `--azimuth`, `--elevation`, "
-     "`--zoom` or `--projection`. `--json` reports the camera of any picture in these terms.",
-     .kind = VALUE_CAMERA, .store = store_camera, .others = "eye fov fovy position lookat look-at near far",
-     FIELD(camera)},
+     "`--zoom`, `--fov` or `--projection`. `--json` reports the camera of any picture in these terms.",
+     .kind = VALUE_CAMERA, .store = store_camera, .others = "eye position lookat look-at near far", FIELD(camera),
+     .min = FOV_MIN, .max = FOV_MAX},
 
     {"light", 0, GROUP_LIGHTS, "TYPE[:KEYS]", "the rig's",
      "A light: point:position=2r/1r/3r, spot, directional, ambient, hemisphere or none; repeatable.",
@@ -482,9 +495,9 @@ const struct option option_table[] = {
      "(`1/2.7r/5r`); `range` (also with r) is the distance at which the light ends. A spot's cone has `cutoff` "
      "(half angle in degrees, 45) and `exponent`, or `inner` and `outer` half angles. `name` appears in "
      "reports.\n"
-     "The table of the fields of lights lists all keys.",
+     "`lambent help lights` lists all keys.",
      .kind = VALUE_LIGHT, .brief = "point, spot, directional ... in place of the studio", .store = store_light,
-     .others = "lamp sun spot point directional lighting", FIELD(lights)},
+     .others = "l lamp sun spot point directional lighting", FIELD(lights)},
     {"look", 0, GROUP_LIGHTS, "NAME|FILE", "studio",
      "A named set of options: studio, classic, catalog, technical, or a file of your own.",
      "A look is a file of options, one in a line. Options on the command line override its own; a rig or lights there "
@@ -535,20 +548,21 @@ const struct option option_table[] = {
      "A material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
      "A name of the classic table, whose colours are sRGB, keys separated by commas, or a name followed by keys "
      "(`gold,shininess=80`). "
-     "Fields without a key keep the model's values. The keys are the fields in the table of materials (colours "
+     "Fields without a key keep the model's values. The keys are the fields that `lambent help materials` lists "
+     "(colours "
      "are `#rrggbb`, a name, `r/g/b` or one number); or `color` (ambient and diffuse) and `specular_color` with "
      "the factors `ka`, `kd`, `ks` and `kr`, which multiply ambient, diffuse, specular and mirrored light (`kr` "
      "multiplies the specular colour, white by default).\n"
      "`@WHERE` limits the option to the objects of that name, else to the parts (OBJ groups, STL solids), else "
      "to the model's materials: `ruby@handle`. Of several options for one surface, the last one wins.",
      .kind = VALUE_MATERIAL, .brief = "gold, ruby ... (lambent materials)", .store = store_material,
-     .others = "mat specular diffuse", FIELD(materials)},
+     .others = "m mat specular diffuse", FIELD(materials)},
     {"color", 0, GROUP_MATERIALS, "COLOR", "the materials' own", "The colour of the model: red, #ff8800 or r/g/b.",
      "It replaces the ambient and diffuse colour of every material, including those of `--material`; highlights keep "
      "theirs. It is short for `--material color=COLOR`, and a colour alone is a material too: "
      "`--material '#ff8800@handle'`. (`--color raw` and `--color srgb` still mean `--color-mode`.)",
      .kind = VALUE_COLOR, .brief = "of the model: red, '#ff8800'", .store = store_opaque_color,
-     .others = "paint tint albedo model-color mesh-color surface-color", FIELD(model_color), .former = "color-mode"},
+     .others = "c paint tint albedo model-color mesh-color surface-color", FIELD(model_color), .former = "color-mode"},
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
      "The material of back faces, as in `--material`; fields without a key are the front's.", NULL,
      .kind = VALUE_MATERIAL, .store = store_material, FIELD(back_materials)},
@@ -567,7 +581,7 @@ const struct option option_table[] = {
      .brief = "flat, gouraud or phong", .store = store_word, .others = "flat smooth gouraud phong interpolation",
      FIELD(draw.shading), .has_field = offsetof(struct options, has_shading)},
     {"reflection", 0, GROUP_SHADING, "MODEL", "auto", reflection_summary, NULL, reflection_words, .store = store_word,
-     .others = "brdf lobe lighting-model reflection-model blinn-phong lambert", FIELD(draw.reflection)},
+     .others = "brdf lobe pbr lighting-model reflection-model blinn-phong lambert", FIELD(draw.reflection)},
     {"stage", 0, GROUP_SHADING, "WHERE", "fragment", "Where lighting is evaluated: application, vertex or fragment.",
      "Without `--shading`, application and vertex imply gouraud, and fragment implies phong. flat works with "
      "all three, gouraud with application and vertex, phong with fragment. On the CPU all stages of a shading "
@@ -680,7 +694,7 @@ const struct option option_table[] = {
      "reflectivity show the environment: see `--reflectivity`. `docs/lighting/reflection.md` describes how each "
      "kind surrounds the model.",
      .kind = VALUE_ENVIRONMENT, .store = store_text,
-     .others = "env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(environment)},
+     .others = "e env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
      "Turn the environment about the up axis, counter-clockwise from above.", NULL, .store = store_number,
      FIELD(environment_rotation_deg), .min = -3600, .max = 3600},
@@ -720,7 +734,7 @@ const struct option option_table[] = {
      "with "
      "`--turntable`. The camera is fitted once: to the first frame, for `azimuth` and `elevation` so that all frames "
      "have "
-     "one distance, for `time` to the box of all frames; only `zoom` changes it.",
+     "one distance, for `time` to the box of all frames; only `zoom` and `fov` change it.",
      .kind = VALUE_SWEPT, .store = store_texts, .others = "animate vary-over-time light-sweep", FIELD(sweeps)},
     {"frames", 0, GROUP_ANIMATION, "N", "36", "The number of frames of `--sweep`.",
      "`--turntable` states its own. For `--sweep time` alone it is by default the animation's length times `--fps`.",
@@ -737,7 +751,7 @@ const struct option option_table[] = {
     {"device", 0, GROUP_WORK, "NAME", "auto", "The device that draws: cpu, gl, gles or auto.",
      "OpenGL gives the same picture within a tolerance (`docs/opengl.md`). If it is not available, the error "
      "gives the reason (exit 3), and no other device takes its place. `lambent devices` lists the devices.",
-     device_words, .store = store_word, .others = "gpu cpu backend renderer engine opengl gl", FIELD(device)},
+     device_words, .store = store_word, .others = "d gpu cpu backend renderer engine opengl gl", FIELD(device)},
     {"gl-device", 0, GROUP_WORK, "N|NAME", "the first usable", "The OpenGL device, by number or part of its name.",
      "`lambent devices` lists the numbers, hardware before software.", .store = store_text, FIELD(gl_device)},
     {"texture-filter", 0, GROUP_WORK, "NAME", "exact", "What filters textures with OpenGL: exact or hardware.",
@@ -795,9 +809,15 @@ const struct option option_table[] = {
      "`--files-inside` or `--allow-path` is given.",
      sandbox_words, .store = store_word, .others = "seccomp landlock jail", FIELD(sandbox),
      .single = TAKES_PICTURE_LIMITS},
-    {"allow-path", 0, GROUP_LIMITS, "DIR", NULL, "Let the sandbox reach this folder or file too; may be repeated.",
-     NULL, .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(allow_paths),
-     .single = TAKES_PICTURE_LIMITS},
+    {"allow-path", 0, GROUP_LIMITS, "DIR", NULL, "Let models name files in this folder, or this file; may be repeated.",
+     "A model reads files of its own folder alone: for textures in `../textures` give `--allow-path ../textures`. "
+     "Scene files with "
+     "`--files-inside` and links in a folder of `batch` may lead there too. The sandbox lets this folder be read. "
+     "With "
+     "`--jobs` it holds the files of jobs, whose models still read their own folders; pages and `view` have no files "
+     "of other "
+     "folders.",
+     .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(allow_paths), .single = TAKES_PICTURE_LIMITS},
 
     {"views", 0, GROUP_BATCH, "SIDES", "that of `--view`",
      "Draw each model from several sides, such as front,left,iso; it is read once.",
@@ -1052,9 +1072,9 @@ const struct option option_table[] = {
      .others = "no-text no-labels", FIELD(no_captions)},
 
     {"version", 0, GROUP_ABOUT, NULL, NULL, "Print the version and the build information.", NULL, .store = store_switch,
-     FIELD(version)},
+     .others = "V", FIELD(version)},
     {"help", 'h', GROUP_ABOUT, NULL, NULL, "Print all of this help; -h prints what most people need.",
-     "`lambent help TOPIC` explains a subject, a command or an option.", .store = store_switch, .others = "usage",
+     "`lambent help TOPIC` explains a subject, a command or an option.", .store = store_switch, .others = "? usage",
      FIELD(help), .letter_field = offsetof(struct options, brief_help)},
     {.name = NULL},
 };

@@ -33,6 +33,19 @@ bool store_text(const struct option *option, const char *value, struct options *
     return true;
 }
 
+const char *option_words_list(const struct option *option, char text[OPTION_WORDS_SIZE])
+{
+    size_t used = 0;
+    text[0] = 0;
+    for (const struct word *w = option->words; w->name && used < OPTION_WORDS_SIZE; w++)
+        used += (size_t)snprintf(text + used, OPTION_WORDS_SIZE - used, "%s%s",
+                                 w == option->words ? ""
+                                 : w[1].name        ? ", "
+                                                    : " or ",
+                                 w->name);
+    return text;
+}
+
 // The value of one of the option's words.
 static bool read_word(const struct option *option, const char *value, int *found, lam_error *error)
 {
@@ -44,15 +57,11 @@ static bool read_word(const struct option *option, const char *value, int *found
         }
         suggest_try(&nearest, w->name);
     }
-    char known[256] = "";
-    for (const struct word *w = option->words; w->name; w++) {
-        strncat(known, w == option->words ? "" : w[1].name ? ", " : " or ", sizeof known - strlen(known) - 1);
-        strncat(known, w->name, sizeof known - strlen(known) - 1);
-    }
-    char guess[64] = "";
+    char known[OPTION_WORDS_SIZE], guess[64] = "";
     if (nearest.best && nearest.best[0] > '9') // a number is not a mistyped word
         snprintf(guess, sizeof guess, "; did you mean '%s'?", nearest.best);
-    return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s%s", value, known, guess);
+    return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s%s", value, option_words_list(option, known),
+                    guess);
 }
 
 bool store_word(const struct option *option, const char *value, struct options *options, lam_error *error)
@@ -151,9 +160,11 @@ static bool number_between(const struct option *option, const char *value, bool 
     if (end && !*end && *number >= option->min && *number <= option->max &&
         (!whole || *number == (double)(long)*number))
         return true;
-    char expected[96];
-    snprintf(expected, sizeof expected, "a %snumber from %.10g to %.10g", whole ? "whole " : "", option->min,
-             option->max);
+    char expected[128];
+    int used = snprintf(expected, sizeof expected, "a %snumber from %.10g to %.10g", whole ? "whole " : "", option->min,
+                        option->max);
+    if (end && strcmp(end, "%") == 0 && !whole)
+        snprintf(expected + used, sizeof expected - (size_t)used, "; %.40s is %.10g", value, *number / 100);
     return wrong(error, value, expected);
 }
 
@@ -391,6 +402,10 @@ bool store_reflectivity(const struct option *option, const char *value, struct o
 bool store_camera(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     lam_camera camera;
+    if (strncmp(value, "fovy=", 5) == 0 && !strchr(value, ',')) { // of the fitted camera
+        options->camera = NULL;
+        return number_between(option, value + 5, false, &options->fov_deg, error);
+    }
     // A text without '=' names a camera of a file that is not read yet.
     if (strchr(value, '=') && !lam_camera_parse(value, NULL, &camera, error))
         return false;

@@ -1,9 +1,11 @@
 // options.c: parses a command line with the table of options.
 #include "options.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "command.h"
 #include "console.h"
@@ -99,6 +101,16 @@ bool option_given(const struct options *options, const char *name)
     return option && options->given[option - option_table];
 }
 
+// What other programs call the option that names a model.
+static const char *const model_names[] = {"i", "in", "input", "infile", "model", "mesh", "shape", "load", "open", NULL};
+
+static bool is_one_of(const char *word, const char *const *words)
+{
+    while (*words && strcmp(*words, word) != 0)
+        words++;
+    return *words;
+}
+
 static bool unknown_long(const char *name, size_t length, unsigned groups, lam_error *error)
 {
     char typed[64];
@@ -109,13 +121,36 @@ static bool unknown_long(const char *name, size_t length, unsigned groups, lam_e
             suggest_try(&nearest, o->name);
             suggest_also(&nearest, o->name, o->others);
         }
+    if (nearest.distance > 0 && is_one_of(typed, model_names))
+        return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; a model needs none: lambent MODEL", typed);
     if (nearest.best)
         return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; did you mean '--%s'?", typed, nearest.best);
     return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'", typed);
 }
 
+// A letter is suggested only by its own row: those that are near by spelling mean nothing.
+static bool unknown_letter(const char *word, char letter, unsigned groups, lam_error *error)
+{
+    const char typed[2] = {letter, 0};
+    if (letter >= '0' && letter <= '9')
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "unknown option '%s'; the size of the picture is --size WIDTHxHEIGHT, such as -s 640x480",
+                        word);
+    if (is_one_of(typed, model_names))
+        return complain(error, LAM_BAD_ARGUMENT, "unknown option '-%c'; a model needs none: lambent MODEL", letter);
+    struct suggestion nearest = suggest_start(typed);
+    for (const struct option *o = option_table; o->name; o++)
+        if (option_is_taken(o, groups))
+            suggest_also(&nearest, o->name, o->others);
+    return complain(error, LAM_BAD_ARGUMENT, "unknown option '-%c'%s%s%s", letter,
+                    nearest.best ? "; did you mean '--" : "", nearest.best ? nearest.best : "",
+                    nearest.best ? "'?" : "");
+}
+
 static bool is_known_option(const char *word)
 {
+    if (word[0] == '-' && word[1] && word[1] != '-')
+        return !word[2] && find_letter(word[1]);
     return word[0] == '-' && word[1] == '-' && word[2] && find_long(word + 2, strcspn(word + 2, "="));
 }
 
@@ -238,6 +273,10 @@ static bool apply(const struct option *option, const char *value, unsigned group
     option = meant_by(option, value);
     if (!option_is_taken(option, groups))
         return does_not_apply(option, error);
+    if (option->kind == VALUE_FILE && strncmp(value, "~/", 2) == 0 && access("~", F_OK) != 0)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--%s': found '%.200s': a shell replaces ~ only at the start of a word: --%s %.200s",
+                        option->name, value, option->name, value);
     lam_error reason = {0};
     bool replaces = option->store == store_light ? value[0] != '+' : strcmp(option->name, "rig") == 0;
     if (replaces && options->look)
@@ -267,7 +306,9 @@ static const char *next_value(const struct option *option, int count, char **wor
     if (*at + 1 < count && !is_known_option(words[*at + 1]))
         return words[++*at];
     bool color = option->store == store_color || option->store == store_opaque_color || option->store == store_material;
-    complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs a value: %s%s", option->name, option->value,
+    char words_text[OPTION_WORDS_SIZE];
+    complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs a value: %s%s", option->name,
+             option->words ? option_words_list(option, words_text) : option->value,
              color ? "; in a shell, # begins a comment unless it is quoted: '#ff8800'" : "");
     return NULL;
 }
@@ -301,7 +342,7 @@ static bool read_letters(int count, char **words, int *at, unsigned groups, stru
     for (const char *letter = words[*at] + 1; *letter; letter++) {
         const struct option *option = find_letter(*letter);
         if (!option)
-            return complain(error, LAM_BAD_ARGUMENT, "unknown option '-%c'", *letter);
+            return unknown_letter(words[*at], *letter, groups, error);
         const char *value = NULL;
         if (option->value) {
             value = letter[1] ? letter + 1 : next_value(option, count, words, at, error);
@@ -310,12 +351,51 @@ static bool read_letters(int count, char **words, int *at, unsigned groups, stru
         }
         if (!apply(option, value, groups, options, error))
             return false;
+        if (option->letter_field && *at + 1 < count && isdigit((unsigned char)words[*at + 1][0]))
+            return complain(error, LAM_BAD_ARGUMENT,
+                            "option '-%c' prints the help, found '%.20s' after it; the size of the picture is --size "
+                            "WIDTHxHEIGHT, such as -s 640x480",
+                            *letter, words[*at + 1]);
         if (option->letter_field)
             *(bool *)((char *)options + option->letter_field) = true;
         if (value)
             break;
     }
     return true;
+}
+
+int options_first_operand(int count, char **words)
+{
+    struct options unused = option_defaults();
+    for (int at = 0; at < count; at++) {
+        const char *word = words[at];
+        if (word[0] != '-' || !word[1])
+            return at;
+        if (word[1] == '-') {
+            size_t length = strcspn(word + 2, "=");
+            const struct option *option = find_long(word + 2, length);
+            if (!option)
+                return -1; // "--", or a mistake
+            bool next = option->value && word[2 + length] != '=' && at + 1 < count;
+            at += next && (!option->alone || follows(option, words[at + 1], &unused));
+            continue;
+        }
+        for (const char *letter = word + 1; *letter; letter++) {
+            const struct option *option = find_letter(*letter);
+            if (!option)
+                return -1;
+            at += option->value && !letter[1];
+            if (option->value)
+                break;
+        }
+    }
+    return -1;
+}
+
+// The dashes of a text program, which replaces "--" as one types.
+static bool has_long_dash(const char *word)
+{
+    return strncmp(word, "–", 3) == 0 || strncmp(word, "—", 3) == 0 || strncmp(word, "−", 3) == 0;
 }
 
 int options_parse(int count, char **words, unsigned groups, struct options *options, lam_error *error)
@@ -326,6 +406,10 @@ int options_parse(int count, char **words, unsigned groups, struct options *opti
         if (strcmp(word, "--") == 0) {
             while (++at < count)
                 words[operands++] = words[at];
+        } else if (has_long_dash(word) && access(word, F_OK) != 0) {
+            complain(error, LAM_BAD_ARGUMENT,
+                     "found '%.100s', which begins with the dash of a text; options begin with --", word);
+            return -1;
         } else if (word[0] != '-' || word[1] == 0) {
             words[operands++] = word;
         } else if (word[1] == '-') {

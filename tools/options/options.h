@@ -44,6 +44,7 @@ struct options {
     double azimuth_deg, elevation_deg; // valid if the flag below is set
     bool has_azimuth, has_elevation;
     double zoom;        // 0: 1
+    double fov_deg;     // of the fitted camera, vertical; 0: 30
     int projection;     // 1: orthographic
     int up;             // lam_up
     const char *camera; // as written; NULL: fitted
@@ -308,6 +309,14 @@ bool options_copy(struct options *to, const struct options *from);
 
 // The option of a long name; NULL: no such option.
 const struct option *option_find(const char *name);
+
+// Where the first word stands that is neither an option nor the value of one; −1: there is none, or "--" or an unknown option
+// comes before it.
+int options_first_operand(int count, char **words);
+
+// The words of an option: "flat, gouraud or phong". Returns `text`.
+enum { OPTION_WORDS_SIZE = 256 };
+const char *option_words_list(const struct option *option, char text[OPTION_WORDS_SIZE]);
 
 // True if the command line has the option, given by its long name.
 bool option_given(const struct options *options, const char *name);

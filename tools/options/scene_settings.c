@@ -68,7 +68,7 @@ void scene_settings_apply(struct job *job)
 
 bool scene_settings_has_camera(const struct job *job)
 {
-    static const char *const others[] = {"camera", "view", "azimuth", "elevation", "zoom", "projection", NULL};
+    static const char *const others[] = {"camera", "view", "azimuth", "elevation", "zoom", "fov", "projection", NULL};
     for (int i = 0; others[i]; i++)
         if (option_given(&job->own, others[i]))
             return false;

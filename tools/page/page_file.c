@@ -23,6 +23,27 @@ bool page_is_named(const char *output)
     return length > 5 && strcasecmp(output + length - 5, ".html") == 0;
 }
 
+// One command makes the page: for a program in the build folder of its sources it can be said in full.
+static void fail_missing(const char *program, size_t folder, lam_error *error)
+{
+    char path[PATH_MAX + 100], *sources = NULL;
+    snprintf(path, sizeof path, "%.*s../web/build.py", (int)folder, program);
+    if (access(path, R_OK) == 0) {
+        path[strlen(path) - strlen("/web/build.py")] = 0;
+        sources = realpath(path, NULL);
+    }
+    if (sources)
+        complain(error, LAM_UNSUPPORTED,
+                 "the page, lambent.html, is not built yet; this command builds it in about two minutes: make -C "
+                 "'%.300s' web",
+                 sources);
+    else
+        complain(error, LAM_UNSUPPORTED,
+                 "the page, lambent.html, is not installed; `make web install` in the folder of Lambent's sources "
+                 "builds and installs it (or set LAMBENT_PAGE to its path)");
+    free(sources);
+}
+
 char *page_file_find(lam_error *error)
 {
     const char *named = getenv("LAMBENT_PAGE");
@@ -48,8 +69,7 @@ char *page_file_find(lam_error *error)
             complain(error, LAM_LIMIT, "out of memory");
         return found;
     }
-    complain(error, LAM_UNSUPPORTED,
-             "lambent.html is not installed; build it with `make web`, or set LAMBENT_PAGE to its path");
+    fail_missing(own, slash ? (size_t)(slash + 1 - own) : 0, error);
     return NULL;
 }
 

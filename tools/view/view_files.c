@@ -15,6 +15,7 @@
 #include <lambent/lambent.h>
 
 #include "console.h"
+#include "output.h"
 
 enum { FLAGS = O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK };
 
@@ -68,10 +69,8 @@ static bool is_served(const char *path)
     const char *name = strrchr(path, '/'), *dot = name ? strrchr(name, '.') : NULL;
     if (!dot || strstr(path, "/."))
         return false;
-    for (int format = 0; lam_model_format_name(format); format++)
-        if (has_ending(lam_model_format_extensions(format), dot + 1))
-            return true;
-    return has_ending("json mtl bin png jpg jpeg webp bmp tga ppm pgm pbm pnm pfm hdr pic exr", dot + 1);
+    return is_model_name(path) ||
+           has_ending("json mtl bin png jpg jpeg webp bmp tga ppm pgm pbm pnm pfm hdr pic exr", dot + 1);
 }
 
 static bool is_below(const struct view_files *files, const char *path)

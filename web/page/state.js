@@ -15,7 +15,7 @@ export function withModel(words, name, formula = FORMULAS[name]) {
 }
 
 // The options that make the view; a camera takes the place of all of them.
-export const VIEW = ['view', 'azimuth', 'elevation', 'zoom', 'projection'];
+export const VIEW = ['view', 'azimuth', 'elevation', 'zoom', 'fov', 'projection'];
 
 export class State {
   #past = [];

@@ -289,8 +289,9 @@ char *path_within(const char *path, const char *folder, bool *outside, size_t *f
 {
     char *real = realpath(path, NULL), *top = real ? realpath(*folder ? folder : ".", NULL) : NULL;
     size_t length = top ? strlen(top) : 0;
-    *outside = top && !(strncmp(real, top, length) == 0 && (real[length] == '/' || top[length - 1] == '/'));
-    *folder_length = length + (length > 0 && top[length - 1] != '/');
+    bool begins = top && strncmp(real, top, length) == 0, same = begins && !real[length];
+    *outside = top && !(begins && (same || real[length] == '/' || top[length - 1] == '/'));
+    *folder_length = same ? 0 : length + (length > 0 && top[length - 1] != '/');
     if (top && !*outside) {
         free(top);
         return real;

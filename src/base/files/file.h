@@ -33,8 +33,9 @@ bool file_read_named(const char *path, size_t folder, const char *shown, struct 
 // Whether a path that another library opens leads to a regular file; false: LAM_CANNOT_READ.
 bool file_check_regular(const char *path, lam_error *error);
 
-// The path after every link and ".." is followed, from malloc, if it lies in the folder ("": the current one) or below.
-// NULL: it does not (*outside is then true), or cannot be followed (errno). *length: of the folder's part, with its '/'.
+// The path after every link and ".." is followed, from malloc, if it lies in the folder ("": the current one) or below, or is the
+// same. NULL: it does not (*outside is then true), or cannot be followed (errno). *length: of the folder's part, with its '/'; 0 if
+// the two are the same.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
 // A large file that is read in parts, from any thread.

@@ -60,6 +60,7 @@ static const struct {
     {"flat", "per-face facet faceted face faces polygon per-polygon per-triangle constant"},
     {"gouraud", "per-vertex vertex vertices"},
     {"phong", "per-pixel per-fragment pixel fragment"},
+    {"ggx", "pbr microfacet physical cook-torrance trowbridge-reitz"},
     {"lambert", "lambertian diffuse matt matte"},
     {"blinn-phong", "blinn modified-phong half-vector"},
     {"kajiya-kay", "kajiya hair anisotropic threads"},
@@ -91,6 +92,11 @@ static const struct {
     {"srgb", "gamma encoded"},
     {"best", "max maximum smallest high"},
     {"fast", "low quick"},
+    {"aces", "filmic film"},
+    {"auto", "on yes automatic"},
+    // Commands.
+    {"view", "open show gui display viewer"},
+    {"info", "inspect describe stat"},
     // Devices.
     {"cpu", "software processor"},
     {"gl", "opengl gpu"},

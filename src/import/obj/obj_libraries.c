@@ -26,7 +26,8 @@ static bool try_library(struct obj *obj, const char *name, enum attempt *attempt
     struct obj_libraries *libraries = &obj->libraries;
     char confined[COMPANION_NAME_SIZE];
     struct companion file;
-    if (!confine(name, confined, sizeof confined))
+    bool cut;
+    if (!companion_name(obj->source, name, confined, &cut))
         confined[0] = 0; // invalid names are all the same
     int before = name_table_find(&libraries->tried, confined);
     *attempt = before > 0 ? READ : before == 0 ? MISSING_BEFORE : LEFT_OUT;

@@ -220,6 +220,7 @@ static bool read_options(struct batch_job *job, const json_t *root, const struct
     o->threads = rules->threads;
     o->in_flight = rules->in_flight;
     o->files_inside = true;
+    o->allow_paths.count = 0; // a job's model reads its own folder alone
     return job_words_make(json_object_get(root, "options"), &job->words, &job->word_count, error) &&
            check_looks(job, rules, error) && job_words_apply(job->words, job->word_count, o, error) &&
            check_environment(job, rules, error) && job_check_options(o, error);

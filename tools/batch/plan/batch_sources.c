@@ -6,28 +6,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 
 #include "console.h"
-
-// True if the name ends like a file of a model format. Scene files (.json) must be named: most JSON files are not one.
-static bool is_model(const char *name)
-{
-    const char *dot = strrchr(name, '.');
-    for (int format = 0; dot && dot != name && lam_model_format_name(format); format++) {
-        if (strcmp(lam_model_format_name(format), "scene") == 0)
-            continue;
-        const char *ending = lam_model_format_extensions(format);
-        while (*ending) {
-            size_t length = strcspn(ending, " ");
-            if (strlen(dot + 1) == length && strncasecmp(dot + 1, ending, length) == 0)
-                return true;
-            ending += length + strspn(ending + length, " ");
-        }
-    }
-    return false;
-}
+#include "output.h"
 
 static int by_name(const struct dirent **a, const struct dirent **b) { return strcmp((*a)->d_name, (*b)->d_name); }
 
@@ -60,7 +42,7 @@ static bool leads_out(const struct batch_plan *plan, const char *path, const cha
 static bool add_file(struct batch_plan *plan, const char *path, const char *root, bool is_link, lam_error *error)
 {
     struct stat target;
-    if (!is_model(path) || (is_link && stat(path, &target) == 0 && S_ISDIR(target.st_mode)))
+    if (!is_model_name(path) || (is_link && stat(path, &target) == 0 && S_ISDIR(target.st_mode)))
         return true;
     if (!batch_plan_add(plan, path, root, error))
         return false;

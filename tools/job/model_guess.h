@@ -1,0 +1,10 @@
+// model_guess.h: advice about a model that cannot be read.
+#ifndef MODEL_GUESS_H
+#define MODEL_GUESS_H
+
+#include "options.h"
+
+// Adds to the error of a model that cannot be read what its user may have meant, if something is known.
+void model_guess(const char *model, const struct options *options, lam_error *error);
+
+#endif

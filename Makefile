@@ -27,7 +27,7 @@ help:
 	@echo 'make lint       cppcheck and clang-tidy over src and tools'
 	@echo 'make bench      measures against other programs, into bench/results and docs/speed.md (BENCH=full: everything;'
 	@echo '                LAMBENT_MODELS=FOLDER: rows of its models too)'
-	@echo 'make bench-check         counts instructions, beside the recorded ones (part of make test)'
+	@echo 'make bench-check         counts instructions, beside the recorded ones (part of make test-more)'
 	@echo 'make bench-check-record  records them anew, where they were meant to change'
 	@echo 'make install    installs to $$(DESTDIR)$$(prefix), prefix=$(prefix)'
 	@echo 'make uninstall  removes what install put there'

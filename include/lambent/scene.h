@@ -100,7 +100,7 @@ typedef struct lam_load_params {
     // Folders and files that the files named by a model or a scene file may lie in, besides the folder of the one that names
     // them. Without them a name that leads out of that folder, such as "../textures/wood.png", is cut to its last part.
     const char *const *allowed_paths;
-    int allowed_path_count;
+    int allowed_path_count; // of allowed_paths
     LAM_RESERVED(8);
 } lam_load_params;
 

@@ -173,7 +173,7 @@ def check_module(results, program):
                 wanted = [y for _, y in json.loads(run.stdout)["curves"][which]["points"]] if run.returncode == 0 else run.stderr
                 results.ok(curves.get(name) == wanted, "module: the curve of %s, %s" % (kind, curve), "found %s, plot has %s" % (str(curves)[:200], str(wanted)[:200]))
         options = {o["name"]: o for o in json.loads(lines.pop(0))["options"]}
-        help_text = native(program, folder, ["--help"]).stdout
+        help_text = native(program, folder, ["--help"]).stdout + native(program, folder, ["shape", "--help"]).stdout
         listed = set(re.findall(r"^ +(?:-\w, )?--([\w-]+)", help_text, re.M))
         results.ok(len(options) > 60 and set(options) <= listed, "module: its options are those of the help",
                    str(sorted(set(options) - listed)))

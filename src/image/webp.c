@@ -40,6 +40,15 @@ bool webp_open(struct webp_library *webp, const char *file, lam_error *error)
                 colon);
 }
 
+bool webp_is_installed(void)
+{
+    struct webp_library webp;
+    if (!webp_open(&webp, NULL, NULL))
+        return false;
+    library_close(webp.handle);
+    return true;
+}
+
 // --- reading
 
 static bool fail_status(const struct picture_file *file, int status, lam_error *error)
@@ -237,6 +246,8 @@ static bool webp_write(const lam_image *image, const lam_save_params *params, st
 }
 
 #else
+
+bool webp_is_installed(void) { return false; }
 
 static bool webp_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                        lam_error *error)

@@ -2,6 +2,11 @@
 #ifndef WEBP_LIBRARY_H
 #define WEBP_LIBRARY_H
 
+#include <stdbool.h>
+
+// Whether WebP pictures can be read here.
+bool webp_is_installed(void);
+
 #ifdef HAVE_WEBP
 
 #include "call_control.h"

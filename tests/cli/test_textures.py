@@ -3,7 +3,7 @@ import base64
 import json
 import struct
 
-from harness import Case, pixel, read_png, write_png
+from harness import ROOT, Case, pixel, read_png, write_png
 
 RED, GREEN, BLUE, WHITE = (255, 0, 0, 255), (0, 255, 0, 255), (0, 0, 255, 255), (255, 255, 255, 255)
 # Rows from the top: red green, blue white.
@@ -172,6 +172,24 @@ class Textures(Case):
         self.assertIn(b"nowhere.png", done.stderr)
         done = self.good(self.gltf(images=[{"uri": "data:;base64,AAAA"}]), *LOOK)
         self.assertIn(b"images[0]: byte 0: not the start of", done.stderr)
+
+    def test_gltf_webp(self):
+        """The picture of EXT_texture_webp is drawn, not the fallback, if WebP can be read; escaped base64 is read as the same bytes."""
+        red = write_png(8, 8, bytes(RED) * 64)
+        webp = (ROOT / "tests/pictures/webp/lossless.webp").read_bytes()
+        uris = ["data:image/png;base64," + base64.b64encode(red).decode(), "data:image/webp;base64," + base64.b64encode(webp).decode()]
+        images = [{"uri": uri} for uri in uris]
+        alone = self.gltf(images=images, texture={"source": 1})
+        done = self.good(alone, *LOOK)
+        if b"libwebp" in done.stderr:
+            self.skipTest("libwebp is not installed")
+        want = self.drawn(alone)
+        both = {"source": 0, "extensions": {"EXT_texture_webp": {"source": 1}}}
+        self.assertEqual(self.drawn(self.gltf(images=images, texture=both)), want)
+        self.assertNotEqual(want, [RED[:3]] * 4)
+        escaped = [{"uri": uri.replace("+", "%2B").replace("/", "%2f").replace("=", "%3D").replace("image%2f", "image/")} for uri in uris]
+        self.assertIn("%2", escaped[1]["uri"])
+        self.assertEqual(self.drawn(self.gltf(images=escaped, texture=both)), want)
 
     def test_gltf_wrong(self):
         self.bad(2, self.gltf(texture={"source": 4}), "-o", "a.png", says="textures[0].source")

@@ -93,6 +93,15 @@ static bool read_data(struct gltf *gltf, const struct place *place, const char *
     const char *data = comma + 1;
     size_t kind = (size_t)(comma - uri), length = strlen(data);
     bool base64 = kind >= sizeof mark - 1 && strncasecmp(comma - (sizeof mark - 1), mark, sizeof mark - 1) == 0;
+    if (base64 && strchr(data, '%')) { // "+", "/" and "=" may be written as "%2B", "%2F" and "%3D"
+        length = decode_text(data, NULL);
+        uint8_t *plain = arena_alloc(gltf->scratch, length + 1);
+        if (!plain)
+            return gltf_no_memory(gltf, length + 1);
+        decode_text(data, plain);
+        plain[length] = 0;
+        data = (const char *)plain;
+    }
     while (base64 && length && data[length - 1] == '=')
         length--;
     if (base64 && length % 4 == 1)

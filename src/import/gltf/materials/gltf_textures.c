@@ -9,6 +9,7 @@
 #include "fail.h"
 #include "linear.h"
 #include "shown_name.h"
+#include "webp_library.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -99,19 +100,19 @@ static bool take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
 
 // --- pictures
 
-// The image of a texture: its own, else the one of an extension. −1: an error.
+// The image of a texture: that of EXT_texture_webp if WebP can be decoded here, else its own, the fallback. −1: an error.
 static int image_of(struct gltf *gltf, int texture)
 {
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "textures"), (size_t)texture);
     const json_t *object = gltf_list_item(gltf, "textures", texture);
     const json_t *webp = gltf_extension(object, "EXT_texture_webp");
-    int image = -1;
-    if (!gltf_take_index(gltf, place, object, "source", "images", &image))
+    int image = -1, webp_image = -1;
+    if (!gltf_take_index(gltf, place, object, "source", "images", &image) ||
+        (webp && !gltf_take_index(gltf, KEY_OF(KEY_OF(place, "extensions"), "EXT_texture_webp"), webp, "source",
+                                  "images", &webp_image)))
         return -1;
-    if (image < 0 && webp &&
-        !gltf_take_index(gltf, KEY_OF(KEY_OF(place, "extensions"), "EXT_texture_webp"), webp, "source", "images",
-                         &image))
-        return -1;
+    if (webp_image >= 0 && (image < 0 || webp_is_installed()))
+        image = webp_image;
     if (image < 0 && gltf_extension(object, "KHR_texture_basisu"))
         fail(gltf->json.error, LAM_UNSUPPORTED,
              "%s: textures[%d]: its picture is KTX 2 alone (KHR_texture_basisu), which this version cannot decode, and "

@@ -2,6 +2,7 @@
 import base64
 import ctypes
 import json
+import math
 import struct
 
 from harness import Case, pixel, read_png
@@ -55,6 +56,20 @@ class Gltf(GltfCase):
         self.bad(1, model, "--variant", "2", says="there is no variant '2'; expected one of 0 ('plain'), 1 ('mint')")
         done = self.good("teapot", "--scene", "1", "-o", "a.png", "-s", "32")
         self.assertIn(b"count for glTF files alone", done.stderr)
+
+    def test_factors(self):
+        """Factors outside of the standard's range are cut to it, with one warning; light that overflows gives no NaN."""
+        huge = {"pbrMetallicRoughness": {"baseColorFactor": [1e30, -5, 2, 9], "metallicFactor": 1e30, "roughnessFactor": -4}}
+        model = self.model("huge.gltf", materials=[huge] * 3)
+        done = self.good(model, "--variant", "plain", "-s", "16", "-o", "huge.pfm")
+        self.assertEqual(done.stderr.count(b"warning"), 1)
+        self.assertIn(b"materials[0].pbrMetallicRoughness.baseColorFactor: found 1e+30, which the standard does not allow; 1 is used, "
+                      b"and other factors are cut likewise", done.stderr)
+        self.good("cube.obj", "--material", "diffuse=1e38", "--material", "opacity=0.5", "--light", "directional:intensity=1e30",
+                  "--ambient", "3e38", "-s", "16", "-o", "bright.pfm")
+        for name in ("huge.pfm", "bright.pfm"):
+            numbers = struct.unpack("<768f", (self.folder / name).read_bytes()[-3072:])
+            self.assertTrue(all(math.isfinite(x) for x in numbers), name)
 
     def test_cameras(self):
         model = self.model()

@@ -168,6 +168,10 @@ static bool draw(const lam_scene *scene, const lam_camera *camera, const struct 
     if (!ok && (error.code == LAM_OK || !error.text[0]))
         abort();
     note_sentence(ok ? "" : error.text);
+    const float *number = pixels, *end = number + 4 * image.width * image.height;
+    for (; ok && image.format == LAM_RGBA32F && number < end; number++)
+        if (*number != *number) // NaN
+            abort();
     return ok;
 }
 

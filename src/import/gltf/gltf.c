@@ -49,6 +49,9 @@ static bool report_skipped(struct gltf *gltf)
     if (gltf->without_positions)
         scene_warn(scene, "%s: not drawn: primitives without the attribute POSITION (%zu)", name,
                    gltf->without_positions);
+    if (gltf->cut_factors)
+        scene_warn(scene, "%s: %s: found %g, which the standard does not allow; %g is used%s", name, gltf->cut_factor,
+                   gltf->cut_from, gltf->cut_to, gltf->cut_factors > 1 ? ", and other factors are cut likewise" : "");
     if (gltf->flattened)
         scene_warn(scene, "%s: not drawn: meshes flattened by a node's scale of 0 (%zu)", name, gltf->flattened);
     return true;

@@ -4,6 +4,7 @@
 #include "fail.h"
 #include "json_parse.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -130,6 +131,26 @@ bool gltf_take_numbers(struct gltf *gltf, const struct place *place, const json_
 {
     const json_t *value = json_object_get(object, key);
     return !value || json_numbers_of(&gltf->json, KEY_OF(place, key), value, count, count, out, NULL);
+}
+
+bool gltf_take_factors(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
+                       size_t count, double min, double max, double *out)
+{
+    const double rounding = 1e-3;
+    const json_t *value = json_object_get(object, key);
+    if (value && !(count == 1 ? json_number_of(&gltf->json, KEY_OF(place, key), value, -INFINITY, INFINITY, out)
+                              : json_numbers_of(&gltf->json, KEY_OF(place, key), value, count, count, out, NULL)))
+        return false;
+    for (size_t i = 0; value && i < count; i++) {
+        double found = out[i];
+        out[i] = found < min ? min : found > max ? max : found;
+        if (!(fabs(found - out[i]) > rounding) || gltf->cut_factors++)
+            continue;
+        json_place(KEY_OF(place, key), gltf->cut_factor, sizeof gltf->cut_factor);
+        gltf->cut_from = found;
+        gltf->cut_to = out[i];
+    }
+    return true;
 }
 
 bool gltf_take_weights(struct gltf *gltf, const struct place *place, const json_t *object, double **out, size_t *count)

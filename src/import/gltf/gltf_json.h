@@ -28,6 +28,11 @@ bool gltf_index_of(struct gltf *gltf, const struct place *place, const json_t *v
 bool gltf_take_numbers(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                        size_t count, double *out);
 
+// A factor of `count` numbers that the standard bounds: numbers outside of min…max are cut to it, and the file gets one warning. By more
+// than rounding: numbers a little outside are cut without one.
+bool gltf_take_factors(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
+                       size_t count, double min, double max, double *out);
+
 // The weights of morph targets; *out NULL: there are none.
 bool gltf_take_weights(struct gltf *gltf, const struct place *place, const json_t *object, double **out, size_t *count);
 

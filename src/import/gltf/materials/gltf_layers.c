@@ -12,7 +12,7 @@
 #define KHR(name)      "KHR_materials_" name
 #define MEMBER(member) offsetof(lam_material, member)
 
-// A number or colour that becomes a field of lam_material, cut to the field's range.
+// A number or colour that becomes a field of lam_material, with the range that its standard allows.
 static const struct {
     const char *extension, *key;
     size_t offset;
@@ -69,14 +69,11 @@ static bool take_numbers(struct gltf *gltf, const struct place *place, const jso
             values[k] = (double)member[k];
         if (!extension)
             continue;
-        if (numbers[i].count == 1
-                ? !json_take_number(&gltf->json, here, extension, numbers[i].key, -1e30, 1e30, values)
-                : !gltf_take_numbers(gltf, here, extension, numbers[i].key, (size_t)numbers[i].count, values))
+        if (!gltf_take_factors(gltf, here, extension, numbers[i].key, (size_t)numbers[i].count, numbers[i].min,
+                               numbers[i].max, values))
             return false;
         for (int k = 0; k < numbers[i].count; k++)
-            member[k] = (float)(values[k] < numbers[i].min   ? numbers[i].min
-                                : values[k] > numbers[i].max ? numbers[i].max
-                                                             : values[k]);
+            member[k] = (float)values[k];
     }
     // Whole turns leave a direction as it is.
     double turn = 2 * math_radians(180), angle = (double)material->anisotropy_rotation_rad;

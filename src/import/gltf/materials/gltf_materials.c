@@ -9,6 +9,8 @@
 
 #include <string.h>
 
+#define FACTOR_MAX 1e30 // of factors without an upper bound in the standard
+
 // The numbers of a material as the file has them, with the defaults of the specification.
 struct factors {
     double base[4];               // colour and alpha
@@ -25,13 +27,9 @@ struct factors {
 static const struct json_choice alpha_words[] = {
     {"OPAQUE", LAM_ALPHA_OPAQUE}, {"MASK", LAM_ALPHA_MASK}, {"BLEND", LAM_ALPHA_BLEND}, {NULL, 0}};
 
-// A share, cut to 0…1: numbers a little outside are written by rounding.
 static bool take_share(struct gltf *gltf, const struct place *place, const json_t *object, const char *key, double *out)
 {
-    if (!json_take_number(&gltf->json, place, object, key, -1e30, 1e30, out))
-        return false;
-    *out = *out < 0 ? 0 : *out > 1 ? 1 : *out;
-    return true;
+    return gltf_take_factors(gltf, place, object, key, 1, 0, 1, out);
 }
 
 static bool take_metallic_roughness(struct gltf *gltf, const struct place *place, const json_t *object,
@@ -40,7 +38,7 @@ static bool take_metallic_roughness(struct gltf *gltf, const struct place *place
     bool ok = true;
     const json_t *pbr = gltf_take_object(gltf, place, object, "pbrMetallicRoughness", &ok);
     const struct place *here = KEY_OF(place, "pbrMetallicRoughness");
-    return ok && (!pbr || (gltf_take_numbers(gltf, here, pbr, "baseColorFactor", 4, f->base) &&
+    return ok && (!pbr || (gltf_take_factors(gltf, here, pbr, "baseColorFactor", 4, 0, 1, f->base) &&
                            take_share(gltf, here, pbr, "metallicFactor", &f->metallic) &&
                            take_share(gltf, here, pbr, "roughnessFactor", &f->roughness)));
 }
@@ -55,8 +53,8 @@ static bool take_specular_glossiness(struct gltf *gltf, const struct place *plac
     f->has_specular = true;
     for (int i = 0; i < 4; i++)
         f->base[i] = 1;
-    if (!gltf_take_numbers(gltf, here, pbr, "diffuseFactor", 4, f->base) ||
-        !gltf_take_numbers(gltf, here, pbr, "specularFactor", 3, f->specular) ||
+    if (!gltf_take_factors(gltf, here, pbr, "diffuseFactor", 4, 0, 1, f->base) ||
+        !gltf_take_factors(gltf, here, pbr, "specularFactor", 3, 0, 1, f->specular) ||
         !take_share(gltf, here, pbr, "glossinessFactor", &f->glossiness))
         return false;
     f->metallic = 0;
@@ -71,27 +69,24 @@ static bool take_factors(struct gltf *gltf, const struct place *place, const jso
     const struct place *in_strength = KEY_OF(KEY_OF(place, "extensions"), "KHR_materials_emissive_strength");
     f->unlit = gltf_extension(object, "KHR_materials_unlit") != NULL;
     return take_metallic_roughness(gltf, place, object, f) && take_specular_glossiness(gltf, place, object, f) &&
-           gltf_take_numbers(gltf, place, object, "emissiveFactor", 3, f->emission) &&
-           json_take_number(&gltf->json, in_strength, strength, "emissiveStrength", 0, 1e30, &f->strength) &&
-           json_take_number(&gltf->json, place, object, "alphaCutoff", 0, 1e30, &f->cutoff) &&
+           gltf_take_factors(gltf, place, object, "emissiveFactor", 3, 0, 1, f->emission) &&
+           gltf_take_factors(gltf, in_strength, strength, "emissiveStrength", 1, 0, FACTOR_MAX, &f->strength) &&
+           gltf_take_factors(gltf, place, object, "alphaCutoff", 1, 0, FACTOR_MAX, &f->cutoff) &&
            json_take_word(&gltf->json, place, object, "alphaMode", alpha_words, &f->alpha);
 }
 
-static float at_least_zero(double x) { return x > 0 ? (float)x : 0; }
-
 static lam_rgb rgb_of(const double c[3], double factor)
 {
-    return (lam_rgb){at_least_zero(c[0] * factor), at_least_zero(c[1] * factor), at_least_zero(c[2] * factor)};
+    return (lam_rgb){(float)(c[0] * factor), (float)(c[1] * factor), (float)(c[2] * factor)};
 }
 
 static lam_material material_of(const struct factors *f, const char *name)
 {
     lam_material material = lam_material_default();
-    double alpha = f->base[3] < 0 ? 0 : f->base[3] > 1 ? 1 : f->base[3];
     lam_rgb base = rgb_of(f->base, 1);
     material.name = name;
     material.ambient = base;
-    material.diffuse = (lam_rgba){base.r, base.g, base.b, f->alpha == LAM_ALPHA_OPAQUE ? 1 : (float)alpha};
+    material.diffuse = (lam_rgba){base.r, base.g, base.b, f->alpha == LAM_ALPHA_OPAQUE ? 1 : (float)f->base[3]};
     material.alpha_mode = (lam_alpha_mode)f->alpha;
     material.alpha_cutoff = (float)f->cutoff;
     material.emission = rgb_of(f->emission, f->strength);

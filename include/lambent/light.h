@@ -116,7 +116,7 @@ typedef enum lam_rig {
     // Key, fill and back light of a portrait, directional, fixed to the camera: diffuse and specular 0.8 from
     // (−1, 1, 1), 0.4 from (1, 0.25, 1), 0.6 from (0.5, 1, −1); ambient 0.05.
     LAM_RIG_THREE_POINT,
-    // One point light at (1, 2, 3) times the radius of the scene's sphere from its centre (lam_scene_sphere): ambient
+    // One point light at (1, 2, 3), turned to the scene's up axis, times the radius of the scene's sphere from its centre (lam_scene_sphere): ambient
     // 0.1, diffuse and specular 1, attenuation 1, 0, 0.
     LAM_RIG_LECTURE,
 } lam_rig;

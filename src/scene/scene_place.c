@@ -4,6 +4,7 @@
 #include "fail.h"
 #include "float_state.h"
 #include "linear.h"
+#include "up_axis.h"
 
 // Extends *radius so that the sphere contains the transformed vertices of a mesh.
 static void extend_radius(const lam_scene *scene, int mesh_index, const lam_mat4 *transform, lam_vec3 centre,
@@ -149,6 +150,8 @@ static void place_rig_light(const lam_scene *scene, lam_light *light)
         radius = 0.5 * v3_length(v3_sub(high, low));
     if (radius == 0)
         radius = 1;
+    if (light->frame == LAM_FRAME_WORLD)
+        light->position = from_y_up(lam_scene_up(scene), light->position);
     light->position = v3_add(centre, v3_scale(light->position, radius));
     light->radius = (float)((double)light->radius * radius);
     light->attenuation.linear = (float)((double)light->attenuation.linear / radius);

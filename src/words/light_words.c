@@ -7,6 +7,7 @@
 #include "fail.h"
 #include "linear.h"
 #include "spelling.h"
+#include "up_axis.h"
 #include "word_values.h"
 
 // Keys: the fields by their index in the table of lam_light_field (the first row of a key), then these.
@@ -437,6 +438,12 @@ static bool sphere_in_frame(const lam_light *light, const lam_light_text_params 
     return true;
 }
 
+// A default, which is made for Y up, in the axes of the scene: a light of the world stands before the model whatever its up axis.
+static lam_vec3 turned(const lam_light *light, const lam_scene *scene, lam_vec3 v)
+{
+    return light->frame == LAM_FRAME_WORLD || light->frame == LAM_FRAME_MODEL ? from_y_up(lam_scene_up(scene), v) : v;
+}
+
 static bool place_light(struct reading *reading, const lam_light_text_params *params, struct sphere model,
                         const lam_scene *scene, lam_error *error)
 {
@@ -448,7 +455,9 @@ static bool place_light(struct reading *reading, const lam_light_text_params *pa
     if (reading->has_position && reading->position_in_radii)
         light->position = about(&here, light->position);
     else if (stands && !reading->has_position && light->frame != LAM_FRAME_CAMERA)
-        light->position = about(&here, v3(1, 2, 3)); // a light of the camera stands at the eye
+        light->position = about(&here, turned(light, scene, v3(1, 2, 3))); // a light of the camera stands at the eye
+    else if (light->type == LAM_LIGHT_DIRECTIONAL && !reading->has_direction && !reading->has_target)
+        light->direction = turned(light, scene, light->direction);
     lam_vec3 target = !reading->has_target       ? here.centre
                       : reading->target_in_radii ? about(&here, reading->target)
                                                  : reading->target;

@@ -14,6 +14,28 @@ def difference(a, b):
     return max(abs(x - y) for x, y in zip(a[2], b[2]))
 
 
+class UpAxis(Case):
+    def light(self, *words):
+        self.good("part.stl", *words, "--save-scene", "lit.json", "-s", "8", "-q", "-o", "a.png")
+        self.given |= {"lit.json", "a.png"}
+        scene = json.loads((self.folder / "lit.json").read_text())
+        [light] = [light for light in scene["lights"] if light["type"] != "ambient"]
+        return light
+
+    def test_defaults_turn_with_it(self):
+        """Lights without a position stand before the model, whatever its up axis; what a user gives stays in the model's axes."""
+        self.good("shape", "cube", "-q", "-o", "part.stl")
+        self.given.add("part.stl")
+        r = math.sqrt(3)
+        for up, position, way in (("z", (r, -3 * r, 2 * r), (0, 1, 0)), ("y", (r, 2 * r, 3 * r), (0, 0, -1)), ("-z", (-r, -3 * r, -2 * r), (0, 1, 0))):
+            for words in (["--light", "point"], ["--light", "spot"], ["--rig", "lecture"]):
+                found = self.light("--up", up, *words)["position"]
+                self.assertTrue(all(abs(a - b) < 1e-5 for a, b in zip(found, position)), (up, words, found))
+            self.assertEqual(self.light("--up", up, "--light", "directional")["direction"], list(way), up)
+        self.assertEqual(self.light("--light", "point:position=1/2/3")["position"], [1, 2, 3])
+        self.assertEqual(self.light("--light", "directional:direction=0/0/-1")["direction"], [0, 0, -1])
+
+
 class Looks(Case):
     def test_built_in(self):
         listed = [line.split()[0] for line in self.good("looks").stdout.decode().splitlines()]

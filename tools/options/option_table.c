@@ -480,7 +480,7 @@ const struct option option_table[] = {
      "by commas. These lights replace the default ones (the model's, or the studio's); `+TYPE` adds to them, "
      "and `none` removes all but the ambient light. With `--rig`, the rig's lights stay.\n"
      "Position: `position=x/y/z` is in the model's units or, with r after each number, in radii of the model's "
-     "bounding sphere, from its centre (default: `1r/2r/3r`). `position=x/y/z/0` is a directional light from "
+     "bounding sphere, from its centre (default: `1r/2r/3r`; `1r/-3r/2r` with Z up). `position=x/y/z/0` is a directional light from "
      "there. `direction=x/y/z` is the direction in which the light travels, and `target=x/y/z` the point at "
      "which it aims (by default a directional light travels along 0/0/-1, and a spot aims at the model's "
      "centre). `frame=world|camera|view|object|object:NAME` selects the coordinate frame: the scene's, the eye's (x "

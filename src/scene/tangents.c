@@ -5,8 +5,6 @@
 #include "fail.h"
 #include "float_state.h"
 
-#include <string.h>
-
 // The first map that reads tangents.
 static const lam_texture_map *normal_map_at(const struct lam_scene *scene, int material)
 {
@@ -33,18 +31,29 @@ static const lam_texture_map *normal_map_of(const struct lam_scene *scene, int m
     return map;
 }
 
-// Whether the second texture coordinate grows downwards in the picture of a map. glTF's does, and the transform of a map is none
-// of its tangents' concern there (section 3.7.2.1: "the texture coordinates associated with the normal texture"): computed
-// tangents are what the file would have. Elsewhere the transform says it, as OBJ's, whose t points up.
-static bool t_is_down(const struct lam_scene *scene, const lam_texture_map *map)
+// Tangents run along the coordinates with which the map is sampled, those after its transform: then the slopes of a map that is turned or
+// mirrored on the surface stay slopes of the same bumps. glTF says "the texture coordinates associated with the normal texture" (section
+// 3.7.2.1), which leaves KHR_texture_transform open; three.js and Khronos' sample renderer take the coordinates after it, too. `t_down`: the
+// second coordinate of the result grows downwards in the picture. A transform that only shifts and stretches needs no new coordinates.
+static bool transformed_texcoords(lam_mesh *seen, const lam_texture_map *map, struct arena *arena, bool *t_down)
 {
-    if (strcmp(scene->format, "gltf") == 0)
-        return true;
     const float(*m)[3] = map->transform;
     bool given = false;
     for (int i = 0; i < 6; i++)
         given |= m[i / 3][i % 3] != 0;
-    return !given || m[0][0] * m[1][1] - m[0][1] * m[1][0] > 0;
+    *t_down = true;
+    if (!given)
+        return true;
+    if (m[0][0] > 0 && m[0][1] == 0 && m[1][0] == 0) {
+        *t_down = m[1][1] > 0;
+        return true;
+    }
+    float *out = arena_alloc(arena, (size_t)seen->texcoord_count * sizeof(float[2]));
+    for (size_t i = 0; out && i < seen->texcoord_count; i++)
+        for (int c = 0; c < 2; c++)
+            out[2 * i + (size_t)c] = m[c][0] * seen->texcoords[2 * i] + m[c][1] * seen->texcoords[2 * i + 1] + m[c][2];
+    seen->texcoords = out;
+    return out != NULL;
 }
 
 // Gives a mesh tangents of its own, for the texture coordinates of the map that reads them; the first ones where there is none.
@@ -60,7 +69,10 @@ static bool make_tangents(struct lam_scene *scene, lam_mesh *mesh, const lam_tex
     }
     if (mesh->tangents || !seen.texcoords || !mesh->normals || !mesh->triangle_count)
         return true;
-    if (!mikktspace(&made, &seen, map && t_is_down(scene, map), &scene->arena, call, error))
+    bool t_down = false;
+    if (map && !transformed_texcoords(&seen, map, &scene->arena, &t_down))
+        return call_memory_error(call, (size_t)seen.texcoord_count * sizeof(float[2]), error);
+    if (!mikktspace(&made, &seen, t_down, &scene->arena, call, error))
         return false;
     mesh->tangents = made.tangents;
     mesh->tangent_count = made.count;

@@ -77,20 +77,33 @@ LAM_API void lam_cancel_raise(lam_cancel *cancel);
 LAM_API void lam_cancel_clear(lam_cancel *cancel);
 
 // The limits of a call whose lam_control does not name others. What is over one fails with LAM_LIMIT; the sentence has
-// both numbers.
+// both numbers. Limits "for each byte of files" count the model's file and all files that it names, each once; they bound
+// what a small file can unfold to, and do not apply to scenes that a program makes itself.
 #define LAM_TRIANGLE_LIMIT   200000000u   // triangles
 #define LAM_PIXEL_LIMIT      400000000u   // pixels
 #define LAM_FILE_LIMIT_BYTES 32000000000u // bytes
 #define LAM_JSON_DEPTH_LIMIT 256u         // objects and lists within one another
 #define LAM_JSON_DEPTH_MAX   2000u        // what json_depth_limit may be raised to: the parser calls itself
+// Triangles of small files: so many, and more for each byte of files, up to LAM_TRIANGLE_LIMIT.
+#define LAM_TRIANGLES_BASE     5000000u
+#define LAM_TRIANGLES_PER_BYTE 100u
+// Bytes of memory that reading a model may take: so many, and expansion_limit for each byte of files.
+#define LAM_EXPANSION_BASE_BYTES 500000000u
+#define LAM_EXPANSION_LIMIT      2000u
+// Objects of a model: so many, and one more for each byte of files.
+#define LAM_OBJECTS_BASE 100000u
+// Layers of a picture: so many, and one more for each LAM_LAYER_BYTES of files.
+#define LAM_LAYERS_BASE 40u
+#define LAM_LAYER_BYTES 16384u
 
-// Control over one long call, such as loading or drawing. All zero: no limits of time and memory, the four limits above,
+// Control over one long call, such as loading or drawing. All zero: no limits of time and memory, the limits above,
 // no progress. Every long loop checks it, so that a call ends within milliseconds of the flag or the deadline; then it
 // has failed as a whole.
 typedef struct lam_control {
     // The flag that stops the call with LAM_CANCELLED. NULL: the call cannot be cancelled.
     const lam_cancel *cancel;
-    // Seconds from the start of the call after which it fails with LAM_LIMIT. 0 or less: no limit.
+    // Seconds on the clock from the start of the call after which it fails with LAM_LIMIT. Times the number of threads,
+    // this bounds the processor time as well. 0 or less: no limit.
     double time_limit_s;
     // Bytes that the call may hold at once; more is LAM_LIMIT. 0: no limit.
     uint64_t memory_limit_bytes;
@@ -99,7 +112,7 @@ typedef struct lam_control {
     void (*progress)(void *user, double share, const char *step);
     void *user; // passed to `progress`
     // Triangles that a model may have, and that a picture may draw (each object counts its mesh's; lines count as one in
-    // a model and points too, and as two where they are drawn). 0: LAM_TRIANGLE_LIMIT.
+    // a model and points too, and as two where they are drawn). 0: LAM_TRIANGLE_LIMIT, less for small files.
     uint64_t triangle_limit;
     // Pixels of each picture that is read: textures, environments, pictures by themselves. A side has at most 65535 in
     // any case. 0: LAM_PIXEL_LIMIT.
@@ -108,7 +121,16 @@ typedef struct lam_control {
     uint64_t file_limit_bytes;
     // How deep JSON (glTF, scene files) may nest, at most LAM_JSON_DEPTH_MAX. 0: LAM_JSON_DEPTH_LIMIT.
     uint64_t json_depth_limit;
-    LAM_RESERVED(4);
+    // Bytes of memory that reading may take for each byte of files, beyond LAM_EXPANSION_BASE_BYTES: textures, vertices,
+    // and what decoders need. 0: LAM_EXPANSION_LIMIT.
+    uint64_t expansion_limit;
+    // Objects that a model may have, instances included. 0: LAM_OBJECTS_BASE, and one for each byte of files.
+    uint64_t object_limit;
+    // Layers that a picture may have over each of its pixels, on average (a picture below 256×256 pixels counts as one of
+    // that size). A layer is a translucent or masked surface over a pixel; three lights that light a point count as one,
+    // and so do 32 opaque surfaces. The CPU device counts them. 0: LAM_LAYERS_BASE, and more for large files.
+    uint64_t layer_limit;
+    LAM_RESERVED(1);
 } lam_control;
 
 // The memory that this process may use, bytes: the smallest of the machine's, its control group's (cgroup v2 and v1,

@@ -61,21 +61,23 @@ static void vertex_task(void *user, size_t index, int thread)
 {
     (void)thread;
     struct cpu_frame *cpu = user;
-    if (raster_should_continue(&cpu->raster))
+    if (work_continues(&cpu->work))
         cpu->kernels->vertex_transform(&cpu->raster, &cpu->vertex_pieces[index]);
 }
 
 static void triangle_task(void *user, size_t index, int thread)
 {
     struct cpu_frame *cpu = user;
-    if (raster_should_continue(&cpu->raster))
+    if (work_continues(&cpu->work))
         cpu->kernels->bin_triangles(&cpu->raster, &cpu->bins[thread], &cpu->triangle_pieces[index]);
+    work_add(&cpu->work, cpu->bins[thread].work);
+    cpu->bins[thread].work = 0;
 }
 
 static void tile_task(void *user, size_t index, int thread)
 {
     struct cpu_frame *cpu = user;
-    if (!raster_should_continue(&cpu->raster))
+    if (!work_continues(&cpu->work))
         return;
     draw_tile(cpu, index, thread);
     if (thread == 0)
@@ -98,6 +100,10 @@ static bool step_done(const struct cpu_frame *cpu, lam_error *error)
     if (failure == FAILED_LAYERS)
         return fail(error, LAM_LIMIT,
                     "more than %d translucent triangles cover one pixel, the maximum that can be sorted", LAYERS_MAX);
+    if (failure == FAILED_WORK)
+        return fail(error, LAM_LIMIT,
+                    "more than %llu layers cover a pixel on average, the most for files of %llu bytes (--layer-limit)",
+                    (unsigned long long)call_layer_limit(cpu->call), (unsigned long long)call_input_bytes(cpu->call));
     if (failure)
         return call_memory_error(cpu->call, 2 << 20, error);
     return call_should_continue(cpu->call) || call_error(cpu->call, error);
@@ -147,6 +153,17 @@ static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memor
                                     &memory->reference, cpu->call, error);
 }
 
+// Pictures that are smaller than this count as so large: they take little time with any number of layers.
+enum { WORK_PIXELS = 256 * 256 };
+
+static uint64_t work_limit(const lam_image *image, const struct call_control *call)
+{
+    uint64_t pixels = (uint64_t)image->width * (uint64_t)image->height, units;
+    bool none = __builtin_mul_overflow(call_layer_limit(call),
+                                       WORK_LAYER * (pixels > WORK_PIXELS ? pixels : WORK_PIXELS), &units);
+    return none ? UINT64_MAX : units;
+}
+
 static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_image *image, struct call_control *call,
                      lam_error *error)
 {
@@ -156,8 +173,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     struct cpu_frame cpu = {
         .raster = {.frame = frame,
                    .pattern = sample_pattern(frame->samples),
-                   .call = call,
-                   .failure = &cpu.failure,
+                   .work = &cpu.work,
                    .tiles_across = (image->width + TILE - 1) / TILE,
                    .tiles_down = (image->height + TILE - 1) / TILE,
                    // 65536 pixels to each side of the window's middle: snapped coordinates then fit 26 bits.
@@ -171,6 +187,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
         .target = {.frame = frame, .image = converted ? &working : image, .converted = converted ? image : NULL},
         .kernels = device->kernels,
         .call = call,
+        .work = {.call = call, .failure = &cpu.failure, .limit = work_limit(image, call)},
         .pool = device->pool,
         .bins = device->bins,
         .threads = device->threads,

@@ -102,6 +102,7 @@ static bool set_up_thread(struct thread_state *thread, const struct cpu_frame *c
     thread->coverage_ns = thread->lighting_ns = thread->resolve_ns = thread->pixels_covered = 0;
     thread->shading.points_lit = thread->shading.lights_evaluated = thread->shading.rays = 0;
     thread->shading.ray_layers.failed = false;
+    thread->shading.work = cpu->raster.work;
     return true;
 }
 
@@ -120,7 +121,7 @@ static bool set_up_threads(struct cpu_frame *cpu, struct buffer *heads, lam_erro
         bins->blocks.current = bins->pieces.current = 0;
         bins->blocks.used = bins->pieces.used = 0;
         bins->piece_count = 0;
-        bins->triangles_binned = 0;
+        bins->triangles_binned = bins->work = 0;
     }
     return true;
 }
@@ -167,6 +168,8 @@ static bool list_pieces(struct cpu_frame *cpu, struct frame_memory *memory, lam_
     if (vertices > INT32_MAX)
         return fail(error, LAM_LIMIT, "the scene has %llu vertices, at most %d can be drawn at once",
                     (unsigned long long)vertices, INT32_MAX);
+    if (!call_check_triangles(cpu->call, "the scene", vertices / 3, "triples of vertices", error))
+        return false;
     size_t pieces = vertex_pieces + triangle_pieces;
     if (!buffer_reserve(&memory->pieces,
                         pieces * sizeof(struct piece) + ((size_t)frame->draw_count + 1) * sizeof(uint32_t), cpu->call,

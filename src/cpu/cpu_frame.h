@@ -49,6 +49,7 @@ struct cpu_frame {
     struct screen_occlusion occlusion;      // with ambient occlusion
     struct fragment_store *fragment_stores; // of each tile; NULL: each tile is drawn in one go
     enum failure failure;
+    struct work work;
 };
 
 static inline size_t tile_count(const struct cpu_frame *cpu)

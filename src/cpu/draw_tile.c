@@ -10,7 +10,7 @@ static void shade(const struct cpu_frame *cpu, struct thread_state *thread, cons
 {
     cpu->kernels->shade_fragments(&cpu->shade, &thread->fragments, &thread->shading, tile);
     if (thread->shading.ray_layers.failed)
-        raster_fail(&cpu->raster, FAILED_MEMORY);
+        work_fail(&cpu->work, FAILED_MEMORY);
     if (cpu->shade.recorder)
         recording_kernels.record_fragments(cpu, thread, tile);
 }
@@ -20,7 +20,7 @@ static void shade(const struct cpu_frame *cpu, struct thread_state *thread, cons
 static void draw_layers(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile,
                         const struct rectangle *area)
 {
-    if (!raster_should_continue(&cpu->raster))
+    if (!work_continues(&cpu->work))
         return;
     uint64_t start = now_ns();
     const struct sample_pattern *pattern = cpu->raster.pattern;
@@ -29,7 +29,7 @@ static void draw_layers(const struct cpu_frame *cpu, struct thread_state *thread
         thread->coverage_ns += now_ns() - start;
         int width = area->right - area->left + 1, height = area->bottom - area->top + 1;
         if (width == 1 && height == 1) {
-            raster_fail(&cpu->raster, FAILED_LAYERS);
+            work_fail(&cpu->work, FAILED_LAYERS);
             return;
         }
         struct rectangle one = *area, other = *area;
@@ -41,6 +41,8 @@ static void draw_layers(const struct cpu_frame *cpu, struct thread_state *thread
         draw_layers(cpu, thread, tile, &other);
         return;
     }
+    if (!work_continues(&cpu->work))
+        return;
     thread->layers.masked = false;
     if (cpu->shade.frame->masked)
         cpu->kernels->mask_fragments(&cpu->shade, &thread->fragments, &thread->layers, &thread->shading, tile);
@@ -53,6 +55,8 @@ static void draw_layers(const struct cpu_frame *cpu, struct thread_state *thread
     group_fragments(cpu->raster.frame, &thread->fragments);
     uint64_t covered = now_ns();
     shade(cpu, thread, tile);
+    if (!work_continues(&cpu->work))
+        return;
     uint64_t shaded = now_ns();
     thread->pixels_covered += blend_layers(pattern, &thread->fragments, &thread->layers, &thread->blend,
                                            thread->samples.ids, area, &thread->sums, cpu->shade.recorder);
@@ -142,6 +146,8 @@ void draw_tile(struct cpu_frame *cpu, size_t index, int number)
         thread->samples.translucent_triangles = 0;
     } else {
         kernels->cover_tile(&cpu->raster, &thread->samples, &tile);
+        if (!work_continues(&cpu->work))
+            return;
         if (thread->samples.translucent_triangles) {
             thread->coverage_ns += now_ns() - start;
             blend_tile(cpu, thread, &tile);
@@ -157,6 +163,8 @@ void draw_tile(struct cpu_frame *cpu, size_t index, int number)
     lam_output output = cpu->raster.frame->output;
     if (output != LAM_OUTPUT_COVERAGE && output != LAM_OUTPUT_OVERDRAW)
         shade(cpu, thread, &tile);
+    if (!work_continues(&cpu->work))
+        return;
     uint64_t shaded = now_ns();
     resolve_tile(cpu, thread, &tile);
     thread->coverage_ns += covered - start;

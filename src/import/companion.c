@@ -121,10 +121,12 @@ static bool open_by_caller(const struct import_source *source, const char *name,
     out->shown = arena_string(arena, shown_name(path, shown));
     if (!out->real || !out->shown)
         return call_memory_error(source->call, (size_t)length + sizeof shown, error);
-    file_list_add(companions->files, path);
+    bool fresh = file_list_add(companions->files, path);
     lam_bytes bytes = {0};
     if (!companions->open(companions->user, path, &bytes, error))
         return false;
+    if (fresh)
+        call_add_input(source->call, bytes.size);
     bool ok = file_copy(bytes.data, bytes.size, source->call, &out->file, error);
     if (companions->release)
         companions->release(companions->user, &bytes);
@@ -144,8 +146,7 @@ static bool open_beside(const struct import_source *source, const char *name, bo
     out->shown = join(arena, folder, shown_name(name, shown));
     if (!out->path || !out->shown)
         return call_memory_error(source->call, strlen(folder) + strlen(name), error);
-    file_list_add(companions->files, out->path);
-    bool outside;
+    bool fresh = file_list_add(companions->files, out->path), outside;
     size_t length = 0;
     char *real = path_within(out->path, confined ? root : "/", &outside, &length);
     if (outside && !(real = path_allowed(source, out->path, &length)))
@@ -156,8 +157,9 @@ static bool open_beside(const struct import_source *source, const char *name, bo
     out->real = real ? arena_string(arena, real) : out->path;
     length = real && confined ? length : 0;
     free(real);
-    return out->real ? file_read_named(out->real, length, out->shown, source->pool, source->call, &out->file, error)
-                     : call_memory_error(source->call, COMPANION_NAME_SIZE, error);
+    if (!out->real)
+        return call_memory_error(source->call, COMPANION_NAME_SIZE, error);
+    return file_read_named(out->real, length, out->shown, fresh, source->pool, source->call, &out->file, error);
 }
 
 // Says of a file that was not found that its name was cut: the file may lie where the name says.

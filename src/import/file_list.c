@@ -10,28 +10,24 @@ void file_list_start(struct file_list *list)
 {
     *list = (struct file_list){0};
     lock_start(&list->lock);
+    arena_start(&list->memory, NULL);
+    list->paths.memory = &list->memory;
 }
 
-void file_list_add(struct file_list *list, const char *path)
+bool file_list_add(struct file_list *list, const char *path)
 {
     if (!list)
-        return;
+        return true;
     lock_take(&list->lock);
-    if (list->count == list->capacity) {
-        size_t capacity = list->capacity ? 2 * list->capacity : 8;
-        char **more = realloc(list->paths, capacity * sizeof *more);
-        list->paths = more ? more : list->paths;
-        list->capacity = more ? capacity : list->capacity;
-    }
-    char *copy = list->count < list->capacity ? strdup(path) : NULL;
-    if (copy)
-        list->paths[list->count++] = copy;
-    else
+    bool fresh = name_table_find(&list->paths, path) < 0;
+    const char *copy = fresh ? arena_string(&list->memory, path) : NULL;
+    if (fresh && !(copy && name_table_add(&list->paths, copy, 0)))
         list->incomplete = true;
     lock_give(&list->lock);
+    return fresh;
 }
 
-static int by_name(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
+static int by_name(const void *a, const void *b) { return strcmp(*(const char *const *)a, *(const char *const *)b); }
 
 static bool give(struct lam_scene *scene, const char *path, lam_error *error)
 {
@@ -42,20 +38,23 @@ static bool give(struct lam_scene *scene, const char *path, lam_error *error)
 bool file_list_give(struct file_list *list, const char *model, struct lam_scene *scene, lam_error *error)
 {
     if (list->incomplete)
-        return fail_memory(error, list->count * sizeof *list->paths);
-    if (list->count)
-        qsort(list->paths, list->count, sizeof *list->paths, by_name);
+        return fail_memory(error, list->paths.count * sizeof *list->paths.entries);
+    size_t count = 0;
+    const char **paths = arena_array(&list->memory, list->paths.count, sizeof *paths);
+    if (!paths)
+        return fail_memory(error, list->paths.count * sizeof *paths);
+    for (uint32_t i = 0; i < list->paths.capacity; i++)
+        if (list->paths.entries[i].name)
+            paths[count++] = list->paths.entries[i].name;
+    qsort(paths, count, sizeof *paths, by_name);
     bool ok = !model || give(scene, model, error);
-    for (size_t i = 0; ok && i < list->count; i++)
-        if (i == 0 || strcmp(list->paths[i], list->paths[i - 1]) != 0)
-            ok = give(scene, list->paths[i], error);
+    for (size_t i = 0; ok && i < count; i++)
+        ok = give(scene, paths[i], error);
     return ok;
 }
 
 void file_list_end(struct file_list *list)
 {
-    for (size_t i = 0; i < list->count; i++)
-        free(list->paths[i]);
-    free(list->paths);
+    arena_free(&list->memory);
     lock_end(&list->lock);
 }

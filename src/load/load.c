@@ -122,6 +122,7 @@ static struct lam_scene *load_stream(struct import_source *source, const struct 
             call_check_file(source->call, source->name, file.size, NULL); // else the whole file's reader says so
         source->bytes = head;
         source->size = FILE_HEAD;
+        call_add_input(source->call, file.size);
         *importer = allowed ? importer_for_stream(source->name, head, file.size, source->params->format) : NULL;
         if (*importer)
             scene = start_scene(source, *importer, NULL);
@@ -129,6 +130,8 @@ static struct lam_scene *load_stream(struct import_source *source, const struct 
             lam_scene_free(scene);
             scene = NULL;
         }
+        if (!scene) // the whole file will be read, and counted then
+            call_add_input(source->call, 0 - file.size);
         file_close_parts(&file);
         source->bytes = NULL;
         source->size = 0;
@@ -176,6 +179,7 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     ok = ok && (folder || !path || fail_memory(error, strlen(path)));
     if (ok)
         scene = load_stream(&source, &importer);
+    call_add_input(&call, path ? 0 : size);
     ok = ok && (scene  ? true
                 : path ? file_read(path, source.pool, &call, &file, error)
                        : file_copy(bytes, size, &call, &file, error));
@@ -191,10 +195,12 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
         ok = scene && importer->load(&source, scene, error);
     }
     ok = ok && finish(scene, &source, importer, start_ns, error) && file_list_give(&files, source.path, scene, error);
-    if (ok)
+    if (ok) {
+        scene->input_bytes = call_input_bytes(&call);
         scene_built(scene);
-    else
+    } else {
         lam_scene_free(scene);
+    }
     file_release(&file);
     pool_free(source.pool);
     file_list_end(&files);

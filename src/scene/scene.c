@@ -127,6 +127,9 @@ int scene_adopt_object(struct lam_scene *scene, const lam_object *object, lam_er
     scene->object_items += mesh_items(scene_mesh(scene, object->mesh));
     if (!check_items(scene, "the objects so far", scene->object_items, error))
         return -1;
+    if (scene->arena.call &&
+        !call_check_objects(scene->arena.call, "the model", (uint64_t)scene->objects.count + 1, error))
+        return -1;
     return scene_append(scene, &scene->objects, object, sizeof *object, error);
 }
 

@@ -90,6 +90,7 @@ struct lam_scene {
     const char *format;
     lam_file_info file; // of a glTF file
     double read_ms, prepare_ms;
+    uint64_t input_bytes;  // of the files that it was read from; 0: none
     uint64_t object_items; // triangles, lines and points of all objects that were added
     // The crease angle of meshes whose normals are left to the device; 0: all meshes have normals.
     double deferred_crease_rad;

@@ -297,7 +297,7 @@ static void test_beneath(void **state)
     assert_non_null(real);
     assert_false(outside);
     assert_string_equal(real + length, "a");
-    assert_true(file_read_named(real, length, NULL, NULL, NULL, &read, &error));
+    assert_true(file_read_named(real, length, NULL, true, NULL, NULL, &read, &error));
     assert_int_equal(read.size, 6);
     file_release(&read);
     free(real);
@@ -306,10 +306,10 @@ static void test_beneath(void **state)
     assert_int_equal(mkdir(in_folder("in/dots"), 0777), 0);
     for (int i = 0; i < 3; i++) {
         snprintf(path, sizeof path, "%s/%s", in, ways[i]);
-        assert_false(file_read_named(path, strlen(in) + 1, "shown", NULL, NULL, &read, &error));
+        assert_false(file_read_named(path, strlen(in) + 1, "shown", true, NULL, NULL, &read, &error));
         assert_int_equal(error.code, LAM_CANNOT_READ);
         assert_true(strncmp(error.text, "shown: cannot open: ", 20) == 0);
-        assert_true(file_read_named(path, 0, NULL, NULL, NULL, &read, &error)); // by itself it can be read
+        assert_true(file_read_named(path, 0, NULL, true, NULL, NULL, &read, &error)); // by itself it can be read
         file_release(&read);
         free(path_within(path, in, &outside, &length));
         assert_true(outside);

@@ -33,5 +33,8 @@ lam_control limits_control(const struct options *options)
                          .triangle_limit = options->triangle_limit,
                          .pixel_limit = options->pixel_limit,
                          .file_limit_bytes = options->file_limit_bytes,
-                         .json_depth_limit = (uint64_t)options->json_depth_limit};
+                         .json_depth_limit = (uint64_t)options->json_depth_limit,
+                         .expansion_limit = options->expansion_limit,
+                         .object_limit = options->object_limit,
+                         .layer_limit = options->layer_limit};
 }

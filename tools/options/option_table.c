@@ -772,15 +772,33 @@ const struct option option_table[] = {
      "1000; Ki, Mi, Gi and Ti of 1024. For `check` it is what the process that draws a shader may use.",
      .store = store_bytes, .others = "max-memory memory ram", FIELD(memory_limit_bytes), .single = TAKES_MEMORY},
     {"time-limit", 0, GROUP_LIMITS, "SECONDS", "600", "Give up on a model after this time (exit 4); none: never.",
-     "The time is that of a clock on the wall, for each model: reading, drawing and writing together. In an animation "
-     "the "
-     "default counts for each frame, and a time that is given for all of them.",
+     "The time is that of a clock on the wall, for each model: reading, drawing and writing together. Times the number "
+     "of threads (`--threads`), it bounds the processor time as well. A picture ends within half a second of it. In an "
+     "animation the default counts for each frame, and a time that is given for all of them.",
      .store = store_seconds, .others = "timeout", FIELD(time_limit_s), .min = 0.001, .max = 1e9,
      .single = TAKES_PICTURE_LIMITS},
-    {"triangle-limit", 0, GROUP_LIMITS, "N", "200M", "Give up on a model of more triangles (exit 4).",
-     "Lines and points count too, and each object counts the triangles of its mesh. k, M and G are powers of 1000.",
+    {"triangle-limit", 0, GROUP_LIMITS, "N", "by the files' size", "Give up on a model of more triangles (exit 4).",
+     "Lines and points count too, and each object counts the triangles of its mesh. The default is 5 million and 100 "
+     "for each byte of the model's files, at most 200 million. k, M and G are powers of 1000.",
      .store = store_count, .others = "max-triangles polygon-limit vertex-limit", FIELD(triangle_limit),
      .max = 2147483647},
+    {"object-limit", 0, GROUP_LIMITS, "N", "by the files' size",
+     "Give up on a model of more objects, instances included (exit 4).",
+     "The default is 100000 and one for each byte of the model's files.", .store = store_count,
+     .others = "max-objects instance-limit max-instances node-limit", FIELD(object_limit), .max = 2147483647},
+    {"layer-limit", 0, GROUP_LIMITS, "N", "by the files' size",
+     "Give up on a picture with more layers over its pixels, on average (exit 4).",
+     "A layer is a translucent or masked surface over a pixel. Three lights that light a point count as one, and so do "
+     "32 opaque surfaces behind each other, and the light of an environment on a surface. The default is 40 and one "
+     "for each 16384 bytes of the model's files. Pictures of fewer than 65536 pixels count as so large. OpenGL does "
+     "not count them.",
+     .store = store_count, .others = "max-layers overdraw-limit", FIELD(layer_limit), .max = 2147483647},
+    {"expansion-limit", 0, GROUP_LIMITS, "N", "2000",
+     "Give up on a model that takes more memory than N times the size of its files, and 500 MB (exit 4).",
+     "It bounds what small files unfold to: compressed pictures and meshes, and numbers that a file does not hold. "
+     "`--memory-limit` bounds memory whatever the size of the files.",
+     .store = store_count, .others = "ratio-limit compression-limit bomb", FIELD(expansion_limit),
+     .max = 2147483647, .single = TAKES_PICTURE_LIMITS},
     {"pixel-limit", 0, GROUP_LIMITS, "N", "400M",
      "Refuse to read a picture of more pixels: a texture, an environment (exit 4).",
      "A file's header is looked at before memory is taken. A side has at most 65535 pixels in any case.",

@@ -112,6 +112,7 @@ struct options {
     uint64_t triangle_limit;     // 0: the library's default, as in the next ones
     uint64_t pixel_limit;
     uint64_t file_limit_bytes;
+    uint64_t expansion_limit, object_limit, layer_limit; // 0: by the size of the files
     int json_depth_limit;
     bool files_inside; // that a scene file names
     int sandbox;       // enum sandbox_mode

@@ -82,6 +82,9 @@ static void take_limits(const struct options *limits, struct options *out)
     out->pixel_limit = limits->pixel_limit;
     out->file_limit_bytes = limits->file_limit_bytes;
     out->json_depth_limit = limits->json_depth_limit;
+    out->expansion_limit = limits->expansion_limit;
+    out->object_limit = limits->object_limit;
+    out->layer_limit = limits->layer_limit;
     out->threads = limits->threads;
     out->in_flight = limits->in_flight;
     out->files_inside = true;

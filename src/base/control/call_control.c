@@ -3,6 +3,7 @@
 
 #include "fail.h"
 
+#include <stdio.h>
 #include <time.h>
 
 uint64_t now_ns(void)
@@ -58,11 +59,40 @@ bool call_error(struct call_control *call, lam_error *error)
     return fail(error, LAM_LIMIT, "the time limit of %g s is over", call->control.time_limit_s);
 }
 
+static uint64_t or_default(uint64_t limit, uint64_t standard) { return limit ? limit : standard; }
+
+// base + bytes · rate, without overflow.
+static uint64_t grown(uint64_t base, uint64_t bytes, uint64_t rate)
+{
+    uint64_t sum;
+    return __builtin_mul_overflow(bytes, rate, &sum) || __builtin_add_overflow(sum, base, &sum) ? UINT64_MAX : sum;
+}
+
+void call_add_input(struct call_control *call, uint64_t bytes)
+{
+    if (call)
+        __atomic_add_fetch(&call->input_bytes, bytes, __ATOMIC_RELAXED);
+}
+
+uint64_t call_input_bytes(const struct call_control *call)
+{
+    return call ? __atomic_load_n(&call->input_bytes, __ATOMIC_RELAXED) : 0;
+}
+
+// The memory that reading files of this size may take.
+static uint64_t expansion_bytes(const struct call_control *call)
+{
+    uint64_t bytes = call_input_bytes(call);
+    return bytes
+               ? grown(LAM_EXPANSION_BASE_BYTES, bytes, or_default(call->control.expansion_limit, LAM_EXPANSION_LIMIT))
+               : UINT64_MAX;
+}
+
 bool call_charge_spare(struct call_control *call, size_t bytes)
 {
     uint64_t limit = call->control.memory_limit_bytes;
     uint64_t used = __atomic_add_fetch(&call->memory_used, bytes, __ATOMIC_RELAXED);
-    if (!limit || used <= limit)
+    if ((!limit || used <= limit) && used <= expansion_bytes(call))
         return true;
     __atomic_sub_fetch(&call->memory_used, bytes, __ATOMIC_RELAXED);
     return false;
@@ -72,7 +102,9 @@ bool call_charge(struct call_control *call, size_t bytes)
 {
     if (call_charge_spare(call, bytes))
         return true;
-    __atomic_store_n(&call->over_memory, 1, __ATOMIC_RELAXED);
+    uint64_t limit = call->control.memory_limit_bytes;
+    bool plain = limit && __atomic_load_n(&call->memory_used, __ATOMIC_RELAXED) + bytes > limit;
+    __atomic_store_n(plain ? &call->over_memory : &call->over_expansion, 1, __ATOMIC_RELAXED);
     return false;
 }
 
@@ -88,14 +120,20 @@ bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error
                     "the memory limit of %.1f MB is reached: %.1f MB in use, %.1f MB more needed (--memory-limit)",
                     (double)call->control.memory_limit_bytes / 1e6, (double)call->memory_used / 1e6,
                     (double)bytes / 1e6);
+    if (call && __atomic_load_n(&call->over_expansion, __ATOMIC_RELAXED))
+        return fail(error, LAM_LIMIT,
+                    "%.1f MB of memory are needed, expected at most %.1f MB for files of %llu bytes "
+                    "(--expansion-limit)",
+                    (double)(call->memory_used + bytes) / 1e6, (double)expansion_bytes(call) / 1e6,
+                    (unsigned long long)call_input_bytes(call));
     return fail_memory(error, bytes);
 }
 
-static uint64_t or_default(uint64_t limit, uint64_t standard) { return limit ? limit : standard; }
-
 uint64_t call_triangle_limit(const struct call_control *call)
 {
-    return or_default(call ? call->control.triangle_limit : 0, LAM_TRIANGLE_LIMIT);
+    uint64_t given = call ? call->control.triangle_limit : 0, bytes = call_input_bytes(call);
+    uint64_t limit = bytes ? grown(LAM_TRIANGLES_BASE, bytes, LAM_TRIANGLES_PER_BYTE) : LAM_TRIANGLE_LIMIT;
+    return or_default(given, limit < LAM_TRIANGLE_LIMIT ? limit : LAM_TRIANGLE_LIMIT);
 }
 
 uint64_t call_pixel_limit(const struct call_control *call)
@@ -114,12 +152,37 @@ unsigned call_json_depth_limit(const struct call_control *call)
     return limit < LAM_JSON_DEPTH_MAX ? (unsigned)limit : LAM_JSON_DEPTH_MAX;
 }
 
+uint64_t call_layer_limit(const struct call_control *call)
+{
+    uint64_t given = call ? call->control.layer_limit : 0, bytes = call_input_bytes(call);
+    return or_default(given, bytes ? LAM_LAYERS_BASE + bytes / LAM_LAYER_BYTES : UINT64_MAX);
+}
+
+// The end of a sentence about a limit that follows from the size of the files, when it was not given.
+static const char *for_files(const struct call_control *call, uint64_t given, char text[48])
+{
+    uint64_t bytes = given ? 0 : call_input_bytes(call);
+    snprintf(text, 48, bytes ? " for files of %llu bytes" : "", (unsigned long long)bytes);
+    return text;
+}
+
+bool call_check_objects(const struct call_control *call, const char *name, uint64_t count, lam_error *error)
+{
+    uint64_t given = call ? call->control.object_limit : 0, bytes = call_input_bytes(call);
+    uint64_t limit = or_default(given, bytes ? grown(LAM_OBJECTS_BASE, bytes, 1) : UINT64_MAX);
+    char text[48];
+    return count <= limit || fail(error, LAM_LIMIT, "%s: %llu objects, expected at most %llu%s (--object-limit)", name,
+                                  (unsigned long long)count, (unsigned long long)limit, for_files(call, given, text));
+}
+
 bool call_check_triangles(const struct call_control *call, const char *name, uint64_t count, const char *items,
                           lam_error *error)
 {
-    uint64_t limit = call_triangle_limit(call);
-    return count <= limit || fail(error, LAM_LIMIT, "%s: %llu %s, expected at most %llu (--triangle-limit)", name,
-                                  (unsigned long long)count, items, (unsigned long long)limit);
+    uint64_t limit = call_triangle_limit(call), given = call ? call->control.triangle_limit : 0;
+    char text[48];
+    return count <= limit || fail(error, LAM_LIMIT, "%s: %llu %s, expected at most %llu%s (--triangle-limit)", name,
+                                  (unsigned long long)count, items, (unsigned long long)limit,
+                                  for_files(call, limit < LAM_TRIANGLE_LIMIT ? given : 1, text));
 }
 
 bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error)

@@ -9,6 +9,8 @@ struct call_control {
     uint64_t start_ns;
     uint64_t memory_used; // accessed atomically
     int over_memory;      // set once a request was refused by the budget
+    int over_expansion;   // the same, by the budget that follows from the size of the files
+    uint64_t input_bytes; // of the files that were read; accessed atomically. 0: none, and no limit follows from them
     bool unknown_field;   // the control has a field that this version does not know
     double last_share;
     // Operations of the formulas of a scene file, and how many there may be; 0: any number.
@@ -34,16 +36,24 @@ void call_refund(struct call_control *call, size_t bytes);
 // Reports an allocation that failed: over the budget, or out of memory. Returns false.
 bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error);
 
-// The limits of lam_control, or their defaults. `call` may be NULL.
+// Adds to the size of the files that the call reads; of a file that is read twice only once. Any thread; `call` may be NULL.
+void call_add_input(struct call_control *call, uint64_t bytes);
+uint64_t call_input_bytes(const struct call_control *call);
+
+// The limits of lam_control, or their defaults. `call` may be NULL. UINT64_MAX: none.
 uint64_t call_triangle_limit(const struct call_control *call);
 uint64_t call_pixel_limit(const struct call_control *call);
 uint64_t call_file_limit(const struct call_control *call);
 unsigned call_json_depth_limit(const struct call_control *call);
+uint64_t call_layer_limit(const struct call_control *call);
 
 // Whether a model, or a scene that is drawn, may have so many triangles; false: LAM_LIMIT. `items` is what they are:
 // "triangles", "lines".
 bool call_check_triangles(const struct call_control *call, const char *name, uint64_t count, const char *items,
                           lam_error *error);
+
+// Whether a model may have so many objects; false: LAM_LIMIT.
+bool call_check_objects(const struct call_control *call, const char *name, uint64_t count, lam_error *error);
 
 // Whether a file of this size may be read; false: LAM_LIMIT.
 bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);

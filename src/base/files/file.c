@@ -114,10 +114,13 @@ static void read_piece(void *user, size_t index, int thread)
     }
 }
 
-static bool read_sized(int file, const char *path, size_t size, struct pool *pool, struct call_control *call,
-                       struct file_bytes *out, lam_error *error)
+static bool read_sized(int file, const char *path, size_t size, bool fresh, struct pool *pool,
+                       struct call_control *call, struct file_bytes *out, lam_error *error)
 {
-    if (!call_check_file(call, path, size, error) || !file_hold(size, call, out, error))
+    if (!call_check_file(call, path, size, error))
+        return false;
+    call_add_input(call, fresh ? size : 0);
+    if (!file_hold(size, call, out, error))
         return false;
     struct reading reading = {.file = file, .to = (uint8_t *)(uintptr_t)out->data, .size = size, .call = call};
     pool_run(pool, (size + PIECE - 1) / PIECE, read_piece, &reading);
@@ -161,7 +164,8 @@ static bool grow(struct file_bytes *bytes, size_t used, struct call_control *cal
 }
 
 // Reads a pipe, a terminal or a device until its end, which may never come (/dev/zero).
-static bool read_stream(int file, const char *path, struct call_control *call, struct file_bytes *out, lam_error *error)
+static bool read_stream(int file, const char *path, bool fresh, struct call_control *call, struct file_bytes *out,
+                        lam_error *error)
 {
     size_t used = 0, max = pages_of_machine() / 4;
     bool ok = file_hold(1 << 20, call, out, error), ended = false;
@@ -190,6 +194,7 @@ static bool read_stream(int file, const char *path, struct call_control *call, s
     // Bytes after the last one stay zero; their charge is refunded.
     if (call)
         call_refund(call, out->size - used);
+    call_add_input(call, fresh ? used : 0);
     out->size = used;
     return true;
 }
@@ -261,8 +266,8 @@ static int open_regular(const char *path, size_t folder, const char *shown, stru
     return -1;
 }
 
-bool file_read_named(const char *path, size_t folder, const char *shown, struct pool *pool, struct call_control *call,
-                     struct file_bytes *out, lam_error *error)
+bool file_read_named(const char *path, size_t folder, const char *shown, bool fresh, struct pool *pool,
+                     struct call_control *call, struct file_bytes *out, lam_error *error)
 {
     struct stat about;
     *out = (struct file_bytes){0};
@@ -271,8 +276,8 @@ bool file_read_named(const char *path, size_t folder, const char *shown, struct 
         return false;
     shown = shown ? shown : path;
     // A size of 0 says nothing about files that the kernel makes (/proc).
-    bool ok = about.st_size > 0 ? read_sized(file, shown, (size_t)about.st_size, pool, call, out, error)
-                                : read_stream(file, shown, call, out, error);
+    bool ok = about.st_size > 0 ? read_sized(file, shown, (size_t)about.st_size, fresh, pool, call, out, error)
+                                : read_stream(file, shown, fresh, call, out, error);
     close(file);
     return ok;
 }
@@ -281,8 +286,8 @@ bool file_read(const char *path, struct pool *pool, struct call_control *call, s
 {
     *out = (struct file_bytes){0};
     if (strcmp(path, "-") == 0)
-        return read_stream(STDIN_FILENO, "standard input", call, out, error);
-    return file_read_named(path, 0, NULL, pool, call, out, error);
+        return read_stream(STDIN_FILENO, "standard input", true, call, out, error);
+    return file_read_named(path, 0, NULL, true, pool, call, out, error);
 }
 
 char *path_within(const char *path, const char *folder, bool *outside, size_t *folder_length)

@@ -27,8 +27,9 @@ bool file_read(const char *path, struct pool *pool, struct call_control *call, s
 // The same for a regular file that another file names: `shown` stands for its path in messages (NULL: the path), and "-"
 // is a file's name. `folder`: the length of the folder's part of the path, as path_within gives it: the rest is opened
 // below that folder without a link on its way, even where one has come there since. 0: the path is opened as it is.
-bool file_read_named(const char *path, size_t folder, const char *shown, struct pool *pool, struct call_control *call,
-                     struct file_bytes *out, lam_error *error);
+// `fresh`: the call has not read this file before, so that its bytes count as input (call_add_input).
+bool file_read_named(const char *path, size_t folder, const char *shown, bool fresh, struct pool *pool,
+                     struct call_control *call, struct file_bytes *out, lam_error *error);
 
 // Whether a path that another library opens leads to a regular file; false: LAM_CANNOT_READ.
 bool file_check_regular(const char *path, lam_error *error);

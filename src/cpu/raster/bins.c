@@ -24,13 +24,13 @@ static void *slab_take(const struct raster_frame *raster, struct slab_list *list
                 list->slabs = slabs;
                 list->capacity = capacity;
             }
-            if (!call_charge(raster->call, SLAB))
+            if (!call_charge(raster->work->call, SLAB))
                 goto out_of_memory;
             size_t held;
             bool filled = next > 0 || raster->frame->triangle_count > FILLED; // its pages will all be used
             void *slab = filled ? pages_get(SLAB, &held) : pages_get_sparse(SLAB, &held);
             if (!slab) {
-                call_refund(raster->call, SLAB);
+                call_refund(raster->work->call, SLAB);
                 goto out_of_memory;
             }
             list->slabs[list->count++] = slab;
@@ -43,7 +43,7 @@ static void *slab_take(const struct raster_frame *raster, struct slab_list *list
     return memory;
 
 out_of_memory:
-    raster_fail(raster, FAILED_MEMORY);
+    work_fail(raster->work, FAILED_MEMORY);
     return NULL;
 }
 
@@ -109,7 +109,10 @@ void bin_large(const struct raster_frame *raster, struct thread_bins *bins, cons
         b[k] = sign * (c->x[n] - c->x[k]);
         max[k] = (a[k] > 0 ? a[k] * size : 0) + (b[k] > 0 ? b[k] * size : 0);
     }
-    for (int ty = y0; ty <= y1; ty++)
+    for (int ty = y0; ty <= y1; ty++) {
+        bins->work += (uint64_t)(x1 - x0 + 1) * WORK_SET_UP;
+        if (!work_step(raster->work, &bins->work))
+            return;
         for (int tx = x0; tx <= x1; tx++) {
             int64_t px = (int64_t)tx << shift, py = (int64_t)ty << shift;
             bool missed = false;
@@ -120,4 +123,5 @@ void bin_large(const struct raster_frame *raster, struct thread_bins *bins, cons
             if (block)
                 block->ids[block->count++] = id;
         }
+    }
 }

@@ -44,6 +44,7 @@ struct thread_bins {
     struct slab_list pieces;
     uint32_t piece_count;
     uint64_t triangles_binned;
+    uint64_t work; // units that were not added up yet
 };
 
 // A block for one more bin, memory for one more clipped piece; NULL: out of memory, and the frame has failed.

@@ -2,10 +2,10 @@
 #ifndef RASTER_FRAME_H
 #define RASTER_FRAME_H
 
-#include "call_control.h"
 #include "frame.h"
 #include "samples.h"
 #include "tile.h"
+#include "work.h"
 
 // Units of parallel work: a range of vertices or triangles of one draw.
 enum { VERTEX_PIECE = 8192, TRIANGLE_PIECE = 4096 };
@@ -13,18 +13,11 @@ struct piece {
     uint32_t draw, first, count;
 };
 
-enum failure {
-    FAILED_NOT = 0,
-    FAILED_MEMORY, // out of memory
-    FAILED_LAYERS, // more than LAYERS_MAX translucent triangles over one pixel
-};
-
-// Read-only for the steps, apart from the vertices, which vertex_transform fills, and the failure.
+// Read-only for the steps, apart from the vertices, which vertex_transform fills, and the work.
 struct raster_frame {
     const struct frame *frame;
     const struct sample_pattern *pattern;
-    struct call_control *call;
-    enum failure *failure; // set by any worker, atomically
+    struct work *work; // counted by any worker
     int tiles_across, tiles_down;
     // The guard band: |x| and |y| of a vertex, from the middle of the window and in multiples of w, up to which the
     // triangle needs no clipping.
@@ -36,16 +29,6 @@ struct raster_frame {
     const struct thread_bins *bins; // of each thread
     int thread_count;
 };
-
-static inline void raster_fail(const struct raster_frame *raster, enum failure failure)
-{
-    __atomic_store_n(raster->failure, failure, __ATOMIC_RELAXED);
-}
-
-static inline bool raster_should_continue(const struct raster_frame *raster)
-{
-    return !__atomic_load_n(raster->failure, __ATOMIC_RELAXED) && call_should_continue(raster->call);
-}
 
 // Rounds to the nearest 1/256 pixel, clamped to ±2²⁹: corners that clip.c has cut from ones that were very far away can
 // lie outside of the guard band.

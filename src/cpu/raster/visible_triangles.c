@@ -14,7 +14,7 @@ static void mark_bins(void *user, size_t index, int number)
 {
     (void)number;
     struct cpu_frame *cpu = user;
-    if (!raster_should_continue(&cpu->raster))
+    if (!work_continues(&cpu->work))
         return;
     for (int i = 0; i < pool_threads(cpu->pool) * TILE_BINS; i++) {
         const struct thread_bins *bins = &cpu->bins[i / TILE_BINS];
@@ -68,7 +68,7 @@ static void search_tile(void *user, size_t index, int number)
     struct tile_search *search = user;
     struct cpu_frame *cpu = search->cpu;
     struct thread_state *thread = &cpu->threads[number];
-    if (!raster_should_continue(&cpu->raster))
+    if (!work_continues(&cpu->work))
         return;
     if (!tile_has_triangles(&cpu->raster, index))
         return;
@@ -85,7 +85,7 @@ static void search_tile(void *user, size_t index, int number)
                   &fragment_store->lowest, &highest);
     if (!cpu->kernels->save_fragments(fragment_store, &thread->fragments, cpu->raster.frame->samples, highest,
                                       &search->arenas[number]))
-        raster_fail(&cpu->raster, FAILED_MEMORY);
+        work_fail(&cpu->work, FAILED_MEMORY);
     thread->coverage_ns += now_ns() - start;
 }
 
@@ -155,7 +155,7 @@ static void measure_tile(void *user, size_t index, int number)
 {
     struct cpu_frame *cpu = user;
     struct thread_state *thread = &cpu->threads[number];
-    if (!raster_should_continue(&cpu->raster) || !tile_has_triangles(&cpu->raster, index))
+    if (!work_continues(&cpu->work) || !tile_has_triangles(&cpu->raster, index))
         return;
     uint64_t start = now_ns();
     struct tile tile = tile_number(cpu, index);
@@ -206,7 +206,7 @@ bool cover_in_advance(struct cpu_frame *cpu, struct visible_buffers *buffers, la
         if (cpu->shade.occlusion)
             pool_run(cpu->pool, tile_count(cpu), measure_tile, cpu);
     }
-    if (!raster_should_continue(&cpu->raster))
+    if (!work_continues(&cpu->work))
         return true; // the caller reports why
     // The transformed vertices are no longer needed either: their memory serves again. (Meshes without indices have none.)
     struct scratch_memory scratch = {0};

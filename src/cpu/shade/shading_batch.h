@@ -6,6 +6,7 @@
 #include "opacity.h"
 #include "texture_map.h"
 #include "tile.h"
+#include "work.h"
 
 #include <stdbool.h>
 
@@ -98,6 +99,7 @@ struct shading {
     struct vertex_cache vertices;
     struct light_list lights;
     uint64_t points_lit, lights_evaluated, rays;
+    struct work *work; // of the frame
 };
 
 #endif

@@ -93,6 +93,7 @@ struct gltf {
 
     // Primitives that are left out, for one warning of each kind, and for the error of a file with nothing else.
     size_t without_positions, flattened;
+    uint64_t morphed; // vertices, once for each target that moved them
 };
 
 #define GLTF_ALLOC(gltf, count, type) ((type *)arena_alloc_zeroed((gltf)->scratch, (size_t)(count) * sizeof(type)))

@@ -61,6 +61,8 @@ static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, siz
     if (!call_check_triangles(call, gltf->source->name, items, "triangles, lines and points of instances",
                               gltf->json.error))
         return false;
+    if (!call_check_objects(call, gltf->source->name, (uint64_t)gltf->scene->objects.count + objects, gltf->json.error))
+        return false;
     if (!call_charge(call, objects * sizeof(lam_object)))
         return gltf_no_memory(gltf, objects * sizeof(lam_object));
     call_refund(call, objects * sizeof(lam_object)); // each object is charged when it is made

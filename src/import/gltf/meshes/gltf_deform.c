@@ -61,6 +61,10 @@ static bool add_target(struct gltf *gltf, const struct place *place, const json_
         accessor->count != count)
         return json_fail(&gltf->json, here, "found %zu elements of %s, expected %zu of VEC%d of FLOAT", accessor->count,
                          gltf_accessor_words(accessor, words), count, width);
+    gltf->morphed += count;
+    if (!call_check_triangles(gltf->source->call, gltf->source->name, gltf->morphed, "vertices of morph targets",
+                              gltf->json.error))
+        return false;
     struct addition addition = {.gltf = gltf,
                                 .place = here,
                                 .required = strcmp(name, "POSITION") == 0,

@@ -1,0 +1,59 @@
+// work.h: the work of a frame that grows with what a file puts over a pixel: layers, lights, opaque surfaces. It is
+// counted, so that a small file cannot ask for hours, and it is stopped where the call must end.
+#ifndef WORK_H
+#define WORK_H
+
+#include "call_control.h"
+
+enum failure {
+    FAILED_NOT = 0,
+    FAILED_MEMORY, // out of memory
+    FAILED_LAYERS, // more than LAYERS_MAX translucent triangles over one pixel
+    FAILED_WORK,   // more layers over each pixel on average than the call may have (lam_control.layer_limit)
+};
+
+// Units of work, about a nanosecond each: measured with four samples to a pixel.
+enum {
+    WORK_LAYER = 96,    // a translucent fragment
+    WORK_LIGHT = 32,    // a light at a point
+    WORK_MASK = 24,     // a sample whose opacity is looked up, before it counts as a layer
+    WORK_OPAQUE = 3,    // an opaque triangle at a pixel
+    WORK_SET_UP = 32,   // a triangle in a tile
+    WORK_STEP = 1 << 20 // what is counted before it is added up: a few milliseconds
+};
+
+struct work {
+    struct call_control *call;
+    enum failure *failure; // set by any worker, atomically
+    uint64_t limit, done;  // units; `done` is accessed atomically
+};
+
+static inline void work_fail(const struct work *work, enum failure failure)
+{
+    __atomic_store_n(work->failure, failure, __ATOMIC_RELAXED);
+}
+
+static inline bool work_continues(const struct work *work)
+{
+    return !__atomic_load_n(work->failure, __ATOMIC_RELAXED) && call_should_continue(work->call);
+}
+
+// Adds units. Whether a frame fails depends on the sum alone, not on the threads. False: the frame must end.
+static inline bool work_add(struct work *work, uint64_t units)
+{
+    if (__atomic_add_fetch(&work->done, units, __ATOMIC_RELAXED) > work->limit)
+        work_fail(work, FAILED_WORK);
+    return work_continues(work);
+}
+
+// Adds what was counted in `units`, which becomes 0, once it is a step's. False: the frame must end.
+static inline bool work_step(struct work *work, uint64_t *units)
+{
+    uint64_t counted = *units;
+    if (counted < WORK_STEP)
+        return true;
+    *units = 0;
+    return work_add(work, counted);
+}
+
+#endif

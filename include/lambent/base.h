@@ -85,7 +85,7 @@ LAM_API void lam_cancel_clear(lam_cancel *cancel);
 #define LAM_JSON_DEPTH_LIMIT 256u         // objects and lists within one another
 #define LAM_JSON_DEPTH_MAX   2000u        // what json_depth_limit may be raised to: the parser calls itself
 // Triangles of small files: so many, and more for each byte of files, up to LAM_TRIANGLE_LIMIT.
-#define LAM_TRIANGLES_BASE     5000000u
+#define LAM_TRIANGLES_BASE     20000000u
 #define LAM_TRIANGLES_PER_BYTE 100u
 // Bytes of memory that reading a model may take: so many, and expansion_limit for each byte of files.
 #define LAM_EXPANSION_BASE_BYTES 500000000u
@@ -127,7 +127,7 @@ typedef struct lam_control {
     // Objects that a model may have, instances included. 0: LAM_OBJECTS_BASE, and one for each byte of files.
     uint64_t object_limit;
     // Layers that a picture may have over each of its pixels, on average (a picture below 256×256 pixels counts as one of
-    // that size). A layer is a translucent or masked surface over a pixel; three lights that light a point count as one,
+    // that size). A layer is a translucent or masked surface over a pixel; 32 lights that light a point count as one,
     // and so do 32 opaque surfaces. The CPU device counts them. 0: LAM_LAYERS_BASE, and more for large files.
     uint64_t layer_limit;
     LAM_RESERVED(1);

@@ -168,7 +168,9 @@ static bool list_pieces(struct cpu_frame *cpu, struct frame_memory *memory, lam_
     if (vertices > INT32_MAX)
         return fail(error, LAM_LIMIT, "the scene has %llu vertices, at most %d can be drawn at once",
                     (unsigned long long)vertices, INT32_MAX);
-    if (!call_check_triangles(cpu->call, "the scene", vertices / 3, "triples of vertices", error))
+    uint64_t limit = call_triangle_limit(cpu->call);
+    bool follows_files = !cpu->call->control.triangle_limit && limit < LAM_TRIANGLE_LIMIT;
+    if (follows_files && !call_check_triangles(cpu->call, "the scene", vertices, "vertices", error))
         return false;
     size_t pieces = vertex_pieces + triangle_pieces;
     if (!buffer_reserve(&memory->pieces,

@@ -12,10 +12,10 @@ enum failure {
     FAILED_WORK,   // more layers over each pixel on average than the call may have (lam_control.layer_limit)
 };
 
-// Units of work, about a nanosecond each: measured with four samples to a pixel.
+// Units of work, about a nanosecond each with AVX2: measured with four samples to a pixel.
 enum {
     WORK_LAYER = 96,    // a translucent fragment
-    WORK_LIGHT = 32,    // a light at a point
+    WORK_LIGHT = 3,     // a light at a point
     WORK_MASK = 24,     // a sample whose opacity is looked up, before it counts as a layer
     WORK_OPAQUE = 3,    // an opaque triangle at a pixel
     WORK_SET_UP = 32,   // a triangle in a tile

@@ -13,7 +13,9 @@
 
 enum {
     NONE = UINT32_MAX,
-    LEAF = 8,        // points in a leaf of the tree
+    LEAF = 8,      // points in a leaf of the tree
+    STEP_RATE = 4, // visits of nodes and points per count·√count; simple polygons need a third of it and less
+    CHECK_INTERVAL = 65536,
     STEPS = 1 << 30, // grid steps along the polygon's longer side
 };
 
@@ -48,6 +50,8 @@ struct clip {
     uint32_t *points;                     // corner numbers in Morton order
     struct box *boxes; // a complete binary tree, node i's children 2i and 2i + 1, leaves from `leaves` on
     uint32_t leaves;   // a power of two; 0: no points
+    uint64_t steps;    // nodes and points of the tree that the tests have visited
+    uint64_t most;     // and how many they may visit
 };
 
 void triangulator_start(struct triangulator *scratch, struct call_control *call)
@@ -190,10 +194,13 @@ static uint64_t spread(uint32_t x)
 
 static uint64_t morton(const struct corner *c) { return spread((uint32_t)c->x) | spread((uint32_t)c->y) << 1; }
 
-// Sorts corner numbers by Morton code: a stable radix sort, a byte of the code at a time.
-static void sort_points(const struct corner *corners, uint32_t *points, uint32_t *extra, uint32_t count)
+// Sorts corner numbers by Morton code: a stable radix sort, a byte of the code at a time. False: the call must end.
+static bool sort_points(const struct corner *corners, uint32_t *points, uint32_t *extra, uint32_t count,
+                        struct call_control *call)
 {
     for (int shift = 0; shift < 64; shift += 8) {
+        if (!call_should_continue(call))
+            return false;
         uint32_t starts[257] = {0};
         for (uint32_t i = 0; i < count; i++)
             starts[(morton(&corners[points[i]]) >> shift & 255) + 1]++;
@@ -205,6 +212,7 @@ static void sort_points(const struct corner *corners, uint32_t *points, uint32_t
         points = extra;
         extra = swap;
     } // eight rounds: the result is back in `points`
+    return true;
 }
 
 static void build_tree(struct clip *clip, uint32_t count)
@@ -270,11 +278,14 @@ static bool point_inside(const struct corner *const triangle[3], const struct co
     return true;
 }
 
-// Whether a corner that is not convex lies in corner i's triangle (on its edge counts where `touching`).
-static bool blocked(const struct clip *clip, uint32_t i, bool touching)
+// Whether a corner that is not convex lies in corner i's triangle (on its edge counts where `touching`). A polygon of few
+// repeated points could visit all nodes for each corner; once its steps are spent, all its corners count as blocked.
+static bool blocked(struct clip *clip, uint32_t i, bool touching)
 {
     if (clip->leaves == 0 || clip->boxes[1].count == 0)
         return false;
+    if (clip->steps > clip->most)
+        return true;
     const struct corner *tip = &clip->corners[i];
     const struct corner *const triangle[3] = {&clip->corners[tip->previous], tip, &clip->corners[tip->next]};
     // The edges of a sliver alone do not exclude points further along its line.
@@ -290,6 +301,7 @@ static bool blocked(const struct clip *clip, uint32_t i, bool touching)
     while (depth > 0) {
         uint32_t node = stack[--depth];
         const struct box *box = &clip->boxes[node];
+        clip->steps++;
         if (box->count == 0 || box->min_x > around.max_x || box->max_x < around.min_x || box->min_y > around.max_y ||
             box->max_y < around.min_y || box_outside(box, triangle[0], triangle[1], touching) ||
             box_outside(box, triangle[1], triangle[2], touching) ||
@@ -300,6 +312,7 @@ static bool blocked(const struct clip *clip, uint32_t i, bool touching)
             stack[depth++] = 2 * node;
             continue;
         }
+        clip->steps += LEAF;
         for (uint32_t slot = (node - clip->leaves) * LEAF; slot < (node - clip->leaves + 1) * LEAF; slot++) {
             // Slots after the last point are unused: their leaf has the count 0, or is the last one in use.
             if (clip->points[slot] != NONE && point_inside(triangle, &clip->corners[clip->points[slot]], touching))
@@ -343,7 +356,7 @@ static void queue_join(struct clip *clip, uint32_t i, enum level level)
     clip->last[level] = i;
 }
 
-static bool may_cut(const struct clip *clip, uint32_t i, enum level level)
+static bool may_cut(struct clip *clip, uint32_t i, enum level level)
 {
     int64_t area = turn_at(clip->corners, i);
     switch (level) {
@@ -379,9 +392,13 @@ static void cut(struct clip *clip, uint32_t i)
 static bool clip_ears(struct clip *clip, uint32_t count, struct call_control *call, uint32_t *triples)
 {
     uint32_t left = count;
+    uint64_t next_check = 0;
     for (uint64_t looks = 0; left > 3; looks++) {
-        if (looks % 1024 == 1023 && !call_should_continue(call))
-            return false;
+        if (looks + clip->steps >= next_check) {
+            if (!call_should_continue(call))
+                return false;
+            next_check = looks + clip->steps + CHECK_INTERVAL;
+        }
         int level = LEVEL_EAR;
         while (level < LEVEL_ANY && clip->first[level] == NONE)
             level++;
@@ -463,12 +480,17 @@ bool triangulate(struct triangulator *scratch, const float *positions, const uin
         write_fan(count, triples);
         return true;
     }
-    sort_points(clip.corners, clip.points, extra, points);
+    if (!sort_points(clip.corners, clip.points, extra, points, scratch->call))
+        return false;
     clip.leaves = 1;
     while ((uint64_t)clip.leaves * LEAF < points)
         clip.leaves *= 2;
     for (uint32_t slot = points; slot < clip.leaves * LEAF; slot++)
         clip.points[slot] = NONE;
     build_tree(&clip, points);
+    uint64_t root = 1;
+    while (root * root < count)
+        root++;
+    clip.most = CHECK_INTERVAL + STEP_RATE * root * count;
     return clip_ears(&clip, count, scratch->call, triples);
 }

@@ -3,7 +3,8 @@
 // A triangle stays as it is, a quad is cut along the diagonal that lies inside it, a larger convex polygon becomes a fan;
 // every other polygon is cut ear by ear in its dominant plane, snapped to a grid of integers so that every decision is
 // exact. Simple polygons, also with collinear, repeated or touching points (holes joined by a bridge), are covered exactly;
-// a polygon that has no area or crosses itself still gives count − 2 triangles. About count·√count steps at worst.
+// a polygon that has no area or crosses itself still gives count − 2 triangles. At most about count·√count steps; a polygon
+// that needs more, because few points repeat or edges cross many times, is cut at its convex corners without further tests.
 #ifndef TRIANGULATE_H
 #define TRIANGULATE_H
 

@@ -11,7 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { RIFF_HEADER = 12, PIECE_BYTES = 1 << 14 };
+enum {
+    RIFF_HEADER = 12,
+    PIECE_BYTES = 1 << 14, // at a time, fewer of files in which so many bytes are more pixels than
+    PIECE_PIXELS = 1 << 22,
+    PLAIN_PIXELS = 1 << 24, // that a file of any size may have: 4096×4096 of one colour take a few bytes
+};
 
 static bool webp_probe(const uint8_t *bytes, size_t size)
 {
@@ -75,8 +80,11 @@ static bool decode(const struct webp_library *webp, const struct picture_file *f
         return fail_memory(error, file->size);
     int status = VP8_STATUS_SUSPENDED;
     bool runs = true;
+    double bytes_of_pixel = (double)file->size / ((double)image->width * image->height);
+    double even = bytes_of_pixel * PIECE_PIXELS;
+    size_t piece = even < 1 ? 1 : even < PIECE_BYTES ? (size_t)even : PIECE_BYTES;
     for (size_t size = 0; runs && status == VP8_STATUS_SUSPENDED && size < file->size;) {
-        size += file->size - size < PIECE_BYTES ? file->size - size : PIECE_BYTES;
+        size += file->size - size < piece ? file->size - size : piece;
         runs = call_should_continue(file->call) || call_error(file->call, error);
         if (runs)
             status = webp->WebPIUpdate(decoder, file->bytes, size);
@@ -110,12 +118,19 @@ static bool read_with(const struct webp_library *webp, const struct picture_file
     if (end > file->size)
         return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, but its WebP header says byte %llu", file->name,
                     file->size, (unsigned long long)end);
+    // Pixels that take no bytes are decoded in one go, which nothing stops.
+    uint64_t pixels = (uint64_t)features.width * (uint64_t)features.height;
+    uint64_t more = call_expansion_limit(file->call);
+    uint64_t most = PLAIN_PIXELS + (more < UINT32_MAX ? file->size * more : UINT32_MAX);
+    if (pixels > most)
+        return fail(error, LAM_LIMIT,
+                    "%s: %d×%d pixels, expected at most %llu for a WebP file of %zu bytes (--expansion-limit)",
+                    file->name, features.width, features.height, (unsigned long long)most, file->size);
     if (!picture_make(file, (uint32_t)features.width, (uint32_t)features.height, LAM_RGBA8, image, error))
         return false;
     // What libwebp takes itself: all pixels of a lossless picture, and of lossy ones the alpha.
     enum { LOSSLESS = 2 };
-    size_t pixels = (size_t)features.width * (size_t)features.height;
-    size_t own = features.format == LOSSLESS ? 4 * pixels : features.has_alpha ? 2 * pixels : 0;
+    size_t own = (size_t)pixels * (features.format == LOSSLESS ? 4 : features.has_alpha ? 2 : 0);
     bool ok = !file->call || call_charge(file->call, own) || call_memory_error(file->call, own, error);
     if (ok) {
         ok = has_memory(own, error) && decode(webp, file, image, error);

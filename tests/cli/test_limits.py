@@ -9,7 +9,7 @@ import subprocess
 import sys
 import zlib
 
-from harness import Case, PROGRAM, ROOT
+from harness import Case, PROGRAM, ROOT, long
 
 BILLIONS = 4294967295
 SANITIZED = b"libasan" in pathlib.Path(PROGRAM).read_bytes() or b"__asan_init" in pathlib.Path(PROGRAM).read_bytes()
@@ -176,6 +176,57 @@ class Limits(Case):
             limit = ["--memory-limit", "500M"] if name == "a.webp" else []
             self.claims(name, "diff", name, name, *limit)
             self.claims(name, "cube.obj", "-s", "16", "--environment", name, "-o", "out.png", *limit)
+
+    def unfolding(self):
+        """Files below 100 kB that ask for much work: name, contents, and words of the sentence that refuses them; None: drawn."""
+        corners = b" ".join(b"%d" % (i * 7 % 5 + 1) for i in range(48000))
+        square = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .2 0\n"
+        clear = [{"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]}}]
+        texture = {"images": [{"uri": "data:image/webp;base64," + base64.b64encode(webp(16383, 16383)).decode()}], "textures": [{"source": 0}],
+                   "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]}
+        textured = {"meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
+                    "accessors": [accessor(bufferView=0, count=3), {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2"}]}
+        lights = [{"type": "point", "position": [i, 2, 3]} for i in range(1500)]
+        return {
+            "polygon.obj": (square + b"f " + corners + b"\n", "layer-limit"),
+            "clear.obj": (b"mtllib clear.mtl\nusemtl a\n" + square + b"f 1 2 3\n" * 11000, "layer-limit"),
+            "instances.gltf": (instances(3000000), "object-limit"),
+            "clear-instances.gltf": (instances(90000, materials=clear, meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}]), "layer-limit"),
+            "one-colour.gltf": (gltf(**texture, **textured), "16383×16383 pixels, expected at most"),
+            "bits.gltf": (gltf(**{**texture, "images": [{"uri": "data:image/png;base64," + base64.b64encode(
+                png(16000, 16000, 1, 0, bytes(2001 * 16000))).decode()}]}, **textured), "expansion-limit"),
+            "lights.json": (json.dumps({"lambent": 1, "objects": [{"shape": "cube"}], "lights": lights}).encode(), None),
+            "spheres.json": (json.dumps({"lambent": 1, "objects": [{"shape": "sphere"}] * 1000}).encode(), None),
+        }
+
+    @long
+    def test_small_files_take_little(self):
+        """No file below 100 kB takes more than 10 s of processor time or 1 GB of memory at the default size of picture."""
+        (self.folder / "clear.mtl").write_text("newmtl a\nd 0.5\n")
+        for name, (data, says) in self.unfolding().items():
+            (self.folder / name).write_bytes(data)
+            code, text, cpu, memory = self.measured(name, "-q", "-o", "out.png")
+            with self.subTest(name):
+                self.assertEqual(code, 4 if says else 0, text)
+                self.assertIn(says or "", text)
+                self.assertLess(len(data), 100000)
+                if not SANITIZED:
+                    self.assertLess(cpu, 10)
+                    self.assertLess(memory, 1000)
+
+    def test_small_files_end_in_time(self):
+        """With the limits that follow from the size raised, the limit of time ends the same files within half a second."""
+        (self.folder / "clear.mtl").write_text("newmtl a\nd 0.5\n")
+        raised = [word for name in ("object", "layer", "triangle") for word in ("--%s-limit" % name, "2000000000")]
+        for name, (data, _) in self.unfolding().items():
+            if name not in ("polygon.obj", "clear.obj", "instances.gltf", "clear-instances.gltf"):
+                continue
+            (self.folder / name).write_bytes(data)
+            code, text, cpu, _ = self.measured(name, *raised, "--time-limit", "0.2", "--threads", "2", "-q", "-o", "out.png")
+            with self.subTest(name):
+                self.assertEqual(code, 4, text)
+                self.assertIn("--time-limit", text)
+                self.assertLess(cpu, 2 * 0.7 if not SANITIZED else 10)
 
     def test_triangles(self):
         triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 5

@@ -198,7 +198,7 @@ class Sentences(Case):
 
 # Options whose default is not a value that can be given, with what stands there.
 NOT_VALUES = {"output", "quality", "color", "view", "camera", "light", "material", "back-material", "cull", "segments", "environment", "reflectivity", "threads",
-              "gl-device", "edges", "time-limit", "memory-limit", "triangle-limit", "pixel-limit", "file-limit", "json-depth-limit", "allow-path", "show", "up", "reflection", "isa", "device", "repeat", "scene", "variant", "animation", "time", "views", "sizes", "journal"}
+              "gl-device", "edges", "time-limit", "memory-limit", "triangle-limit", "object-limit", "layer-limit", "expansion-limit", "pixel-limit", "file-limit", "json-depth-limit", "allow-path", "show", "up", "reflection", "isa", "device", "repeat", "scene", "variant", "animation", "time", "views", "sizes", "journal"}
 # What else to give so that the option matters, and another value of it.
 CONTEXT = {
     "turntable-light": (["--turntable", "3"], "model"), "frames": (["--sweep", "zoom=1..2"], "4"), "fps": (["--turntable", "3"], "12"),

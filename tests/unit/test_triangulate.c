@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <cmocka.h>
 
 static uint64_t state = 88172645463325252u;
@@ -241,6 +242,25 @@ static void test_hopeless(void **unused)
     triangulator_stop(&scratch);
 }
 
+// A large polygon around four points: every test of a corner meets all corners that repeat its own point.
+static void test_repeated(void **unused)
+{
+    (void)unused;
+    enum { COUNT = 200000 };
+    static const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+    uint32_t *corners = malloc(COUNT * sizeof *corners), *triples = malloc(3 * COUNT * sizeof *triples);
+    for (uint32_t i = 0; i < COUNT; i++)
+        corners[i] = (uint32_t)(random_unit() * 4);
+    struct triangulator scratch;
+    triangulator_start(&scratch, NULL);
+    clock_t start = clock();
+    assert_true(triangulate(&scratch, positions, corners, COUNT, triples));
+    assert_true(clock() - start < 10 * CLOCKS_PER_SEC); // a minute, if the steps were not bounded
+    triangulator_stop(&scratch);
+    free(corners);
+    free(triples);
+}
+
 static void test_memory(void **unused)
 {
     (void)unused;
@@ -259,8 +279,9 @@ static void test_memory(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_small), cmocka_unit_test(test_touching), cmocka_unit_test(test_random),
-        cmocka_unit_test(test_large), cmocka_unit_test(test_hopeless), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_small),    cmocka_unit_test(test_touching), cmocka_unit_test(test_random),
+        cmocka_unit_test(test_large),    cmocka_unit_test(test_hopeless), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_repeated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -480,7 +480,8 @@ const struct option option_table[] = {
      "by commas. These lights replace the default ones (the model's, or the studio's); `+TYPE` adds to them, "
      "and `none` removes all but the ambient light. With `--rig`, the rig's lights stay.\n"
      "Position: `position=x/y/z` is in the model's units or, with r after each number, in radii of the model's "
-     "bounding sphere, from its centre (default: `1r/2r/3r`; `1r/-3r/2r` with Z up). `position=x/y/z/0` is a directional light from "
+     "bounding sphere, from its centre (default: `1r/2r/3r`; `1r/-3r/2r` with Z up). `position=x/y/z/0` is a "
+     "directional light from "
      "there. `direction=x/y/z` is the direction in which the light travels, and `target=x/y/z` the point at "
      "which it aims (by default a directional light travels along 0/0/-1, and a spot aims at the model's "
      "centre). `frame=world|camera|view|object|object:NAME` selects the coordinate frame: the scene's, the eye's (x "
@@ -778,7 +779,7 @@ const struct option option_table[] = {
      .store = store_seconds, .others = "timeout", FIELD(time_limit_s), .min = 0.001, .max = 1e9,
      .single = TAKES_PICTURE_LIMITS},
     {"triangle-limit", 0, GROUP_LIMITS, "N", "by the files' size", "Give up on a model of more triangles (exit 4).",
-     "Lines and points count too, and each object counts the triangles of its mesh. The default is 5 million and 100 "
+     "Lines and points count too, and each object counts the triangles of its mesh. The default is 20 million and 100 "
      "for each byte of the model's files, at most 200 million. k, M and G are powers of 1000.",
      .store = store_count, .others = "max-triangles polygon-limit vertex-limit", FIELD(triangle_limit),
      .max = 2147483647},
@@ -788,7 +789,7 @@ const struct option option_table[] = {
      .others = "max-objects instance-limit max-instances node-limit", FIELD(object_limit), .max = 2147483647},
     {"layer-limit", 0, GROUP_LIMITS, "N", "by the files' size",
      "Give up on a picture with more layers over its pixels, on average (exit 4).",
-     "A layer is a translucent or masked surface over a pixel. Three lights that light a point count as one, and so do "
+     "A layer is a translucent or masked surface over a pixel. 32 lights that light a point count as one, and so do "
      "32 opaque surfaces behind each other, and the light of an environment on a surface. The default is 40 and one "
      "for each 16384 bytes of the model's files. Pictures of fewer than 65536 pixels count as so large. OpenGL does "
      "not count them.",
@@ -797,8 +798,8 @@ const struct option option_table[] = {
      "Give up on a model that takes more memory than N times the size of its files, and 500 MB (exit 4).",
      "It bounds what small files unfold to: compressed pictures and meshes, and numbers that a file does not hold. "
      "`--memory-limit` bounds memory whatever the size of the files.",
-     .store = store_count, .others = "ratio-limit compression-limit bomb", FIELD(expansion_limit),
-     .max = 2147483647, .single = TAKES_PICTURE_LIMITS},
+     .store = store_count, .others = "ratio-limit compression-limit bomb", FIELD(expansion_limit), .max = 2147483647,
+     .single = TAKES_PICTURE_LIMITS},
     {"pixel-limit", 0, GROUP_LIMITS, "N", "400M",
      "Refuse to read a picture of more pixels: a texture, an environment (exit 4).",
      "A file's header is looked at before memory is taken. A side has at most 65535 pixels in any case.",

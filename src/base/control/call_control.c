@@ -79,13 +79,16 @@ uint64_t call_input_bytes(const struct call_control *call)
     return call ? __atomic_load_n(&call->input_bytes, __ATOMIC_RELAXED) : 0;
 }
 
+uint64_t call_expansion_limit(const struct call_control *call)
+{
+    return or_default(call ? call->control.expansion_limit : 0, LAM_EXPANSION_LIMIT);
+}
+
 // The memory that reading files of this size may take.
 static uint64_t expansion_bytes(const struct call_control *call)
 {
     uint64_t bytes = call_input_bytes(call);
-    return bytes
-               ? grown(LAM_EXPANSION_BASE_BYTES, bytes, or_default(call->control.expansion_limit, LAM_EXPANSION_LIMIT))
-               : UINT64_MAX;
+    return bytes ? grown(LAM_EXPANSION_BASE_BYTES, bytes, call_expansion_limit(call)) : UINT64_MAX;
 }
 
 bool call_charge_spare(struct call_control *call, size_t bytes)
@@ -162,7 +165,9 @@ uint64_t call_layer_limit(const struct call_control *call)
 static const char *for_files(const struct call_control *call, uint64_t given, char text[48])
 {
     uint64_t bytes = given ? 0 : call_input_bytes(call);
-    snprintf(text, 48, bytes ? " for files of %llu bytes" : "", (unsigned long long)bytes);
+    text[0] = '\0';
+    if (bytes)
+        snprintf(text, 48, " for files of %llu bytes", (unsigned long long)bytes);
     return text;
 }
 

@@ -42,6 +42,7 @@ uint64_t call_input_bytes(const struct call_control *call);
 
 // The limits of lam_control, or their defaults. `call` may be NULL. UINT64_MAX: none.
 uint64_t call_triangle_limit(const struct call_control *call);
+uint64_t call_expansion_limit(const struct call_control *call);
 uint64_t call_pixel_limit(const struct call_control *call);
 uint64_t call_file_limit(const struct call_control *call);
 unsigned call_json_depth_limit(const struct call_control *call);

@@ -138,7 +138,7 @@ bool gltf_take_factors(struct gltf *gltf, const struct place *place, const json_
 {
     const double rounding = 1e-3;
     const json_t *value = json_object_get(object, key);
-    if (value && !(count == 1 ? json_number_of(&gltf->json, KEY_OF(place, key), value, -INFINITY, INFINITY, out)
+    if (value && !(count == 1 ? json_number_of(&gltf->json, KEY_OF(place, key), value, -HUGE_VAL, HUGE_VAL, out)
                               : json_numbers_of(&gltf->json, KEY_OF(place, key), value, count, count, out, NULL)))
         return false;
     for (size_t i = 0; value && i < count; i++) {

@@ -69,6 +69,13 @@ static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, siz
     return true;
 }
 
+// False: the call must end. The clock is read once for so many objects.
+static bool continues(struct gltf *gltf, size_t number)
+{
+    struct call_control *call = gltf->source->call;
+    return number % 1024 || call_should_continue(call) || call_error(call, gltf->json.error);
+}
+
 static bool take_instances(struct gltf *gltf, const struct place *place, const json_t *attributes, const char *key,
                            const struct gltf_mesh *mesh, int width, const float **out, size_t *count)
 {
@@ -123,7 +130,7 @@ static bool add_instances(struct gltf *gltf, const struct place *place, const js
         return add_mesh(gltf, mesh, name, world);
     for (size_t i = 0; i < instances.count; i++) {
         lam_mat4 own = instance_transform(&instances, i), transform = mat4_mul(world, &own);
-        if (!add_mesh(gltf, mesh, name, &transform))
+        if (!continues(gltf, i) || !add_mesh(gltf, mesh, name, &transform))
             return false;
     }
     return true;
@@ -167,7 +174,7 @@ bool gltf_objects_add(struct gltf *gltf)
 {
     for (int i = 0; i < gltf->node_count; i++) {
         const struct gltf_node *node = &gltf->nodes[gltf->node_order[i]];
-        if (node->in_scene && node->visible && !add_node(gltf, gltf->node_order[i]))
+        if (!continues(gltf, (size_t)i) || (node->in_scene && node->visible && !add_node(gltf, gltf->node_order[i])))
             return false;
     }
     return true;

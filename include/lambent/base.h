@@ -85,7 +85,7 @@ LAM_API void lam_cancel_clear(lam_cancel *cancel);
 #define LAM_JSON_DEPTH_LIMIT 256u         // objects and lists within one another
 #define LAM_JSON_DEPTH_MAX   2000u        // what json_depth_limit may be raised to: the parser calls itself
 // Triangles of small files: so many, and more for each byte of files, up to LAM_TRIANGLE_LIMIT.
-#define LAM_TRIANGLES_BASE     20000000u
+#define LAM_TRIANGLES_BASE     50000000u
 #define LAM_TRIANGLES_PER_BYTE 100u
 // Bytes of memory that reading a model may take: so many, and expansion_limit for each byte of files.
 #define LAM_EXPANSION_BASE_BYTES 500000000u

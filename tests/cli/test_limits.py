@@ -217,7 +217,7 @@ class Limits(Case):
     def test_small_files_end_in_time(self):
         """With the limits that follow from the size raised, the limit of time ends the same files within half a second."""
         (self.folder / "clear.mtl").write_text("newmtl a\nd 0.5\n")
-        raised = [word for name in ("object", "layer", "triangle") for word in ("--%s-limit" % name, "2000000000")]
+        raised = [word for name in ("object", "layer", "triangle", "expansion") for word in ("--%s-limit" % name, "2000000000")]
         for name, (data, _) in self.unfolding().items():
             if name not in ("polygon.obj", "clear.obj", "instances.gltf", "clear-instances.gltf"):
                 continue

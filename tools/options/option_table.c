@@ -779,7 +779,7 @@ const struct option option_table[] = {
      .store = store_seconds, .others = "timeout", FIELD(time_limit_s), .min = 0.001, .max = 1e9,
      .single = TAKES_PICTURE_LIMITS},
     {"triangle-limit", 0, GROUP_LIMITS, "N", "by the files' size", "Give up on a model of more triangles (exit 4).",
-     "Lines and points count too, and each object counts the triangles of its mesh. The default is 20 million and 100 "
+     "Lines and points count too, and each object counts the triangles of its mesh. The default is 50 million and 100 "
      "for each byte of the model's files, at most 200 million. k, M and G are powers of 1000.",
      .store = store_count, .others = "max-triangles polygon-limit vertex-limit", FIELD(triangle_limit),
      .max = 2147483647},

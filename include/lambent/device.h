@@ -140,7 +140,7 @@ typedef enum lam_output {
     // Level of detail of the diffuse map, else of the first map that the material has; 0: no map. Below 0 the map is
     // magnified, by -50 where it has no footprint. 8 bits: level / 10.
     LAM_OUTPUT_LOD,
-    // The share of the light from all around that reaches the point (lam_occlusion), 0…1.
+    // The share of the light from all around that reaches the point (lam_occlusion, lam_cavity), 0 … 1, on ridges up to 1.3.
     LAM_OUTPUT_AMBIENT_OCCLUSION,
     LAM_OUTPUT_COUNT,
 } lam_output;
@@ -197,6 +197,16 @@ typedef enum lam_occlusion {
 
 // The name of a kind of occlusion: "auto", "screen". A static string; NULL out of range.
 LAM_API const char *lam_occlusion_name(lam_occlusion occlusion);
+
+// Ambient occlusion at a small radius, 0.03 of half the diagonal of the scene's box and at least three cells of the
+// picture, so that letters, holes and seams can be seen. On scenes whose colours come from no texture, ridges become lighter by the same
+// measure as valleys become darker (docs/lighting/occlusion.md).
+typedef enum lam_cavity {
+    LAM_CAVITY_AUTO = 0, // ON where LAM_OCCLUSION_AUTO is SCREEN, else OFF
+    LAM_CAVITY_OFF,
+    LAM_CAVITY_ON,
+    LAM_CAVITY_COUNT
+} lam_cavity;
 
 // The ground: a plane at the scene's lowest point, across its up axis (lam_scene_set_up), on which the scene's lights cast
 // shadows as if lam_draw_params.shadows were set (docs/lighting/ground.md). It is whole up to 3 radii of the scene's sphere
@@ -287,6 +297,7 @@ typedef struct lam_draw_params {
     // Points of a light with a radius that are tested for each lit point, 1..256; 0: 16.
     int shadow_samples;
     lam_occlusion occlusion; // LAM_BAD_ARGUMENT: SCREEN or RAYS without Phong shading
+    lam_cavity cavity;       // LAM_BAD_ARGUMENT: ON with RAYS, or without Phong shading
     // How far away surfaces occlude, as a share of half the diagonal of the scene's box, above 0 … 10. 0: 0.1.
     float occlusion_radius;
     // With LAM_OCCLUSION_RAYS: rays from each lit point, 1..1024; 0: 64.

@@ -301,6 +301,18 @@ static void leave_facets(struct frame *frame)
     }
 }
 
+// Of the cavity, as a share of half the diagonal of the scene's box.
+#define CAVITY_RADIUS 0.05
+
+// Whether a texture gives a colour to what is drawn.
+static bool has_color_maps(const struct frame *frame)
+{
+    for (int i = 0; i < frame->range_count; i++)
+        if (frame->materials[frame->ranges[i].front]->maps[LAM_MAP_DIFFUSE])
+            return true;
+    return false;
+}
+
 // Decides about ambient occlusion, once the lights are known.
 static void set_occlusion(struct frame *frame, const lam_scene *scene, const lam_draw_params *params, bool physical)
 {
@@ -316,19 +328,26 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, const lam
                (!frame->ranges[i].translucent || frame->draws[frame->ranges[i].draw].ground);
     wanted &= lit;
     bool shown = lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_CLIPPED;
-    frame->occlusion = params->occlusion                               ? params->occlusion
-                       : wanted && frame->shading == LAM_SHADING_PHONG ? LAM_OCCLUSION_SCREEN
-                                                                       : LAM_OCCLUSION_OFF;
-    if (frame->output == LAM_OUTPUT_AMBIENT_OCCLUSION && !params->occlusion)
-        frame->occlusion = LAM_OCCLUSION_SCREEN;
-    else if (!shown && frame->output != LAM_OUTPUT_AMBIENT_OCCLUSION)
+    bool one_number = frame->output == LAM_OUTPUT_AMBIENT_OCCLUSION;
+    frame->occlusion = params->occlusion                                               ? params->occlusion
+                       : one_number || (wanted && frame->shading == LAM_SHADING_PHONG) ? LAM_OCCLUSION_SCREEN
+                                                                                       : LAM_OCCLUSION_OFF;
+    bool cavity = params->cavity == LAM_CAVITY_ON ||
+                  (!params->cavity && !params->occlusion && wanted && frame->occlusion == LAM_OCCLUSION_SCREEN);
+    if (!shown && !one_number) {
         frame->occlusion = LAM_OCCLUSION_OFF;
+        cavity = false;
+    }
     lam_vec3 low, high;
+    double half = lam_scene_bounds(scene, &low, &high) ? 0.5 * v3_length(v3_sub(high, low)) : 0;
     double share = params->occlusion_radius > 0 ? (double)params->occlusion_radius : 0.1;
-    if (frame->occlusion && lam_scene_bounds(scene, &low, &high))
-        frame->occlusion_radius = rounded(0.5 * share * v3_length(v3_sub(high, low)));
+    frame->occlusion_radius = frame->occlusion > LAM_OCCLUSION_OFF ? rounded(share * half) : 0;
+    frame->cavity_radius = cavity ? rounded(CAVITY_RADIUS * half) : 0;
+    frame->ridges = !has_color_maps(frame);
     frame->occlusion_samples = params->occlusion_samples ? params->occlusion_samples : 64;
-    if (!(frame->occlusion_radius > 0))
+    if (frame->cavity_radius > 0 && frame->occlusion == LAM_OCCLUSION_OFF)
+        frame->occlusion = LAM_OCCLUSION_SCREEN;
+    if (!(half > 0))
         frame->occlusion = LAM_OCCLUSION_OFF; // a scene without extent
 }
 

@@ -135,7 +135,9 @@ struct frame {
     bool orthographic;
     float pixel_size;        // of a pixel in eye units, at distance 1 or, where orthographic, everywhere
     lam_occlusion occlusion; // never AUTO
-    float occlusion_radius;  // eye units
+    float occlusion_radius;  // eye units; 0: none at this radius
+    float cavity_radius;     // eye units; 0: no cavity
+    bool ridges;             // the cavity's ridges are lighter
     int occlusion_samples;   // of LAM_OCCLUSION_RAYS
     bool translucent;        // any range is
     bool passes_rays;        // any range does

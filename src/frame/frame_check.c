@@ -77,12 +77,20 @@ bool frame_params_check(const lam_draw_params *params, lam_error *error)
     if ((unsigned)params->occlusion >= LAM_OCCLUSION_COUNT)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: occlusion %d is not one of lam_occlusion",
                     (int)params->occlusion);
+    if ((unsigned)params->cavity >= LAM_CAVITY_COUNT)
+        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: cavity %d is not one of lam_cavity",
+                    (int)params->cavity);
+    if (params->cavity == LAM_CAVITY_ON && params->occlusion == LAM_OCCLUSION_RAYS)
+        return fail(
+            error, LAM_BAD_ARGUMENT,
+            "cavity is found from the picture: it goes with ambient occlusion 'screen' or 'off', not with 'rays'");
     if (!(params->occlusion_radius >= 0 && params->occlusion_radius <= 10))
         return fail(error, LAM_BAD_ARGUMENT, "occlusion_radius is %g, expected more than 0, up to 10",
                     (double)params->occlusion_radius);
     if (params->occlusion_samples < 0 || params->occlusion_samples > 1024)
         return fail(error, LAM_BAD_ARGUMENT, "occlusion_samples is %d, expected 0 to 1024", params->occlusion_samples);
-    if (params->occlusion > LAM_OCCLUSION_OFF && params->shading != LAM_SHADING_PHONG)
+    bool pixels = params->occlusion > LAM_OCCLUSION_OFF || params->cavity == LAM_CAVITY_ON;
+    if (pixels && params->shading != LAM_SHADING_PHONG)
         return fail(error, LAM_BAD_ARGUMENT,
                     "ambient occlusion is found for pixels: it goes with Phong shading, not with %s",
                     params->shading == LAM_SHADING_FLAT ? "flat" : "Gouraud");

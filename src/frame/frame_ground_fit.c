@@ -122,7 +122,7 @@ static void add_point(struct falls *falls, const struct frame *frame, lam_vec3 f
     for (int i = 0; i < frame->light_count && frame->shadows; i++)
         if (frame->lights[i].casts_shadows)
             add_shadows(falls, &frame->lights[i], ground, foot, height);
-    double r = frame->occlusion ? (double)frame->occlusion_radius : 0;
+    double r = (double)frame->occlusion_radius;
     for (int k = 0; k < RIM_POINTS && height < r; k++) {
         double out = OCCLUSION_SEEN * math_sqrt(r * r - height * height), angle = 2 * PI * k / RIM_POINTS;
         add_fall(

@@ -54,6 +54,8 @@ bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct fra
                                            .orthographic = frame->orthographic,
                                            .pixel_size = frame->pixel_size,
                                            .radius = frame->occlusion_radius,
+                                           .cavity_radius = frame->cavity_radius,
+                                           .ridges = frame->ridges,
                                            .slope_x = at,
                                            .slope_y = at + plane,
                                            .noisy = at + 2 * plane,

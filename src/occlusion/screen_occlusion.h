@@ -25,8 +25,10 @@ struct screen_occlusion {
     int stride;                  // floats from row to row of a plane
     size_t plane;                // floats from plane to plane
     bool orthographic;
-    float pixel_size; // of a pixel in eye units, at distance 1 or, where orthographic, everywhere
-    float radius;     // within which surfaces occlude, eye units
+    float pixel_size;    // of a pixel in eye units, at distance 1 or, where orthographic, everywhere
+    float radius;        // within which surfaces occlude, eye units; 0: there is none of this size
+    float cavity_radius; // the same of the cavity (lam_cavity)
+    bool ridges;         // the cavity's ridges are lighter
     // Distance in front of the eye of the surface at each pixel, SCREEN_EMPTY where there is none: a plane for each pixel of
     // a cell (screen_pixel). To be filled by the caller, with SCREEN_EMPTY beside the picture (screen_occlusion_start
     // does that).
@@ -35,7 +37,8 @@ struct screen_occlusion {
     // Of the surface of each cell, found with its occlusion: how the distance grows from cell to cell.
     float *slope_x, *slope_y;
     float *noisy, *smoothed; // before the filter, and after its first pass
-    // The result, in the order of `depth` and, with step 2, in its place: 1 where all light from around arrives … 0 where none does.
+    // The result, in the order of `depth` and, with step 2, in its place: 1 where all light from around arrives … 0 where none does,
+    // and more than 1 on ridges.
     float *unoccluded;
 };
 

@@ -41,6 +41,8 @@ static const char *occlusion_word(int index, int *value)
     return index < LAM_OCCLUSION_COUNT ? lam_occlusion_name((lam_occlusion)index) : NULL;
 }
 
+WORDS(cavity_word, {"auto", LAM_CAVITY_AUTO}, {"off", LAM_CAVITY_OFF}, {"on", LAM_CAVITY_ON})
+
 static const char *ground_word(int index, int *value)
 {
     *value = index;
@@ -88,6 +90,8 @@ static const lam_setting rows[] = {
      .summary = "Directions by which an environment's light on physical materials is summed; 0: the split sum."},
     {"ao", MEMBER(WORD, occlusion), .word = occlusion_word,
      .summary = "Ambient occlusion. auto: screen where a light has a share occluded or an environment lights."},
+    {"cavity", MEMBER(WORD, cavity), .word = cavity_word,
+     .summary = "Small valleys are darker, ridges lighter. auto: where ao is auto and screen."},
     {"ao_radius", MEMBER(NUMBER, occlusion_radius), .min = 0.001, .max = 10, .standard = 0.1,
      .summary = "How far away surfaces occlude, as a share of half the diagonal of the scene's box."},
     {"ao_samples", MEMBER(WHOLE, occlusion_samples), .min = 1, .max = 1024, .standard = 64,

@@ -126,6 +126,12 @@ static const struct word occlusion_words[] = {
      "by `--ao-samples` rays from each point, past all surfaces: slower, on the CPU device alone"},
     {NULL, 0, NULL}};
 
+static const struct word cavity_words[] = {
+    {"auto", LAM_CAVITY_AUTO, "on where `--ao auto` is screen"},
+    {"off", LAM_CAVITY_OFF, "neither darker valleys nor lighter ridges"},
+    {"on", LAM_CAVITY_ON, "valleys are darker and, on models without textures, ridges lighter"},
+    {NULL, 0, NULL}};
+
 static const struct word glsl_words[] = {{"330", LAM_GLSL_330, "OpenGL 3.3"},
                                          {"120", LAM_GLSL_120, "OpenGL 2.1: attribute and varying, no blocks, no flat"},
                                          {"300es", LAM_GLSL_300_ES, "OpenGL ES 3.0, WebGL 2"},
@@ -534,6 +540,10 @@ const struct option option_table[] = {
      "needs Phong shading. `docs/lighting/occlusion.md` has the formulas.",
      occlusion_words, .store = store_word, .others = "ambient-occlusion occlusion ssao gtao hbao no-ao",
      FIELD(draw.occlusion)},
+    {"cavity", 0, GROUP_LIGHTS, "HOW", "auto", "Darken small valleys and lighten ridges: auto, off or on.",
+     "Letters, holes, seams and wrinkles become visible: ambient occlusion at a small radius, and the same measure for "
+     "ridges. It changes the light that `--ao` dims. `--show ao --ao off --cavity on` shows it alone.",
+     cavity_words, .store = store_word, .others = "curvature ridges valleys no-cavity", FIELD(draw.cavity)},
     {"ao-radius", 0, GROUP_LIGHTS, "SHARE", "0.1",
      "How far away surfaces occlude, as a share of half the diagonal of the scene's box.", "", NULL,
      .store = store_float, .others = "occlusion-radius ssao-radius", FIELD(draw.occlusion_radius), .min = 0.001,

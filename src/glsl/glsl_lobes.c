@@ -107,25 +107,29 @@ void glsl_add_lobe(struct text *text, const struct glsl_facts *f)
     text_add(text, ")");
 }
 
-// The members of struct layer_values that are numbers and colours of the material, and the layer that reads each.
-static const struct {
-    const char *member, *field; // field NULL: of the same name
-    int layer;
-    bool color;
-} layer_members[] = {
-    {"ior", NULL, LAYER_DIELECTRIC, false},
-    {"specular_weight", NULL, LAYER_DIELECTRIC, false},
-    {"f0_color", NULL, LAYER_DIELECTRIC, true},
-    {"specular_glossiness", NULL, LAYER_DIELECTRIC, false},
-    {"clearcoat", NULL, LAYER_CLEARCOAT, false},
-    {"clearcoat_roughness", NULL, LAYER_CLEARCOAT, false},
-    {"sheen_color", NULL, LAYER_SHEEN, true},
-    {"sheen_roughness", NULL, LAYER_SHEEN, false},
-    {"iridescence", NULL, LAYER_IRIDESCENCE, false},
-    {"iridescence_ior", NULL, LAYER_IRIDESCENCE, false},
-    {"film", "iridescence_thickness_max", LAYER_IRIDESCENCE, false},
-    {"transmission", NULL, LAYER_TRANSMISSION, false},
-};
+// --- layers
+
+#define NUMBER(member)                    {#member, #member, LAM_MAP_COUNT, false},
+#define MAPPED_NUMBER(member, field, map) {#member, #field, LAM_MAP_##map, false},
+#define MAPPED_COLOR(member, field, map)  {#member, #field, LAM_MAP_##map, true},
+static const struct glsl_layer_input layer_inputs[] = {LAYER_NUMBERS(NUMBER) LAYER_MAPPED_NUMBERS(MAPPED_NUMBER)
+                                                           LAYER_MAPPED_COLORS(MAPPED_COLOR)};
+#undef NUMBER
+#undef MAPPED_NUMBER
+#undef MAPPED_COLOR
+
+const struct glsl_layer_input *glsl_layer_input(int index)
+{
+    return (unsigned)index < sizeof layer_inputs / sizeof *layer_inputs ? &layer_inputs[index] : NULL;
+}
+
+const struct glsl_layer_input *glsl_layer_input_of(const struct material_field *row)
+{
+    for (int i = 0; glsl_layer_input(i); i++)
+        if (row->reader == FIELD_LAYER && strcmp(layer_inputs[i].field, row->field.name) == 0)
+            return &layer_inputs[i];
+    return NULL;
+}
 
 // The value of a field of a layer at the point: what maps make of it, else the visible side's own.
 static void add_layer_field(struct text *text, const struct glsl_facts *f, const char *member, const char *field,
@@ -143,12 +147,13 @@ static void add_layer_field(struct text *text, const struct glsl_facts *f, const
 
 void glsl_add_layers(struct text *text, const struct glsl_facts *f)
 {
-    for (size_t i = 0; i < sizeof layer_members / sizeof *layer_members; i++) {
-        const char *member = layer_members[i].member, *field = layer_members[i].field;
-        if (!(f->layers & layer_members[i].layer))
+    for (int i = 0; material_field(i); i++) { // in the order of the table of fields
+        const struct material_field *row = material_field(i);
+        const struct glsl_layer_input *input = glsl_layer_input_of(row);
+        if (!input || !(f->layers & row->layer))
             continue;
-        text_print(text, "    given.%s = ", member);
-        add_layer_field(text, f, member, field ? field : member, layer_members[i].color);
+        text_print(text, "    given.%s = ", input->member);
+        add_layer_field(text, f, input->member, input->field, input->color);
         text_add(text, ";\n");
     }
     if (f->layers & LAYER_ANISOTROPY) {
@@ -171,9 +176,7 @@ void glsl_add_layers(struct text *text, const struct glsl_facts *f)
         text_add(text, ";\n    vec3 left = ");
         add_layer_field(text, f, "attenuation_color", "attenuation_color", true);
         text_add(text, ";\n    given.attenuation_log = vec3(log2_of(left.x), log2_of(left.y), log2_of(left.z));\n"
-                       "    given.path = attenuation > 0.0 ? ");
-        add_layer_field(text, f, "thickness", "thickness", false);
-        text_add(text, " * scale / attenuation : 0.0;\n");
+                       "    given.path = attenuation > 0.0 ? given.thickness * scale / attenuation : 0.0;\n");
     }
     if (text->length && text->bytes) // the line has an end of its own
         text->bytes[--text->length] = 0;

@@ -239,7 +239,7 @@ lam_map glsl_map_owner(const struct glsl_facts *f, int side, lam_map map)
 
 static bool any_has(const struct glsl_facts *f, lam_map map) { return f->maps[0][map] || f->maps[1][map]; }
 
-// The members of the struct.
+// The members of the struct, and the map that each comes from; those of layers follow (glsl_layer_input).
 enum {
     COLOR,
     AMBIENT,
@@ -256,89 +256,55 @@ enum {
     ACROSS,
     DOWN,
     LEVEL,
-    SPECULAR_WEIGHT,
-    F0_COLOR,
-    CLEARCOAT,
-    CLEARCOAT_ROUGHNESS,
     COAT_BEND,
-    SHEEN_COLOR,
-    SHEEN_ROUGHNESS,
     STRETCH,
-    IRIDESCENCE,
-    FILM,
-    TRANSMISSION,
-    THICKNESS,
     MEMBERS
 };
 static const struct {
     const char *name, *type, *meaning;
+    lam_map map;
 } members[MEMBERS] = {
-    [COLOR] = {"color", "vec3", "factor of the diffuse or base colour"},
-    [AMBIENT] = {"ambient", "vec3", "factor of the ambient colour"},
-    [SPECULAR] = {"specular", "vec3", "factor of the highlights"},
-    [EMISSION] = {"emission", "vec3", "factor of the emission"},
-    [BEND] = {"bend", "vec3", "the normal beside tangent, bitangent and normal"},
-    [OPACITY] = {"opacity", "float", "factor of the opacity"},
-    [SHININESS] = {"shininess", "float", "exponent of the highlights"},
-    [OCCLUSION] = {"occlusion", "float", "share of the light from everywhere that arrives"},
-    [ROUGHNESS] = {"roughness", "float", "0 a mirror, 1 matt"},
-    [METALLIC] = {"metallic", "float", "0 a dielectric, 1 a metal"},
-    [DIELECTRIC] = {"dielectric", "float", "factor of the diffuse light"},
-    [SLOPES] = {"slopes", "vec2", "by how much the surface rises along the next two"},
-    [ACROSS] = {"across", "vec3", "the direction of the picture's rows in eye space, not unit"},
-    [DOWN] = {"down", "vec3", "the direction of its columns"},
-    [LEVEL] = {"level", "float", "level of detail"},
-    [SPECULAR_WEIGHT] = {"specular_weight", "float", "how much of a dielectric's reflection there is"},
-    [F0_COLOR] = {"f0_color", "vec3", "colour of a dielectric's reflection along the normal"},
-    [CLEARCOAT] = {"clearcoat", "float", "share of the surface under a clear coat"},
-    [CLEARCOAT_ROUGHNESS] = {"clearcoat_roughness", "float", "of the coat"},
-    [COAT_BEND] = {"coat_bend", "vec3", "the coat's normal beside tangent, bitangent and normal"},
-    [SHEEN_COLOR] = {"sheen_color", "vec3", "colour of the fibres"},
-    [SHEEN_ROUGHNESS] = {"sheen_roughness", "float", "how much they lean"},
-    [STRETCH] = {"stretch", "vec3", "direction of the stretch by tangent and bitangent, and its strength"},
-    [IRIDESCENCE] = {"iridescence", "float", "share of the surface under a thin film"},
-    [FILM] = {"film", "float", "thickness of the film in nanometres"},
-    [TRANSMISSION] = {"transmission", "float", "share of the light in a dielectric that goes through"},
-    [THICKNESS] = {"thickness", "float", "of the volume behind the surface"},
+    [COLOR] = {"color", "vec3", "factor of the diffuse or base colour", LAM_MAP_DIFFUSE},
+    [AMBIENT] = {"ambient", "vec3", "factor of the ambient colour", LAM_MAP_AMBIENT},
+    [SPECULAR] = {"specular", "vec3", "factor of the highlights", LAM_MAP_SPECULAR},
+    [EMISSION] = {"emission", "vec3", "factor of the emission", LAM_MAP_EMISSION},
+    [BEND] = {"bend", "vec3", "the normal beside tangent, bitangent and normal", LAM_MAP_NORMAL},
+    [OPACITY] = {"opacity", "float", "factor of the opacity", LAM_MAP_OPACITY},
+    [SHININESS] = {"shininess", "float", "exponent of the highlights", LAM_MAP_SHININESS},
+    [OCCLUSION] = {"occlusion", "float", "share of the light from everywhere that arrives", LAM_MAP_OCCLUSION},
+    [ROUGHNESS] = {"roughness", "float", "0 a mirror, 1 matt", LAM_MAP_ROUGHNESS},
+    [METALLIC] = {"metallic", "float", "0 a dielectric, 1 a metal", LAM_MAP_METALLIC},
+    [DIELECTRIC] = {"dielectric", "float", "factor of the diffuse light", LAM_MAP_METALLIC},
+    [SLOPES] = {"slopes", "vec2", "by how much the surface rises along the next two", LAM_MAP_BUMP},
+    [ACROSS] = {"across", "vec3", "the direction of the picture's rows in eye space, not unit", LAM_MAP_BUMP},
+    [DOWN] = {"down", "vec3", "the direction of its columns", LAM_MAP_BUMP},
+    [LEVEL] = {"level", "float", "level of detail", LAM_MAP_COUNT},
+    [COAT_BEND] = {"coat_bend", "vec3", "the coat's normal beside tangent, bitangent and normal",
+                   LAM_MAP_CLEARCOAT_NORMAL},
+    [STRETCH] = {"stretch", "vec3", "direction of the stretch by tangent and bitangent, and its strength",
+                 LAM_MAP_ANISOTROPY},
 };
+
+static bool shows_level(const struct glsl_facts *f)
+{
+    return f->output_material && f->choices->output == LAM_OUTPUT_LOD;
+}
 
 static bool has_member(const struct glsl_facts *f, int member)
 {
-    bool level = f->output_material && f->choices->output == LAM_OUTPUT_LOD;
     bool masks = member == OPACITY && f->value_masks;
-    if ((level && !masks) || member == LEVEL)
-        return level && member == LEVEL && f->mapped && !f->late;
-    static const lam_map maps[MEMBERS] = {[COLOR] = LAM_MAP_DIFFUSE,
-                                          [AMBIENT] = LAM_MAP_AMBIENT,
-                                          [SPECULAR] = LAM_MAP_SPECULAR,
-                                          [EMISSION] = LAM_MAP_EMISSION,
-                                          [BEND] = LAM_MAP_NORMAL,
-                                          [OPACITY] = LAM_MAP_OPACITY,
-                                          [SHININESS] = LAM_MAP_SHININESS,
-                                          [OCCLUSION] = LAM_MAP_OCCLUSION,
-                                          [ROUGHNESS] = LAM_MAP_ROUGHNESS,
-                                          [METALLIC] = LAM_MAP_METALLIC,
-                                          [DIELECTRIC] = LAM_MAP_METALLIC,
-                                          [SLOPES] = LAM_MAP_BUMP,
-                                          [ACROSS] = LAM_MAP_BUMP,
-                                          [DOWN] = LAM_MAP_BUMP,
-                                          [SPECULAR_WEIGHT] = LAM_MAP_SPECULAR_WEIGHT,
-                                          [F0_COLOR] = LAM_MAP_F0_COLOR,
-                                          [CLEARCOAT] = LAM_MAP_CLEARCOAT,
-                                          [CLEARCOAT_ROUGHNESS] = LAM_MAP_CLEARCOAT_ROUGHNESS,
-                                          [COAT_BEND] = LAM_MAP_CLEARCOAT_NORMAL,
-                                          [SHEEN_COLOR] = LAM_MAP_SHEEN_COLOR,
-                                          [SHEEN_ROUGHNESS] = LAM_MAP_SHEEN_ROUGHNESS,
-                                          [STRETCH] = LAM_MAP_ANISOTROPY,
-                                          [IRIDESCENCE] = LAM_MAP_IRIDESCENCE,
-                                          [FILM] = LAM_MAP_IRIDESCENCE_THICKNESS,
-                                          [TRANSMISSION] = LAM_MAP_TRANSMISSION,
-                                          [THICKNESS] = LAM_MAP_THICKNESS};
+    if (member == LEVEL || (shows_level(f) && !masks))
+        return member == LEVEL && shows_level(f) && f->mapped && !f->late;
     bool from_physical = member == SPECULAR || member == SHININESS
                              ? f->highlights
                              : member == ROUGHNESS || member == METALLIC || member == DIELECTRIC;
-    return any_has(f, maps[member]) || (member == OPACITY && any_has(f, LAM_MAP_DIFFUSE)) ||
+    return any_has(f, members[member].map) || (member == OPACITY && any_has(f, LAM_MAP_DIFFUSE)) ||
            (f->converts && f->mapped && from_physical);
+}
+
+static bool has_layer_input(const struct glsl_facts *f, const struct glsl_layer_input *input)
+{
+    return input->map != LAM_MAP_COUNT && any_has(f, input->map) && !shows_level(f);
 }
 
 bool glsl_maps_have(const struct glsl_facts *f, const char *member)
@@ -346,6 +312,9 @@ bool glsl_maps_have(const struct glsl_facts *f, const char *member)
     for (int i = 0; i < MEMBERS; i++)
         if (strcmp(members[i].name, member) == 0)
             return has_member(f, i);
+    for (int i = 0; glsl_layer_input(i); i++)
+        if (strcmp(glsl_layer_input(i)->member, member) == 0)
+            return has_layer_input(f, glsl_layer_input(i));
     return false;
 }
 
@@ -511,20 +480,24 @@ static void add_bend(struct text *text, const struct glsl_facts *f, int side, in
     text_print(text, "    if (%s%s_map_s.w == 0.0) {\n        maps.%s = vec3(0.0, 0.0, 1.0);\n    }\n", p, name, to);
 }
 
-// A colour of a layer: the material's own times the map's.
-static void add_layer_color(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map)
+// A number or a colour of a layer: the material's own times the map's. A film's thickness lies between two of the material's.
+static void add_layer_input(struct text *text, const struct glsl_facts *f, int side,
+                            const struct glsl_layer_input *input)
 {
-    if (!has_member(f, member))
-        return;
-    text_print(text, "    maps.%s = ", members[member].name);
-    add_own(text, f, side, members[member].name);
-    text_add(text, ".rgb");
-    if (f->maps[side][map]) {
-        text_add(text, " * (");
-        add_value(text, f, side, map, "rgb");
-        text_add(text, ")");
+    bool read = f->maps[side][input->map], between = read && input->map == LAM_MAP_IRIDESCENCE_THICKNESS;
+    text_print(text, between ? "    maps.%s = mix(" : "    maps.%s = ", input->member);
+    if (between) {
+        add_own(text, f, side, "iridescence_thickness_min");
+        text_add(text, ", ");
     }
-    text_add(text, ";\n");
+    add_own(text, f, side, input->field);
+    text_add(text, input->color ? ".rgb" : "");
+    text_add(text, between ? ", " : read ? " * (" : "");
+    if (read && input->color)
+        add_value(text, f, side, input->map, "rgb");
+    else if (read)
+        add_number(text, f, side, input->map);
+    text_add(text, read ? ");\n" : ";\n");
 }
 
 static void add_stretch(struct text *text, const struct glsl_facts *f, int side)
@@ -543,26 +516,6 @@ static void add_stretch(struct text *text, const struct glsl_facts *f, int side)
                    "    maps.stretch = vec3(cos(turned) * stretch.x - sin(turned) * stretch.y,\n"
                    "                        sin(turned) * stretch.x + cos(turned) * stretch.y, stretch.z * ");
     add_own(text, f, side, "anisotropy");
-    text_add(text, ");\n");
-}
-
-// The film's thickness lies between two of the material's.
-static void add_film(struct text *text, const struct glsl_facts *f, int side)
-{
-    if (!has_member(f, FILM))
-        return;
-    text_add(text, "    maps.film = ");
-    if (!f->maps[side][LAM_MAP_IRIDESCENCE_THICKNESS]) {
-        add_own(text, f, side, "iridescence_thickness_max");
-        text_add(text, ";\n");
-        return;
-    }
-    text_add(text, "mix(");
-    add_own(text, f, side, "iridescence_thickness_min");
-    text_add(text, ", ");
-    add_own(text, f, side, "iridescence_thickness_max");
-    text_add(text, ", ");
-    add_number(text, f, side, LAM_MAP_IRIDESCENCE_THICKNESS);
     text_add(text, ");\n");
 }
 
@@ -601,22 +554,10 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
     if (has_member(f, DIELECTRIC)) // without products the diffuse colours of lights never have this factor
         text_add(text, varies || (!c->products && f->microfacet) ? "    maps.dielectric = 1.0 - maps.metallic;\n"
                                                                  : "    maps.dielectric = 1.0;\n");
-    static const struct {
-        int member;
-        lam_map map;
-    } layers[] = {{SPECULAR_WEIGHT, LAM_MAP_SPECULAR_WEIGHT},
-                  {CLEARCOAT, LAM_MAP_CLEARCOAT},
-                  {CLEARCOAT_ROUGHNESS, LAM_MAP_CLEARCOAT_ROUGHNESS},
-                  {SHEEN_ROUGHNESS, LAM_MAP_SHEEN_ROUGHNESS},
-                  {IRIDESCENCE, LAM_MAP_IRIDESCENCE},
-                  {TRANSMISSION, LAM_MAP_TRANSMISSION},
-                  {THICKNESS, LAM_MAP_THICKNESS}};
-    for (size_t i = 0; i < sizeof layers / sizeof *layers; i++)
-        add_factor(text, f, side, layers[i].member, layers[i].map, members[layers[i].member].name);
-    add_layer_color(text, f, side, F0_COLOR, LAM_MAP_F0_COLOR);
-    add_layer_color(text, f, side, SHEEN_COLOR, LAM_MAP_SHEEN_COLOR);
+    for (int i = 0; glsl_layer_input(i); i++)
+        if (has_layer_input(f, glsl_layer_input(i)))
+            add_layer_input(text, f, side, glsl_layer_input(i));
     add_stretch(text, f, side);
-    add_film(text, f, side);
     if (c->converted[side])
         add_conversion(text, f, side);
     text_add(text, "    return maps;\n}\n");
@@ -630,6 +571,12 @@ void glsl_add_maps(struct text *text, const struct glsl_facts *f)
     for (int i = 0; i < MEMBERS; i++)
         if (has_member(f, i))
             text_print(text, "    %s %s; // %s\n", members[i].type, members[i].name, members[i].meaning);
+    for (int i = 0; material_field(i); i++) {
+        const struct glsl_layer_input *input = glsl_layer_input_of(material_field(i));
+        if (input && has_layer_input(f, input))
+            text_print(text, "    %s %s; // %s\n", input->color ? "vec3" : "float", input->member,
+                       material_field(i)->field.summary);
+    }
     text_add(text, "};\n");
     for (int side = 0; side <= f->back_material; side++)
         add_side(text, f, side);

@@ -106,6 +106,14 @@ lam_map glsl_map_owner(const struct glsl_facts *facts, int side, lam_map map);
 bool glsl_is_physical(const struct glsl_facts *facts);
 // Whether the maps' struct has a member of this name.
 bool glsl_maps_have(const struct glsl_facts *facts, const char *member);
+// A member of struct layer_values that is a field of the material, times its map's value (layer_inputs.h).
+struct glsl_layer_input {
+    const char *member, *field;
+    lam_map map; // LAM_MAP_COUNT: none
+    bool color;
+};
+const struct glsl_layer_input *glsl_layer_input(int index);                             // NULL past the end
+const struct glsl_layer_input *glsl_layer_input_of(const struct material_field *field); // NULL: none
 // Appends the lines that set the variable `given`, of struct layer_values, except for its vectors.
 void glsl_add_layers(struct text *text, const struct glsl_facts *facts);
 // Appends the struct of what maps say of a point, and the functions that fill it.

@@ -27,7 +27,8 @@ STRUCT(layer_values)
     num iridescence_ior;
     num film; // thickness in nanometres
     num transmission;
-    num path;             // how far light goes through the volume, in units of attenuation_distance
+    num thickness;        // of the volume behind the surface
+    num path;             // how far light goes through it, in units of attenuation_distance
     vec3 attenuation_log; // the volume's colour after a path of 1, as logarithm to the base 2
 };
 
@@ -456,21 +457,18 @@ LANE_FN layer_values layers_of(const lam_material *m)
     y.base = vec3_of(num_of(m->diffuse.r), num_of(m->diffuse.g), num_of(m->diffuse.b));
     y.metallic = num_of(m->metallic);
     y.roughness = num_of(m->roughness);
-    y.ior = num_of(m->ior);
-    y.specular_weight = num_of(m->specular_weight);
-    y.f0_color = vec3_of(num_of(m->f0_color.r), num_of(m->f0_color.g), num_of(m->f0_color.b));
-    y.specular_glossiness = num_of(m->specular_glossiness);
-    y.clearcoat = num_of(m->clearcoat);
-    y.clearcoat_roughness = num_of(m->clearcoat_roughness);
     y.clearcoat_normal = zero;
-    y.sheen_color = vec3_of(num_of(m->sheen_color.r), num_of(m->sheen_color.g), num_of(m->sheen_color.b));
-    y.sheen_roughness = num_of(m->sheen_roughness);
     y.anisotropy = num_of(m->anisotropy);
     y.stretch = zero;
-    y.iridescence = num_of(m->iridescence);
-    y.iridescence_ior = num_of(m->iridescence_ior);
-    y.film = num_of(m->iridescence_thickness_max);
-    y.transmission = num_of(m->transmission);
+#define NUMBER(member)                    y.member = num_of(m->member);
+#define MAPPED_NUMBER(member, field, map) y.member = num_of(m->field);
+#define MAPPED_COLOR(member, field, map)  y.member = vec3_of(num_of(m->field.r), num_of(m->field.g), num_of(m->field.b));
+    LAYER_NUMBERS(NUMBER)
+    LAYER_MAPPED_NUMBERS(MAPPED_NUMBER)
+    LAYER_MAPPED_COLORS(MAPPED_COLOR)
+#undef NUMBER
+#undef MAPPED_NUMBER
+#undef MAPPED_COLOR
     y.path = num_of(0.0f);
     y.attenuation_log = zero;
     return y;

@@ -14,6 +14,7 @@
 #include "lights.h"
 #include "sum.h"
 #include "layer_kinds.h"
+#include "layer_inputs.h"
 #include "layers.h"
 #include "tone.h"
 

@@ -37,7 +37,7 @@ bool glsl_lobe_reads(const struct glsl_facts *f, const char *parameter)
         return true;
     if (f->environment_light && (strcmp(parameter, "roughness") == 0 || strcmp(parameter, "metallic") == 0))
         return true;
-    if (!f->adds_lights || !f->lights)
+    if (!f->adds_lights || !f->has_lights)
         return false;
     bool numbers = f->converts && !f->microfacet; // the classic model's numbers come from these
     if (strcmp(parameter, "shininess") == 0)
@@ -59,8 +59,7 @@ void glsl_add_parameters(struct text *text, const struct glsl_facts *f)
 {
     for (int i = 0; selects(f) && i < PARAMETERS; i++)
         if (glsl_lobe_reads(f, parameters[i]))
-            text_print(text, "%s    float own_%s = front ? %s : back_%s;", text->bytes ? "\n" : "", parameters[i],
-                       parameters[i], parameters[i]);
+            text_print(text, "    float own_%s = front ? %s : back_%s;\n", parameters[i], parameters[i], parameters[i]);
 }
 
 static void add_parameter(struct text *text, const struct glsl_facts *f, const char *name, size_t length)
@@ -178,8 +177,6 @@ void glsl_add_layers(struct text *text, const struct glsl_facts *f)
         text_add(text, ";\n    given.attenuation_log = vec3(log2_of(left.x), log2_of(left.y), log2_of(left.z));\n"
                        "    given.path = attenuation > 0.0 ? given.thickness * scale / attenuation : 0.0;\n");
     }
-    if (text->length && text->bytes) // the line has an end of its own
-        text->bytes[--text->length] = 0;
 }
 
 const char *glsl_tone_function(lam_tone tone)

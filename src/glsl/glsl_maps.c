@@ -178,7 +178,7 @@ static bool material_reads(const struct glsl_facts *f, int side, lam_map map)
 static bool reads(const struct glsl_facts *f, int side, lam_map map)
 {
     if (f->output_material)
-        return (!f->late && material_reads(f, side, map)) ||
+        return (!f->maps_interpolated_light && material_reads(f, side, map)) ||
                (f->value_masks && (map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY));
     bool sums = f->adds_lights, lit = f->lit && !f->unlit;
     switch (map) {
@@ -189,7 +189,7 @@ static bool reads(const struct glsl_facts *f, int side, lam_map map)
         return sums || (f->application && !f->output_vector);
     case LAM_MAP_NORMAL:
     case LAM_MAP_BUMP: // GLSL 120 has no textureSize
-        return lit && (f->lights || f->hemispheres || f->environment || f->output_vector) &&
+        return lit && (f->has_lights || f->has_hemispheres || f->has_environment || f->output_vector) &&
                (map == LAM_MAP_NORMAL || f->choices->version != GLSL_120);
     case LAM_MAP_SHININESS:
         return sums && f->highlights && !f->microfacet;
@@ -206,26 +206,27 @@ void glsl_find_maps(struct glsl_facts *f)
     const struct glsl_choices *c = f->choices;
     bool two = c->two_sided && c->back_material, values = f->output_vector || f->output_geometry || f->output_material;
     for (int side = 0; side <= two; side++) {
-        f->masks |= c->alpha[side] == LAM_ALPHA_MASK;
-        f->apart |= c->maps[side][LAM_MAP_DIFFUSE].used || c->maps[side][LAM_MAP_EMISSION].used;
+        f->has_mask |= c->alpha[side] == LAM_ALPHA_MASK;
+        f->separate_texture_terms |= c->maps[side][LAM_MAP_DIFFUSE].used || c->maps[side][LAM_MAP_EMISSION].used;
     }
-    f->value_masks = f->masks && values;
-    f->late = !(f->lit && f->per_fragment && f->shading == LAM_SHADING_PHONG);
-    f->apart &= f->late && !values;
+    f->value_masks = f->has_mask && values;
+    f->maps_interpolated_light = !(f->lit && f->per_fragment && f->shading == LAM_SHADING_PHONG);
+    f->separate_texture_terms &= f->maps_interpolated_light && !values;
     f->back_material |= two && (f->value_masks || (f->application && !values));
     for (int side = 0; side <= f->back_material; side++)
-        f->converts |= c->converted[side] && f->adds_lights && f->lights && !f->late;
+        f->converts |= c->converted[side] && f->adds_lights && f->has_lights && !f->maps_interpolated_light;
     for (int side = 0; side <= f->back_material; side++)
         for (int i = 0; i < LAM_MAP_COUNT; i++) {
-            if (!c->maps[side][i].used || (f->late && !is_late(i)) || !reads(f, side, (lam_map)i))
+            if (!c->maps[side][i].used || (f->maps_interpolated_light && !is_late(i)) || !reads(f, side, (lam_map)i))
                 continue;
-            f->maps[side][i] = f->mapped = true;
-            f->texcoords[c->maps[side][i].texcoords] = true;
-            f->bends |= i == LAM_MAP_NORMAL;
-            f->coat_bends |= i == LAM_MAP_CLEARCOAT_NORMAL;
-            f->tilts |= i == LAM_MAP_BUMP;
+            f->maps[side][i] = f->has_maps = true;
+            f->first_texcoords |= !c->maps[side][i].texcoords;
+            f->second_texcoords |= c->maps[side][i].texcoords != 0;
+            f->has_normal_map |= i == LAM_MAP_NORMAL;
+            f->has_coat_normal_map |= i == LAM_MAP_CLEARCOAT_NORMAL;
+            f->has_bump_map |= i == LAM_MAP_BUMP;
         }
-    f->converts &= f->mapped;
+    f->converts &= f->has_maps;
 }
 
 lam_map glsl_map_owner(const struct glsl_facts *f, int side, lam_map map)
@@ -285,26 +286,21 @@ static const struct {
                  LAM_MAP_ANISOTROPY},
 };
 
-static bool shows_level(const struct glsl_facts *f)
-{
-    return f->output_material && f->choices->output == LAM_OUTPUT_LOD;
-}
-
 static bool has_member(const struct glsl_facts *f, int member)
 {
     bool masks = member == OPACITY && f->value_masks;
-    if (member == LEVEL || (shows_level(f) && !masks))
-        return member == LEVEL && shows_level(f) && f->mapped && !f->late;
+    if (member == LEVEL || (f->shows_level && !masks))
+        return member == LEVEL && f->shows_level && f->has_maps && !f->maps_interpolated_light;
     bool from_physical = member == SPECULAR || member == SHININESS
                              ? f->highlights
                              : member == ROUGHNESS || member == METALLIC || member == DIELECTRIC;
     return any_has(f, members[member].map) || (member == OPACITY && any_has(f, LAM_MAP_DIFFUSE)) ||
-           (f->converts && f->mapped && from_physical);
+           (f->converts && f->has_maps && from_physical);
 }
 
 static bool has_layer_input(const struct glsl_facts *f, const struct glsl_layer_input *input)
 {
-    return input->map != LAM_MAP_COUNT && any_has(f, input->map) && !shows_level(f);
+    return input->map != LAM_MAP_COUNT && any_has(f, input->map) && !f->shows_level;
 }
 
 bool glsl_maps_have(const struct glsl_facts *f, const char *member)
@@ -524,9 +520,9 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
     const struct glsl_choices *c = f->choices;
     bool varies = c->converted[side] || f->maps[side][LAM_MAP_METALLIC];
     text_print(text, "\n// What the maps of the %s say of the point.\nsurface_maps %s_maps(%s%s%s%s%s)\n{\n",
-               side ? "back" : "front", side ? "back" : "front", f->texcoords[0] ? "footprint first" : "",
-               f->texcoords[0] && f->texcoords[1] ? ", " : "", f->texcoords[1] ? "footprint second" : "",
-               f->tilts ? ", vec3 p" : "", c->colors && f->converts ? ", vec4 tint" : "");
+               side ? "back" : "front", side ? "back" : "front", f->first_texcoords ? "footprint first" : "",
+               f->first_texcoords && f->second_texcoords ? ", " : "", f->second_texcoords ? "footprint second" : "",
+               f->has_bump_map ? ", vec3 p" : "", c->colors && f->converts ? ", vec4 tint" : "");
     text_add(text, "    surface_maps maps;\n");
     add_texels(text, f, side);
     add_color(text, f, side, COLOR, LAM_MAP_DIFFUSE);
@@ -565,7 +561,7 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
 
 void glsl_add_maps(struct text *text, const struct glsl_facts *f)
 {
-    if (!f->mapped)
+    if (!f->has_maps)
         return;
     text_add(text, "// What maps say of a point.\nstruct surface_maps {\n");
     for (int i = 0; i < MEMBERS; i++)

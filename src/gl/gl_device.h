@@ -104,7 +104,8 @@ struct gl_vertex_lighting {
     // Retained, because the key holds its address.
     struct lam_environment *environment;
     GLuint colors, array;
-    bool apart; // each vertex has four colours: the front's, the back's, and the rest of each (glsl_facts.apart)
+    bool
+        separate_texture_terms; // each vertex has four colours: the front's, the back's, and the rest of each (glsl_facts.separate_texture_terms)
     GLuint of_vertices; // the mesh buffer that `array` reads positions from
     uint64_t bytes;
 };
@@ -125,8 +126,8 @@ enum uniform {
     UNIFORM_BACK_HEAD = UNIFORM_HEAD + LAM_FIELDS_MAX,
     UNIFORM_ALPHA_CUTOFF = UNIFORM_BACK_HEAD + LAM_FIELDS_MAX,
     UNIFORM_BACK_ALPHA_CUTOFF,
-    UNIFORM_GLOW,
-    UNIFORM_BACK_GLOW,
+    UNIFORM_MAPPED_EMISSION,
+    UNIFORM_BACK_MAPPED_EMISSION,
     UNIFORM_MAPS, // two rows for each map of the front, then of the back (glsl_map_values)
     UNIFORM_FLOATS = UNIFORM_MAPS + 4 * LAM_MAP_COUNT, // number of the uniforms above, all of floats
     UNIFORM_FIRST_PRODUCT = UNIFORM_FLOATS,

@@ -9,14 +9,15 @@
 
 // Lights the vertices of a range, and interleaves front and back colours.
 static bool light_range(struct gl_frame *f, const struct gl_mesh *mesh, uint32_t range, uint32_t first, uint32_t end,
-                        bool apart, float (*lit)[4])
+                        bool separate, float (*lit)[4])
 {
     const struct frame_draw_range *of = &f->frame->ranges[range];
     struct vertex_colors *colors = &f->device->vertex_colors;
     const struct vertex_cache *out = &colors->shading.vertices;
-    struct vertex_run run = {
-        .range = range, .shared = mesh->form == FORM_SHARED, .separate_texture_terms = glsl_keeps_apart(f->frame, of)};
-    uint32_t each = apart ? 4 : 2, repeat = mesh->form >= FORM_FLAT_FACE ? 3 : 1; // vertices with one colour
+    struct vertex_run run = {.range = range,
+                             .shared = mesh->form == FORM_SHARED,
+                             .separate_texture_terms = glsl_separates_texture_terms(f->frame, of)};
+    uint32_t each = separate ? 4 : 2, repeat = mesh->form >= FORM_FLAT_FACE ? 3 : 1; // vertices with one colour
     for (int back = 0; back < 2; back++)
         run.has_emission_map |= f->frame->materials[back ? of->back : of->front]->maps[LAM_MAP_EMISSION] != NULL;
     for (; first < end; first += VERTEX_RUN_MAX) {
@@ -46,7 +47,7 @@ static bool send_colors(struct gl_frame *f, struct gl_vertex_lighting *row, cons
     struct vertex_colors *colors = &device->vertex_colors;
     uint64_t start = now_ns();
     uint32_t count = mesh_vertex_count(&mesh->mesh, mesh->form);
-    uint64_t bytes = (uint64_t)count * (row->apart ? 4 : 2) * 4 * sizeof(float);
+    uint64_t bytes = (uint64_t)count * (row->separate_texture_terms ? 4 : 2) * 4 * sizeof(float);
     if (device->vertex_colors_frame != device->frame_number) {
         const struct hierarchy *hierarchy = frame->shadows ? &device->hierarchy.hierarchy : NULL;
         if (!vertex_colors_start(colors, frame, f->environment_light, hierarchy, f->call, error))
@@ -66,8 +67,8 @@ static bool send_colors(struct gl_frame *f, struct gl_vertex_lighting *row, cons
         uint32_t first = 3 * (s->first_id - frame->draws[number].first_id);
         if (s->draw != number)
             continue;
-        on = light_range(f, mesh, (uint32_t)i, shared ? 0 : first, shared ? count : first + 3 * s->count, row->apart,
-                         lit);
+        on = light_range(f, mesh, (uint32_t)i, shared ? 0 : first, shared ? count : first + 3 * s->count,
+                         row->separate_texture_terms, lit);
         done = shared;
     }
     f->gl->UnmapBuffer(GL_ARRAY_BUFFER);
@@ -124,8 +125,8 @@ static void describe(struct gl_frame *f, struct gl_vertex_lighting *row, const s
         point_to(f, 8, 2, stride, at);
     gl->BindBuffer(GL_ARRAY_BUFFER, row->colors);
     for (GLuint side = 0; side < 2; side++) {
-        point_to(f, 4 + side, 4, row->apart ? 16 : 8, side * 4);
-        if (row->apart)
+        point_to(f, 4 + side, 4, row->separate_texture_terms ? 16 : 8, side * 4);
+        if (row->separate_texture_terms)
             point_to(f, 9 + side, 3, 16, 8 + side * 4);
         else
             gl->DisableVertexAttribArray(9 + side);
@@ -143,12 +144,12 @@ GLuint vertex_lighting_upload(struct gl_frame *f, int draw, struct gl_mesh *mesh
         !vertex_lighting_key(f, &device->vertex_lighting[draw], mesh, draw, &size, error))
         return 0;
     struct gl_vertex_lighting *row = &device->vertex_lighting[draw];
-    bool apart = false;
+    bool separate = false;
     for (int i = 0; i < f->frame->range_count; i++)
-        apart |= f->frame->ranges[i].draw == draw && glsl_keeps_apart(f->frame, &f->frame->ranges[i]);
-    if (row->apart != apart)
+        separate |= f->frame->ranges[i].draw == draw && glsl_separates_texture_terms(f->frame, &f->frame->ranges[i]);
+    if (row->separate_texture_terms != separate)
         row->sent_key_size = row->of_vertices = 0;
-    row->apart = apart;
+    row->separate_texture_terms = separate;
     if (!row->colors) {
         gl->GenBuffers(1, &row->colors);
         gl->GenVertexArrays(1, &row->array);

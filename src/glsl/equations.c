@@ -218,7 +218,7 @@ static void write_definition(struct text *text, const struct piece *p)
 
 // --- all files
 
-enum { FILES = 8 };
+enum { FILES = 9 };
 
 struct equations {
     struct text sources[FILES];
@@ -256,6 +256,7 @@ static void write_kept(struct text *text, const struct equations *w)
         "kinds of light",
         "light that arrives at a point: direction, distance, attenuation and cone",
         "light that leaves a point: its terms and their sum",
+        "a point before it is lit: its normal and tangent, and what maps make of its material",
         "layers of physical materials",
         "light through the layers of a physical material",
         "tone curves: from light to colours of a screen"};
@@ -278,8 +279,9 @@ static void write_kept(struct text *text, const struct equations *w)
 
 void equations_add(struct text *text, char *calls, const struct known_condition *known)
 {
-    static const char *const sources[FILES] = {text_prelude_glsl, text_lobes_h,       text_light_kinds_h, text_lights_h,
-                                               text_sum_h,        text_layer_kinds_h, text_layers_h,      text_tone_h};
+    static const char *const sources[FILES] = {text_prelude_glsl,  text_lobes_h,  text_light_kinds_h,
+                                               text_lights_h,      text_sum_h,    text_point_h,
+                                               text_layer_kinds_h, text_layers_h, text_tone_h};
     struct equations *w = calloc(1, sizeof *w);
     bool ok = w != NULL;
     for (int i = 0; ok && i < FILES; i++) {

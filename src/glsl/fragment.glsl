@@ -80,23 +80,21 @@ void main()
 //@elif per_fragment
 //@if needs_normal
 //@if has_normal_map
-    // None of the three is made unit after interpolation (MikkTSpace).
     vec3 bitangent = bitangent_sign * cross3(eye_normal, eye_tangent);
-    vec3 n = eye_tangent * maps.bend.x + bitangent * maps.bend.y + eye_normal * maps.bend.z;
+    vec3 n = mapped_normal(maps.normal, eye_tangent, bitangent, eye_normal);
 //@else
     vec3 n = eye_normal;
 //@end
 //@if has_coat_normal
 //@if has_coat_normal_map
     vec3 coat_bitangent = bitangent_sign * cross3(eye_normal, eye_tangent);
-    vec3 coat = eye_tangent * maps.coat_bend.x + coat_bitangent * maps.coat_bend.y + eye_normal * maps.coat_bend.z;
+    vec3 coat = mapped_normal(maps.coat_normal, eye_tangent, coat_bitangent, eye_normal);
 //@else
     vec3 coat = eye_normal;
 //@end
 //@end
 //@if has_bump_map
-    n = unit3(n);
-    n = n - (perpendicular3(maps.across, n) * maps.slopes.x + perpendicular3(maps.down, n) * maps.slopes.y);
+    n = bumped_normal(unit3(n), maps.across, maps.down, maps.slopes.x, maps.slopes.y);
 //@end
 //@if two_sided
     if (!gl_FrontFacing) {

@@ -166,7 +166,7 @@ void glsl_add_layers(struct text *text, const struct glsl_facts *f)
             text_add(text, ");\n");
         }
         text_add(text, "    given.anisotropy = turned.z;\n"
-                       "    given.stretch = unit3(s.t * turned.x + cross3(s.n, s.t) * (turn * turned.y));\n");
+                       "    given.stretch = along_surface(s.n, s.t, turned.x, turn * turned.y);\n");
     }
     if (f->layers & LAYER_VOLUME) {
         text_add(text, "    mat3 axes = mat3(model_view);\n    float scale = square_root((dot3(axes[0], axes[0]) + "

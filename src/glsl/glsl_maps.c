@@ -17,11 +17,14 @@
 static bool is_drawn(int map) { return map != LAM_MAP_DISPLACEMENT && map != LAM_MAP_REFLECTION; }
 
 // Where light is evaluated at vertices or once for a triangle, these maps are applied at each fragment.
-static bool is_late(int map) { return map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY || map == LAM_MAP_EMISSION; }
+static bool follows_lighting(int map)
+{
+    return map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY || map == LAM_MAP_EMISSION;
+}
 
 static bool is_read(const struct frame *frame, const lam_material *material, int map)
 {
-    return material->maps[map] && is_drawn(map) && (frame->shading == LAM_SHADING_PHONG || is_late(map));
+    return material->maps[map] && is_drawn(map) && (frame->shading == LAM_SHADING_PHONG || follows_lighting(map));
 }
 
 bool glsl_reads_maps(const struct frame *frame, const lam_material *material)
@@ -113,7 +116,7 @@ void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4
     }
 }
 
-bool glsl_keeps_apart(const struct frame *frame, const struct frame_draw_range *range)
+bool glsl_separates_texture_terms(const struct frame *frame, const struct frame_draw_range *range)
 {
     bool any = false;
     for (int side = 0; side < 2; side++) {
@@ -133,7 +136,7 @@ float glsl_alpha_cutoff(const struct frame *frame, const lam_material *material)
     return opacity > 0 ? cutoff / opacity : 2;
 }
 
-void glsl_glow(const struct frame *frame, const struct frame_draw_range *range, bool back, float out[4])
+void glsl_mapped_emission(const struct frame *frame, const struct frame_draw_range *range, bool back, float out[4])
 {
     const lam_material *material = frame->materials[back ? range->back : range->front];
     bool shown = output_is_picture(frame->output) || frame->output == LAM_OUTPUT_EMISSION;
@@ -217,7 +220,8 @@ void glsl_find_maps(struct glsl_facts *f)
         f->converts |= c->converted[side] && f->adds_lights && f->has_lights && !f->maps_interpolated_light;
     for (int side = 0; side <= f->back_material; side++)
         for (int i = 0; i < LAM_MAP_COUNT; i++) {
-            if (!c->maps[side][i].used || (f->maps_interpolated_light && !is_late(i)) || !reads(f, side, (lam_map)i))
+            if (!c->maps[side][i].used || (f->maps_interpolated_light && !follows_lighting(i)) ||
+                !reads(f, side, (lam_map)i))
                 continue;
             f->maps[side][i] = f->has_maps = true;
             f->first_texcoords |= !c->maps[side][i].texcoords;
@@ -246,7 +250,7 @@ enum {
     AMBIENT,
     SPECULAR,
     EMISSION,
-    BEND,
+    NORMAL,
     OPACITY,
     SHININESS,
     OCCLUSION,
@@ -257,7 +261,7 @@ enum {
     ACROSS,
     DOWN,
     LEVEL,
-    COAT_BEND,
+    COAT_NORMAL,
     STRETCH,
     MEMBERS
 };
@@ -269,7 +273,8 @@ static const struct {
     [AMBIENT] = {"ambient", "vec3", "factor of the ambient colour", LAM_MAP_AMBIENT},
     [SPECULAR] = {"specular", "vec3", "factor of the highlights", LAM_MAP_SPECULAR},
     [EMISSION] = {"emission", "vec3", "factor of the emission", LAM_MAP_EMISSION},
-    [BEND] = {"bend", "vec3", "the normal beside tangent, bitangent and normal", LAM_MAP_NORMAL},
+    [NORMAL] = {"normal", "vec3", "the parts of the normal along tangent, bitangent and the mesh's normal",
+                LAM_MAP_NORMAL},
     [OPACITY] = {"opacity", "float", "factor of the opacity", LAM_MAP_OPACITY},
     [SHININESS] = {"shininess", "float", "exponent of the highlights", LAM_MAP_SHININESS},
     [OCCLUSION] = {"occlusion", "float", "share of the light from everywhere that arrives", LAM_MAP_OCCLUSION},
@@ -280,8 +285,7 @@ static const struct {
     [ACROSS] = {"across", "vec3", "the direction of the picture's rows in eye space, not unit", LAM_MAP_BUMP},
     [DOWN] = {"down", "vec3", "the direction of its columns", LAM_MAP_BUMP},
     [LEVEL] = {"level", "float", "level of detail", LAM_MAP_COUNT},
-    [COAT_BEND] = {"coat_bend", "vec3", "the coat's normal beside tangent, bitangent and normal",
-                   LAM_MAP_CLEARCOAT_NORMAL},
+    [COAT_NORMAL] = {"coat_normal", "vec3", "those of the coat's normal", LAM_MAP_CLEARCOAT_NORMAL},
     [STRETCH] = {"stretch", "vec3", "direction of the stretch by tangent and bitangent, and its strength",
                  LAM_MAP_ANISOTROPY},
 };
@@ -449,19 +453,17 @@ static void add_conversion(struct text *text, const struct glsl_facts *f, int si
     bool mirrored = lobe_properties((int)f->choices->reflection) & LOBE_MIRRORED;
     if (!has_member(f, SHININESS) || !has_member(f, SPECULAR))
         return;
-    text_add(text, "    float slope = maps.roughness * maps.roughness;\n"
-                   "    float exponent = clamp(2.0 / max(slope * slope, 1.0e-12) - 2.0, 1.0, 4096.0);\n"
-                   "    vec3 base = ");
+    text_add(text, "    float exponent = classic_exponent(maps.roughness);\n    vec3 base = ");
     add_own(text, f, side, "diffuse.rgb");
     text_print(text, "%s%s;\n", f->choices->colors ? " * tint.rgb" : "", has_member(f, COLOR) ? " * maps.color" : "");
     text_print(text,
-               "    maps.specular = mix3(vec3(DIELECTRIC_F0), base, maps.metallic) * ((exponent + 8.0) * 0.125);\n"
+               "    maps.specular = classic_specular(base, maps.metallic, exponent);\n"
                "    maps.shininess = exponent%s;\n",
                mirrored ? " * 0.25" : "");
 }
 
 // The normal of a map of normals, beside tangent, bitangent and the mesh's own.
-static void add_bend(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map)
+static void add_normal(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map)
 {
     const char *to = members[member].name, *p = prefix(side), *name = lam_map_name(map);
     if (!has_member(f, member))
@@ -529,8 +531,8 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
     add_color(text, f, side, AMBIENT, LAM_MAP_AMBIENT);
     add_color(text, f, side, SPECULAR, LAM_MAP_SPECULAR);
     add_color(text, f, side, EMISSION, LAM_MAP_EMISSION);
-    add_bend(text, f, side, BEND, LAM_MAP_NORMAL);
-    add_bend(text, f, side, COAT_BEND, LAM_MAP_CLEARCOAT_NORMAL);
+    add_normal(text, f, side, NORMAL, LAM_MAP_NORMAL);
+    add_normal(text, f, side, COAT_NORMAL, LAM_MAP_CLEARCOAT_NORMAL);
     if (has_member(f, LEVEL)) {
         lam_map map = lod_map(f, side);
         const char *p = prefix(side), *name = map < LAM_MAP_COUNT ? lam_map_name(map) : NULL;

@@ -224,9 +224,10 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
             list.rows[list.count - 1].back = back;
         }
     add_maps(&list, f);
-    bool glows = f->maps_interpolated_light && (f->maps[0][LAM_MAP_EMISSION] || f->maps[1][LAM_MAP_EMISSION]);
-    for (int back = 0; back <= f->back_material && glows; back++) {
-        add(&list, GLSL_GLOW, "vec4", 0, NULL, "%sglow", back ? "back_" : "");
+    bool has_emission_map =
+        f->maps_interpolated_light && (f->maps[0][LAM_MAP_EMISSION] || f->maps[1][LAM_MAP_EMISSION]);
+    for (int back = 0; back <= f->back_material && has_emission_map; back++) {
+        add(&list, GLSL_MAPPED_EMISSION, "vec4", 0, NULL, "%sglow", back ? "back_" : "");
         set_meaning(&list, "emission, which the emission map multiplies");
         list.rows[list.count - 1].back = back;
     }
@@ -324,7 +325,7 @@ bool glsl_row_is_in(const struct glsl_facts *f, const struct glsl_row *row, bool
     case GLSL_MAP_S:
     case GLSL_MAP_T:
     case GLSL_ALPHA_CUTOFF:
-    case GLSL_GLOW:
+    case GLSL_MAPPED_EMISSION:
         return fragment;
     case GLSL_MODEL_VIEW: // field_tangent reads its columns
         return !fragment ||

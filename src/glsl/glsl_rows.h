@@ -35,7 +35,7 @@ enum glsl_semantic {
     GLSL_MAP_S, // glsl_map_values
     GLSL_MAP_T,
     GLSL_ALPHA_CUTOFF,
-    GLSL_GLOW, // glsl_glow
+    GLSL_MAPPED_EMISSION, // glsl_mapped_emission
 };
 
 struct glsl_row {

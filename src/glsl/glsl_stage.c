@@ -225,6 +225,8 @@ static void add_list(struct text *text, bool wanted, const char *item)
         text_print(text, "%s%s", text->length ? ", " : "", item);
 }
 
+#define MESH_TANGENT "field_tangent(unit3(n), model_view[1].xyz, model_view[0].xyz)"
+
 static void add_arguments(struct text *text, const struct glsl_facts *f, enum use use)
 {
     bool maps = f->has_maps && !f->output_vector && !f->maps_interpolated_light;
@@ -234,7 +236,7 @@ static void add_arguments(struct text *text, const struct glsl_facts *f, enum us
     } rows[] = {
         {!f->unlit, {"vec3 p, vec3 normal", "p, n", "p, n", "eye_position, n"}},
         {!f->unlit && f->needs_tangent && !f->tangent_field, {"vec3 tangent", "t", "t", "eye_tangent"}},
-        {!f->unlit && f->tangent_field, {"vec3 tangent", "field_tangent(n)", "field_tangent(n)", "field_tangent(n)"}},
+        {!f->unlit && f->tangent_field, {"vec3 tangent", MESH_TANGENT, MESH_TANGENT, MESH_TANGENT}},
         {f->has_anisotropy, {"float turn", "turn", "-turn", "turn"}},
         {f->has_coat_normal, {"vec3 coat", "coat", "coat", "coat"}},
         {f->vertex_colors, {"vec4 tint", "color", "color", "tint"}},

@@ -202,7 +202,7 @@ light_source light_of(int i@list_parameter@)
 //@else
     float occluded = lights[i].direction.w;
 //@end
-    float kept = 1.0 - occluded * (1.0 - unoccluded_share());
+    float kept = unoccluded_light(occluded, unoccluded_share());
     light.diffuse = scale3(light.diffuse, kept);
     light.specular = scale3(light.specular, kept);
 //@end
@@ -485,15 +485,3 @@ vec4 light_point(@lit_parameters@)
 //@end
 //@end
 }
-//@if tangent_field
-
-// The tangent of a surface without tangents: around the mesh's y axis, like the marks of a lathe (y x n); along x where n is
-// along y.
-vec3 field_tangent(vec3 n)
-{
-    vec3 axis = unit3(model_view[1].xyz);
-    vec3 side = unit3(model_view[0].xyz);
-    vec3 around = cross3(axis, unit3(n));
-    return dot3(around, around) < 1.0e-8 ? side : around;
-}
-//@end

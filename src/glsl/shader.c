@@ -305,8 +305,8 @@ static int value_of(const struct build *m, const struct frame_draw_range *range,
     case GLSL_ALPHA_CUTOFF:
         out[0] = glsl_alpha_cutoff(&m->frame, material);
         return 1;
-    case GLSL_GLOW:
-        glsl_glow(&m->frame, range, row->back, out);
+    case GLSL_MAPPED_EMISSION:
+        glsl_mapped_emission(&m->frame, range, row->back, out);
         return 4;
     case GLSL_MAP:
     case GLSL_ENVIRONMENT:

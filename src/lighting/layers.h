@@ -60,11 +60,18 @@ STRUCT(layered)
     num coat_gain; // light between its mirrors
 };
 
-// The response of all layers to light from one direction: factors of kd Ld and of Ls.
+// The response of all layers to light from one direction: factors of kd Ld and of Ls; and the steps towards them, which drawing
+// does not read.
 STRUCT(layered_value)
 {
     num diffuse;
     vec3 specular;
+    num strength; // S of the base
+    num base_diffuse;
+    vec3 base;
+    num sheen_left; // what the sheen leaves of the base
+    vec3 sheen;
+    num coat;
 };
 
 FN num largest3(vec3 a) { return max_of(max_of(a.x, a.y), a.z); }
@@ -339,19 +346,26 @@ FN layered_value layered_light(surface s, layered m, vec3 l, lobe_value lobe, in
     }
     r.diffuse = lambert * positive(1.0f - largest3(dielectric)) * m.matt;
     r.specular = scale3(layered_mix(m, dielectric, metal), strength);
+    r.strength = strength;
+    r.base_diffuse = r.diffuse;
+    r.base = r.specular;
+    r.sheen_left = num_of(1.0f);
+    r.sheen = black3();
+    r.coat = num_of(0.0f);
     if ((set & LAYER_SHEEN) != 0) {
         num left = positive(1.0f - m.sheen_largest * sheen_albedo(positive(dot3(s.n, l)), m.sheen_roughness));
-        left = min_of(left, m.sheen_left);
-        r.diffuse = r.diffuse * left;
-        r.specular = add3(scale3(r.specular, left), scale3(m.sheen_color, sheen_lobe(s, l, m.sheen_roughness)));
+        r.sheen_left = min_of(left, m.sheen_left);
+        r.sheen = scale3(m.sheen_color, sheen_lobe(s, l, m.sheen_roughness));
+        r.diffuse = r.diffuse * r.sheen_left;
+        r.specular = add3(scale3(r.specular, r.sheen_left), r.sheen);
     }
     if ((set & LAYER_CLEARCOAT) != 0) {
         surface top = s;
         top.n = m.coat_normal;
         lobe_sample c = ggx_lobe(top, l, m.coat_roughness);
-        num mirrored = m.coat * (1.0f + m.coat_gain) * pick(c.lit, c.base, num_of(0.0f));
+        r.coat = m.coat * (1.0f + m.coat_gain) * pick(c.lit, c.base, num_of(0.0f));
         r.diffuse = r.diffuse * (1.0f - m.coat);
-        r.specular = add3(scale3(r.specular, 1.0f - m.coat), grey3(mirrored));
+        r.specular = add3(scale3(r.specular, 1.0f - m.coat), grey3(r.coat));
     }
     return r;
 }

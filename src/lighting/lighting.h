@@ -13,6 +13,7 @@
 #include "light_kinds.h"
 #include "lights.h"
 #include "sum.h"
+#include "point.h"
 #include "layer_kinds.h"
 #include "layer_inputs.h"
 #include "layers.h"

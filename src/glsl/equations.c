@@ -32,7 +32,7 @@ static char *next_line(const char *at)
 
 static bool begins(const char *at, const char *with) { return strncmp(at, with, strlen(with)) == 0; }
 
-// Returns the end of a definition: of its first line if that ends with the closing brace, otherwise of the line that
+// Returns the end of a definition: of its first line if that is a declaration or ends with the closing brace, otherwise of the line that
 // begins with it; a table ends with a parenthesis.
 static char *definition_end(char *at)
 {
@@ -42,6 +42,8 @@ static char *definition_end(char *at)
         return next_line(at);
     }
     char *end = next_line(at), *last = end;
+    if (end - at > 3 && memcmp(end - 3, ");\n", 3) == 0) // a declaration
+        return end;
     while (last > at && (last[-1] == '\n' || last[-1] == ';'))
         last--;
     if (last > at && last[-1] == '}')
@@ -152,8 +154,8 @@ static void write_glsl(struct text *text, const char *at, const char *end)
         size_t length = 1;
         while (at + length < end && in_name(at[length]))
             length++;
-        if (length == 2 && begins(at, "FN ")) {
-            at += 3;
+        if (begins(at, "FN ") || begins(at, "SCENE ") || begins(at, "IN_SCENE ")) {
+            at += length + 1;
             continue;
         }
         if (length == 6 && begins(at, "STRUCT(")) {
@@ -218,7 +220,7 @@ static void write_definition(struct text *text, const struct piece *p)
 
 // --- all files
 
-enum { FILES = 9 };
+enum { FILES = 10 };
 
 struct equations {
     struct text sources[FILES];
@@ -259,6 +261,7 @@ static void write_kept(struct text *text, const struct equations *w)
         "a point before it is lit: its normal and tangent, and what maps make of its material",
         "layers of physical materials",
         "light through the layers of a physical material",
+        "the light of an environment around a point",
         "tone curves: from light to colours of a screen"};
     int file = -1;
     bool define = false;
@@ -279,9 +282,9 @@ static void write_kept(struct text *text, const struct equations *w)
 
 void equations_add(struct text *text, char *calls, const struct known_condition *known)
 {
-    static const char *const sources[FILES] = {text_prelude_glsl,  text_lobes_h,  text_light_kinds_h,
-                                               text_lights_h,      text_sum_h,    text_point_h,
-                                               text_layer_kinds_h, text_layers_h, text_tone_h};
+    static const char *const sources[FILES] = {text_prelude_glsl,   text_lobes_h, text_light_kinds_h, text_lights_h,
+                                               text_sum_h,          text_point_h, text_layer_kinds_h, text_layers_h,
+                                               text_surroundings_h, text_tone_h};
     struct equations *w = calloc(1, sizeof *w);
     bool ok = w != NULL;
     for (int i = 0; ok && i < FILES; i++) {

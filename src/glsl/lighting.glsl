@@ -73,24 +73,18 @@ vec3 level_color(int level, vec3 point)
     return mix3(mix3(a, b, part.x), mix3(c, d, part.x), part.y);
 }
 
-// The light around the direction d in eye space: level 0 is the environment, as a mirror shows it.
-vec3 prefiltered_color(vec3 d, float level)
+vec3 irradiance_at(vec3 normal)
 {
-    vec3 point = cube_point(environment_matrix * d);
-    float first = min_of(floor(level), PREFILTERED_LAST - 1.0);
-    vec3 low = first > 0.5 ? level_color(int(first), point) : environment_color(d);
-    return mix3(low, level_color(int(first) + 1, point), level - first);
+    return level_color(int(PREFILTERED_LAST) + 1, cube_point(environment_matrix * normal));
 }
 
-surroundings surroundings_of(surface s, float roughness)
+// Level 0 is the environment, as a mirror shows it.
+vec3 prefiltered_at(vec3 direction, float level)
 {
-    surroundings e;
-    float n_dot_v = eye_cosine(s);
-    e.irradiance = level_color(int(PREFILTERED_LAST) + 1, cube_point(environment_matrix * s.n));
-    e.prefiltered = prefiltered_color(mirror3(s.v, s.n), prefilter_level(roughness));
-    e.albedo = single_scattering(n_dot_v, roughness);
-    e.bias = schlick_scattering(n_dot_v, roughness);
-    return e;
+    vec3 point = cube_point(environment_matrix * direction);
+    float first = min_of(floor(level), PREFILTERED_LAST - 1.0);
+    vec3 low = first > 0.5 ? level_color(int(first), point) : environment_color(direction);
+    return mix3(low, level_color(int(first) + 1, point), level - first);
 }
 //@end
 //@if occluded
@@ -402,20 +396,10 @@ vec4 light_point(@lit_parameters@)
 //@if environment_light
         vec3 matt = scale3(base, 1.0 - @metallic@);
 //@if layered
-//@if has_anisotropy
-        surroundings around = surroundings_of(s, mean_roughness(given.roughness, given.anisotropy));
-        around.prefiltered = surroundings_of(bent_surface(s, layering, given.anisotropy), given.roughness).prefiltered;
-//@else
-        surroundings around = surroundings_of(s, given.roughness);
-//@end
-//@if has_clearcoat
-        surroundings top = surroundings_of(coat_surface(s, layering), layering.coat_roughness);
-//@else
-        surroundings top = around;
-//@end
-        vec3 arriving = layered_surroundings(s, layering, matt, around, top, 0);
+        layered_around around = layered_around_of(s, given, layering, 0);
+        vec3 arriving = layered_surroundings(s, layering, matt, around.base, around.top, 0);
 //@if separate_reflection
-        matte = sub3(arriving, layered_surroundings(s, layering, black3(), around, top, 0));
+        matte = sub3(arriving, layered_surroundings(s, layering, black3(), around.base, around.top, 0));
 //@end
 //@else
         surroundings around = surroundings_of(s, @roughness@);

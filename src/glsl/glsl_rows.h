@@ -171,8 +171,8 @@ bool glsl_is_physical(const struct glsl_facts *facts);
 bool glsl_maps_have(const struct glsl_facts *facts, const char *member);
 // A member of struct layer_values that is a field of the material, times its map's value (layer_inputs.h).
 struct glsl_layer_input {
-    const char *member, *field;
-    lam_map map; // LAM_MAP_COUNT: none
+    char member[28], field[28]; // not pointers, which a program would have to fix when it starts
+    lam_map map;                // LAM_MAP_COUNT: none
     bool color;
 };
 const struct glsl_layer_input *glsl_layer_input(int index);                             // NULL past the end

@@ -95,7 +95,7 @@ static void add_sum(struct text *text, int terms)
 {
     static const struct {
         int term;
-        const char *name;
+        char name[32];
     } rows[] = {{TERM_EMISSION, "sum.emission"},
                 {TERM_AMBIENT, "sum.ambient"},
                 {TERM_DIFFUSE, "sum.diffuse"},
@@ -232,7 +232,7 @@ static void add_arguments(struct text *text, const struct glsl_facts *f, enum us
     bool maps = f->has_maps && !f->output_vector && !f->maps_interpolated_light;
     const struct {
         bool wanted;
-        const char *items[4];
+        char items[4][72];
     } rows[] = {
         {!f->unlit, {"vec3 p, vec3 normal", "p, n", "p, n", "eye_position, n"}},
         {!f->unlit && f->needs_tangent && !f->tangent_field, {"vec3 tangent", "t", "t", "eye_tangent"}},

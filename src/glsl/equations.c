@@ -9,7 +9,7 @@
 #include <string.h>
 
 // A definition (function, struct, table or #define) with the comment before it.
-struct piece {
+struct definition {
     char *lead, *start, *end; // comment and definition; lead == start: no comment
     const char *name;
     size_t name_length;
@@ -17,7 +17,7 @@ struct piece {
     bool kept;
 };
 
-enum { PIECES_MAX = 256 };
+enum { DEFINITIONS_MAX = 256 };
 
 static bool in_name(char c)
 {
@@ -53,22 +53,22 @@ static char *definition_end(char *at)
     return next_line(at);
 }
 
-static void name_piece(struct piece *piece)
+static void name_definition(struct definition *definition)
 {
-    const char *at = piece->start;
+    const char *at = definition->start;
     if (begins(at, "#define ")) {
-        piece->name = at + 8;
+        definition->name = at + 8;
     } else if (begins(at, "STRUCT(")) {
-        piece->name = at + 7;
+        definition->name = at + 7;
     } else if (begins(at, "const float ")) {
-        piece->name = at + 12;
+        definition->name = at + 12;
     } else {
-        piece->name = strchr(at, '(');
-        while (piece->name > at && in_name(piece->name[-1]))
-            piece->name--;
+        definition->name = strchr(at, '(');
+        while (definition->name > at && in_name(definition->name[-1]))
+            definition->name--;
     }
-    while (in_name(piece->name[piece->name_length]))
-        piece->name_length++;
+    while (in_name(definition->name[definition->name_length]))
+        definition->name_length++;
 }
 
 // Definitions of the dialect's own words, which GLSL does not need.
@@ -83,7 +83,7 @@ static bool is_dialect_definition(const char *at)
     return begins(at, "float num_of(");
 }
 
-static int split_pieces(struct piece *pieces, int count, char *source, int file)
+static int split_definitions(struct definition *definitions, int count, char *source, int file)
 {
     char *lead = NULL;
     for (char *at = source; *at;) {
@@ -93,12 +93,12 @@ static int split_pieces(struct piece *pieces, int count, char *source, int file)
         } else if (*at == '\n' || is_dialect_definition(at)) {
             lead = NULL;
         } else {
-            struct piece *piece = &pieces[count];
+            struct definition *definition = &definitions[count];
             next = *at == '#' ? next : definition_end(at);
-            *piece = (struct piece){.lead = lead ? lead : at, .start = at, .end = next, .file = file};
-            name_piece(piece);
+            *definition = (struct definition){.lead = lead ? lead : at, .start = at, .end = next, .file = file};
+            name_definition(definition);
             lead = NULL;
-            if (++count == PIECES_MAX)
+            if (++count == DEFINITIONS_MAX)
                 return count;
         }
         at = next;
@@ -107,7 +107,7 @@ static int split_pieces(struct piece *pieces, int count, char *source, int file)
 }
 
 // Marks the definitions that a text names, except after a dot (".xyz"). Returns whether any was not marked before.
-static bool mark(struct piece *pieces, int count, const char *at, const char *end)
+static bool mark(struct definition *definitions, int count, const char *at, const char *end)
 {
     bool changed = false;
     const char *start = at;
@@ -121,7 +121,7 @@ static bool mark(struct piece *pieces, int count, const char *at, const char *en
             while (at + length < end && in_name(at[length]))
                 length++;
             for (int i = 0; i < count && (at == start || at[-1] != '.'); i++) {
-                struct piece *p = &pieces[i];
+                struct definition *p = &definitions[i];
                 if (!p->kept && p->name_length == length && memcmp(p->name, at, length) == 0)
                     p->kept = changed = true;
             }
@@ -187,7 +187,7 @@ static void write_glsl(struct text *text, const char *at, const char *end)
 }
 
 // Writes a definition. The comments of a struct's members are aligned again, because the GLSL types differ in length.
-static void write_definition(struct text *text, const struct piece *p)
+static void write_definition(struct text *text, const struct definition *p)
 {
     if (!begins(p->start, "STRUCT(")) {
         write_glsl(text, p->lead, p->end);
@@ -224,8 +224,8 @@ enum { FILES = 10 };
 
 struct equations {
     struct text sources[FILES];
-    struct piece pieces[PIECES_MAX];
-    struct source_span spans[PIECES_MAX + 1];
+    struct definition definitions[DEFINITIONS_MAX];
+    struct source_span spans[DEFINITIONS_MAX + 1];
     int count;
 };
 
@@ -234,19 +234,19 @@ static int keep(struct equations *w, char *calls)
 {
     char *calls_end = calls + strlen(calls);
     for (int i = 0; i < w->count; i++)
-        w->pieces[i].kept = false;
-    mark(w->pieces, w->count, calls, calls_end);
+        w->definitions[i].kept = false;
+    mark(w->definitions, w->count, calls, calls_end);
     for (bool changed = true; changed;) {
         changed = false;
         for (int i = 0; i < w->count; i++)
-            if (w->pieces[i].kept)
-                changed |= mark(w->pieces, w->count, w->pieces[i].start, w->pieces[i].end);
+            if (w->definitions[i].kept)
+                changed |= mark(w->definitions, w->count, w->definitions[i].start, w->definitions[i].end);
     }
     int count = 0;
     w->spans[count++] = (struct source_span){calls, calls_end};
     for (int i = 0; i < w->count; i++)
-        if (w->pieces[i].kept)
-            w->spans[count++] = (struct source_span){w->pieces[i].start, w->pieces[i].end};
+        if (w->definitions[i].kept)
+            w->spans[count++] = (struct source_span){w->definitions[i].start, w->definitions[i].end};
     return count;
 }
 
@@ -266,7 +266,7 @@ static void write_kept(struct text *text, const struct equations *w)
     int file = -1;
     bool define = false;
     for (int i = 0; i < w->count; i++) {
-        const struct piece *p = &w->pieces[i];
+        const struct definition *p = &w->definitions[i];
         if (!p->kept)
             continue;
         if (p->file != file)
@@ -291,7 +291,7 @@ void equations_add(struct text *text, char *calls, const struct known_condition 
         specialize_conditions(&w->sources[i], sources[i], known);
         ok = !w->sources[i].failed;
         if (ok)
-            w->count = split_pieces(w->pieces, w->count, w->sources[i].bytes, i);
+            w->count = split_definitions(w->definitions, w->count, w->sources[i].bytes, i);
     }
     if (ok) {
         while (specialize_members(w->spans, keep(w, calls)))

@@ -1,7 +1,7 @@
 // glsl_stage.c: the text of a stage after its uniforms, from the *.glsl files and what depends on more than flags.
 #include "environment_light.h"
 #include "glsl_rows.h"
-#include "pieces.inc"
+#include "stages.inc"
 
 #include <stdio.h>
 

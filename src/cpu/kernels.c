@@ -12,6 +12,7 @@
 #include "shade_frame.h"
 #include "shading_batch.h"
 #include "translucent_fragments.h"
+#include "vertex_colors.h"
 #include "blend.h"
 
 #include "arena.h"
@@ -57,6 +58,7 @@ const struct kernels NAME(ISA) = {
     .save_fragments = save_fragments,
     .load_fragments = load_fragments,
     .shade_fragments = shade_fragments,
+    .light_vertices = light_vertices,
     .depth_of_tile = depth_of_tile,
     .occlusion = &occlusion_kernels,
     .resolve = resolve,

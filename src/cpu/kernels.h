@@ -26,6 +26,7 @@ struct thread_bins;
 struct thread_state;
 struct tile;
 struct tile_samples;
+struct vertex_run;
 
 struct kernels {
     const char *name;
@@ -71,6 +72,9 @@ struct kernels {
     // Fills in the colours of grouped fragments.
     void (*shade_fragments)(const struct shade_frame *shade, struct fragments *fragments, struct shading *shading,
                             const struct tile *tile);
+
+    // Lights the vertices of a run by themselves, into shading->vertices.color and .rest (vertex_colors.h).
+    void (*light_vertices)(const struct shade_frame *shade, struct shading *shading, const struct vertex_run *run);
 
     // Writes the distances of a covered tile's surfaces into the rows of ambient occlusion, whose steps follow.
     void (*depth_of_tile)(const struct raster_frame *raster, const struct tile_samples *samples,

@@ -350,7 +350,8 @@ static uint64_t gl_memory(const struct lam_device *base)
     uint64_t bytes = device->scratch.capacity + device->runs.capacity + device->pixels.capacity +
                      device->draw_calls.capacity + device->environment_bytes + device->target_bytes +
                      device->shadow_bytes + surfaces_bytes(device) + device->occlusion.capacity +
-                     device->occlusion_rows.capacity + hierarchy_bytes(&device->hierarchy);
+                     device->occlusion_rows.capacity + hierarchy_bytes(&device->hierarchy) +
+                     vertex_colors_bytes(&device->vertex_colors);
     const struct gl_light_buffer *lists[] = {&device->lights, &device->products};
     for (int i = 0; i < 2; i++)
         bytes += lists[i]->shadow.capacity + lists[i]->next.capacity + lists[i]->size;

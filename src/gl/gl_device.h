@@ -4,7 +4,7 @@
 //   programs         choices -> compiled shaders, once (glsl.h makes the text)   gl_programs.c
 //   textures         a material's textures -> textures, once                     gl_textures.c
 //   light buffers    lights and products -> uniform blocks or textures           gl_light_buffers.c
-//   vertex lighting  vertex colours from the CPU's equations                     gl_vertex_lighting.c
+//   vertex lighting  vertex colours from the CPU's shading                       gl_vertex_lighting.c
 //   occlusion        distances -> ambient occlusion of each pixel                gl_occlusion.c
 //   targets          framebuffers of one part of the picture                     gl_targets.c
 //   passes           samples, opaque surfaces, layers of translucent ones        gl_passes.c
@@ -21,6 +21,7 @@
 #include "glsl.h"
 #include "hierarchy.h"
 #include "screen_occlusion.h"
+#include "vertex_colors.h"
 
 enum {
     PART_SIZE_MAX = 2048, // largest width and height, in pixels, of a part of the picture that is drawn in one go
@@ -103,7 +104,8 @@ struct gl_vertex_lighting {
     // Retained, because the key holds its address.
     struct lam_environment *environment;
     GLuint colors, array;
-    bool apart; // each vertex has four colours: the front's, the back's, and the rest of each (glsl_facts.apart)
+    bool
+        separate_texture_terms; // each vertex has four colours: the front's, the back's, and the rest of each (glsl_facts.separate_texture_terms)
     GLuint of_vertices; // the mesh buffer that `array` reads positions from
     uint64_t bytes;
 };
@@ -124,8 +126,8 @@ enum uniform {
     UNIFORM_BACK_HEAD = UNIFORM_HEAD + LAM_FIELDS_MAX,
     UNIFORM_ALPHA_CUTOFF = UNIFORM_BACK_HEAD + LAM_FIELDS_MAX,
     UNIFORM_BACK_ALPHA_CUTOFF,
-    UNIFORM_GLOW,
-    UNIFORM_BACK_GLOW,
+    UNIFORM_MAPPED_EMISSION,
+    UNIFORM_BACK_MAPPED_EMISSION,
     UNIFORM_MAPS, // two rows for each map of the front, then of the back (glsl_map_values)
     UNIFORM_FLOATS = UNIFORM_MAPS + 4 * LAM_MAP_COUNT, // number of the uniforms above, all of floats
     UNIFORM_FIRST_PRODUCT = UNIFORM_FLOATS,
@@ -229,6 +231,8 @@ struct gl_device {
     GLfloat anisotropy_max;                     // that samplers take
     struct gl_vertex_lighting *vertex_lighting; // one for each draw
     int vertex_lighting_capacity;
+    struct vertex_colors vertex_colors;
+    uint64_t vertex_colors_frame; // number of the frame that it is made for
     struct gl_program *programs;
     int program_count, program_capacity;
     GLuint copy_program, empty_array;
@@ -356,7 +360,7 @@ void textures_evict(struct gl_frame *f);
 void textures_free(struct gl_device *device);
 
 // --- gl_vertex_lighting.c
-// Returns the vertex array of a draw, with vertex colours from the CPU's equations. 0 on failure.
+// Returns the vertex array of a draw, with vertex colours from the CPU's shading. 0 on failure.
 GLuint vertex_lighting_upload(struct gl_frame *f, int draw, struct gl_mesh *mesh, lam_error *error);
 void vertex_lighting_free(struct gl_device *device);
 

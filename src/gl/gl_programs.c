@@ -22,8 +22,8 @@ static const char *const uniform_names[UNIFORM_COUNT] = {
     [UNIFORM_FIRST_TRIANGLE] = "first_triangle",
     [UNIFORM_ALPHA_CUTOFF] = "alpha_cutoff",
     [UNIFORM_BACK_ALPHA_CUTOFF] = "back_alpha_cutoff",
-    [UNIFORM_GLOW] = "glow",
-    [UNIFORM_BACK_GLOW] = "back_glow",
+    [UNIFORM_MAPPED_EMISSION] = "glow",
+    [UNIFORM_BACK_MAPPED_EMISSION] = "back_glow",
 };
 
 static GLuint compile(const struct gl *gl, GLenum kind, const char *text, lam_error *error)

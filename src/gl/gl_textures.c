@@ -214,10 +214,10 @@ void textures_use(struct gl_frame *f, struct gl_program *program, const struct f
 {
     for (int side = 0; side < 2; side++) {
         const lam_material *material = f->frame->materials[side ? range->back : range->front];
-        float cutoff = glsl_alpha_cutoff(f->frame, material), glow[4];
-        glsl_glow(f->frame, range, side, glow);
+        float cutoff = glsl_alpha_cutoff(f->frame, material), emission[4];
+        glsl_mapped_emission(f->frame, range, side, emission);
         program_set(f, program, side ? UNIFORM_BACK_ALPHA_CUTOFF : UNIFORM_ALPHA_CUTOFF, &cutoff, 1);
-        program_set(f, program, side ? UNIFORM_BACK_GLOW : UNIFORM_GLOW, glow, 4);
+        program_set(f, program, side ? UNIFORM_BACK_MAPPED_EMISSION : UNIFORM_MAPPED_EMISSION, emission, 4);
         for (int i = 0; i < LAM_MAP_COUNT; i++) {
             float s[4], t[4];
             enum uniform rows = (enum uniform)(UNIFORM_MAPS + 2 * (side * LAM_MAP_COUNT + i));

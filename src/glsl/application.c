@@ -110,9 +110,9 @@ static void add_lights(struct text *text, const struct glsl_facts *f, const stru
     text_print(text, "\nstatic const struct {\n%s%s%s%s    vec3 diffuse%s;\n} lights[] = {\n",
                f->positions ? "    vec3 position;\n" : "",
                f->directions ? "    vec3 direction;   // in which the light travels; a spotlight's axis\n" : "",
-               f->attenuated ? "    vec4 attenuation; // 1 / (x + y d + z d^2); w is 1 / range\n" : "",
-               f->cones ? "    vec4 cone;        // cos cutoff, exponent; cos outer, 1 / (cos inner - cos outer)\n"
-                        : "",
+               f->has_falloff ? "    vec4 attenuation; // 1 / (x + y d + z d^2); w is 1 / range\n" : "",
+               f->has_cone ? "    vec4 cone;        // cos cutoff, exponent; cos outer, 1 / (cos inner - cos outer)\n"
+                           : "",
                f->highlights ? ", specular" : "");
     for (int i = 0; i < f->choices->light_count; i++) {
         const struct frame_light *from = &frame->lights[order[i]];
@@ -122,10 +122,10 @@ static void add_lights(struct text *text, const struct glsl_facts *f, const stru
             add_member(text, ".position = ", light.position, 3);
         if (from->kind != LIGHT_POINT)
             add_member(text, from->kind == LIGHT_DIRECTIONAL ? ".direction = " : ", .direction = ", light.direction, 3);
-        if (f->attenuated)
+        if (f->has_falloff)
             add_member(text, ",\n     .attenuation = ", light.attenuation, 4);
         if (from->kind >= LIGHT_SPOT_CUTOFF)
-            add_member(text, f->attenuated ? ", .cone = " : ",\n     .cone = ", light.cone, 4);
+            add_member(text, f->has_falloff ? ", .cone = " : ",\n     .cone = ", light.cone, 4);
         add_member(text, ",\n     .diffuse = ", light.diffuse, 3);
         if (f->highlights)
             add_member(text, ", .specular = ", light.specular, 3);
@@ -185,66 +185,45 @@ static void add_draws(struct text *text, const struct frame *frame, const struct
 static void add_body(struct text *text, const struct glsl_facts *f, bool origin)
 {
     const struct glsl_choices *c = f->choices;
-    bool tints = c->colors, tangents = f->tangent && c->tangents, translucent = c->alpha[0] != LAM_ALPHA_OPAQUE;
-    bool reads_point = (f->lights && f->positions) || (f->highlights && !c->distant_viewer);
-    bool reads_normal = f->lights || f->hemispheres;
-    struct text way = {0}, spots = {0};
-    lecture_add_way(&way, c, "scale(-1.0, lights[i].direction)", "subtract(lights[i].position, P)");
-    lecture_add_spots(&spots, c, "double");
-    const struct preprocess_flag flags[] = {
-        LECTURE_FLAGS(c, f),
-        {"flat", f->shading == LAM_SHADING_FLAT},
-        {"has_origin", origin},
-        {"reads_point", reads_point},
-        {"reads_normal", reads_normal},
-        {"tangents", tangents},
-        {NULL, false},
-    };
-    char parameters[96], arguments[2][96], vertex_parameters[256], lights[16], hemispheres[16];
-    snprintf(parameters, sizeof parameters, "const struct draw *draw%s%s%s%s", reads_point ? ", vec3 P" : "",
-             reads_normal ? ", vec3 N" : "", tangents ? ", vec3 T" : "", tints ? ", vec3 tint" : "");
+    bool tints = c->colors, tangents = f->needs_tangent && c->tangents, translucent = c->alpha[0] != LAM_ALPHA_OPAQUE;
+    bool reads_point = (f->has_lights && f->positions) || (f->highlights && !c->distant_viewer);
+    bool reads_normal = f->has_lights || f->has_hemispheres, weakened = f->has_cone || f->has_falloff;
+    const char *tinted = tints ? "times(tint, " : "", *sum = f->highlights ? "add(diffuse, specular)" : "diffuse";
+    struct preprocess_tables t = {.flag_count = 0};
+    lecture_add_flags(&t, f);
+    preprocess_flag(&t, "flat", f->shading == LAM_SHADING_FLAT);
+    preprocess_flag(&t, "has_origin", origin);
+    preprocess_flag(&t, "reads_point", reads_point);
+    preprocess_flag(&t, "reads_normal", reads_normal);
+    text_print(preprocess_text(&t, "parameters"), "const struct draw *draw%s%s%s%s", reads_point ? ", vec3 P" : "",
+               reads_normal ? ", vec3 N" : "", tangents ? ", vec3 T" : "", tints ? ", vec3 tint" : "");
     for (int back = 0; back < 2; back++)
-        snprintf(arguments[back], sizeof *arguments, "draw%s%s%s%s", reads_point ? ", P" : "",
-                 !reads_normal ? ""
-                 : back        ? ", scale(-1.0, N)"
-                               : ", N",
-                 tangents ? ", T" : "", tints ? ", vector(color)" : "");
-    snprintf(
-        vertex_parameters, sizeof vertex_parameters,
+        text_print(preprocess_text(&t, back ? "back_arguments" : "front_arguments"), "draw%s%s%s%s",
+                   reads_point ? ", P" : "",
+                   !reads_normal ? ""
+                   : back        ? ", scale(-1.0, N)"
+                                 : ", N",
+                   tangents ? ", T" : "", tints ? ", vector(color)" : "");
+    text_print(
+        preprocess_text(&t, "vertex_parameters"),
         "int number, const float position[3], const float normal[3],%s%s\n                  float front_color[4]%s",
         tangents ? " const float tangent[3]," : "", tints ? " const float color[4]," : "",
         c->two_sided ? ", float back_color[4]" : "");
-    snprintf(lights, sizeof lights, "%d", c->light_count);
-    snprintf(hemispheres, sizeof hemispheres, "%d", c->hemisphere_count);
-    const char *sum = f->highlights ? "add(diffuse, specular)" : "diffuse";
-    char arriving[80];
-    snprintf(arriving, sizeof arriving, "%s%s%s%s", f->cones || f->attenuated ? "scale(" : "",
-             f->cones && f->attenuated ? "spot * attenuation, "
-             : f->cones                ? "spot, "
-             : f->attenuated           ? "attenuation, "
-                                       : "",
-             sum, f->cones || f->attenuated ? ")" : "");
-    const struct preprocess_value values[] = {
-        {"parameters", parameters},
-        {"vertex_parameters", vertex_parameters},
-        {"front_arguments", arguments[0]},
-        {"back_arguments", arguments[1]},
-        {"tinted", tints ? "times(tint, " : ""},
-        {"closing", tints ? ")" : ""},
-        {"way", way.bytes ? way.bytes : ""},
-        {"spots", spots.bytes ? spots.bytes : ""},
-        {"lights", lights},
-        {"hemispheres", hemispheres},
-        {"arriving", arriving},
-        {"opacity", !translucent ? "1.0"
-                    : tints      ? "draw->opacity * color[3]"
-                                 : "draw->opacity"},
-        {NULL, NULL},
-    };
-    text->failed |= way.failed || spots.failed;
-    preprocess_add(text, text_application_c_in, &(struct preprocess_words){flags, values});
-    free(way.bytes);
-    free(spots.bytes);
+    preprocess_value(&t, "tinted", tinted);
+    preprocess_value(&t, "closing", tints ? ")" : "");
+    lecture_add_way(preprocess_text(&t, "way"), c, "scale(-1.0, lights[i].direction)",
+                    "subtract(lights[i].position, P)");
+    lecture_add_spots(preprocess_text(&t, "spots"), c, "double");
+    preprocess_number(&t, "lights", c->light_count);
+    preprocess_number(&t, "hemispheres", c->hemisphere_count);
+    text_print(preprocess_text(&t, "arriving"), "%s%s%s%s%s%s", weakened ? "scale(" : "", f->has_cone ? "spot" : "",
+               f->has_cone && f->has_falloff ? " * " : "", f->has_falloff ? "attenuation" : "", weakened ? ", " : "",
+               sum);
+    text_add(&t.made[t.made_count - 1], weakened ? ")" : "");
+    preprocess_value(&t, "opacity", !translucent ? "1.0" : tints ? "draw->opacity * color[3]" : "draw->opacity");
+    const struct preprocess_words words = preprocess_finish(&t, text);
+    preprocess_add(text, text_application_c_in, &words);
+    preprocess_free(&t);
 }
 
 static void add_all(struct text *text, const struct glsl_facts *f, const char *body, const struct frame *frame,
@@ -253,15 +232,15 @@ static void add_all(struct text *text, const struct glsl_facts *f, const char *b
     text_add(text,
              "// The application stage: the program lights each vertex before it draws. C99, to be linked with -lm.\n"
              "#include <math.h>\n\ntypedef struct {\n    double x, y, z;\n} vec3;\n");
-    if (f->attenuated || f->cones)
+    if (f->has_falloff || f->has_cone)
         text_add(text, "typedef struct {\n    double x, y, z, w;\n} vec4;\n");
     text_add(text, "\n");
     add_helpers(text, body);
     add_member(text, "\n// --- the scene, in eye space\n\nstatic const vec3 ambient_light = ", frame->ambient, 3);
     text_add(text, ";\n");
-    if (f->hemispheres)
+    if (f->has_hemispheres)
         add_hemispheres(text, frame);
-    if (f->lights)
+    if (f->has_lights)
         add_lights(text, f, frame, order);
     add_draws(text, frame, ranges, count, has);
     text_add(text, "\n// --- its light\n\n");
@@ -276,7 +255,7 @@ char *lecture_application(const struct glsl_choices *choices, const struct frame
     const struct glsl_facts f = glsl_facts_of(&lit);
     if (!lecture_check(&lit, &f, error))
         return NULL;
-    if (f.environment) {
+    if (f.has_environment) {
         fail(error, LAM_UNSUPPORTED,
              "'--style lecture' does not have '--environment' with '--stage application'; expected '--stage vertex', "
              "'--stage fragment' or '--style full'");
@@ -290,7 +269,7 @@ char *lecture_application(const struct glsl_choices *choices, const struct frame
     add_body(&body, &f, origin);
     bool ok = !body.failed && body.bytes && (!choices->mistake || mistake_apply(choices, &body.bytes, 1, error));
     if (ok) {
-        struct members has = {f.tangent && glsl_lobe_reads(&f, "fibre"), lit.alpha[0] != LAM_ALPHA_OPAQUE};
+        struct members has = {f.needs_tangent && glsl_lobe_reads(&f, "fibre"), lit.alpha[0] != LAM_ALPHA_OPAQUE};
         add_all(&text, &f, body.bytes, frame, order, ranges, count, has);
     }
     const lam_error *first = body.failed ? &body.error : &text.error;

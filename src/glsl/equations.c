@@ -9,7 +9,7 @@
 #include <string.h>
 
 // A definition (function, struct, table or #define) with the comment before it.
-struct piece {
+struct definition {
     char *lead, *start, *end; // comment and definition; lead == start: no comment
     const char *name;
     size_t name_length;
@@ -17,7 +17,7 @@ struct piece {
     bool kept;
 };
 
-enum { PIECES_MAX = 256 };
+enum { DEFINITIONS_MAX = 256 };
 
 static bool in_name(char c)
 {
@@ -32,7 +32,7 @@ static char *next_line(const char *at)
 
 static bool begins(const char *at, const char *with) { return strncmp(at, with, strlen(with)) == 0; }
 
-// Returns the end of a definition: of its first line if that ends with the closing brace, otherwise of the line that
+// Returns the end of a definition: of its first line if that is a declaration or ends with the closing brace, otherwise of the line that
 // begins with it; a table ends with a parenthesis.
 static char *definition_end(char *at)
 {
@@ -42,6 +42,8 @@ static char *definition_end(char *at)
         return next_line(at);
     }
     char *end = next_line(at), *last = end;
+    if (end - at > 3 && memcmp(end - 3, ");\n", 3) == 0) // a declaration
+        return end;
     while (last > at && (last[-1] == '\n' || last[-1] == ';'))
         last--;
     if (last > at && last[-1] == '}')
@@ -51,22 +53,22 @@ static char *definition_end(char *at)
     return next_line(at);
 }
 
-static void name_piece(struct piece *piece)
+static void name_definition(struct definition *definition)
 {
-    const char *at = piece->start;
+    const char *at = definition->start;
     if (begins(at, "#define ")) {
-        piece->name = at + 8;
+        definition->name = at + 8;
     } else if (begins(at, "STRUCT(")) {
-        piece->name = at + 7;
+        definition->name = at + 7;
     } else if (begins(at, "const float ")) {
-        piece->name = at + 12;
+        definition->name = at + 12;
     } else {
-        piece->name = strchr(at, '(');
-        while (piece->name > at && in_name(piece->name[-1]))
-            piece->name--;
+        definition->name = strchr(at, '(');
+        while (definition->name > at && in_name(definition->name[-1]))
+            definition->name--;
     }
-    while (in_name(piece->name[piece->name_length]))
-        piece->name_length++;
+    while (in_name(definition->name[definition->name_length]))
+        definition->name_length++;
 }
 
 // Definitions of the dialect's own words, which GLSL does not need.
@@ -81,7 +83,7 @@ static bool is_dialect_definition(const char *at)
     return begins(at, "float num_of(");
 }
 
-static int split_pieces(struct piece *pieces, int count, char *source, int file)
+static int split_definitions(struct definition *definitions, int count, char *source, int file)
 {
     char *lead = NULL;
     for (char *at = source; *at;) {
@@ -91,12 +93,12 @@ static int split_pieces(struct piece *pieces, int count, char *source, int file)
         } else if (*at == '\n' || is_dialect_definition(at)) {
             lead = NULL;
         } else {
-            struct piece *piece = &pieces[count];
+            struct definition *definition = &definitions[count];
             next = *at == '#' ? next : definition_end(at);
-            *piece = (struct piece){.lead = lead ? lead : at, .start = at, .end = next, .file = file};
-            name_piece(piece);
+            *definition = (struct definition){.lead = lead ? lead : at, .start = at, .end = next, .file = file};
+            name_definition(definition);
             lead = NULL;
-            if (++count == PIECES_MAX)
+            if (++count == DEFINITIONS_MAX)
                 return count;
         }
         at = next;
@@ -105,7 +107,7 @@ static int split_pieces(struct piece *pieces, int count, char *source, int file)
 }
 
 // Marks the definitions that a text names, except after a dot (".xyz"). Returns whether any was not marked before.
-static bool mark(struct piece *pieces, int count, const char *at, const char *end)
+static bool mark(struct definition *definitions, int count, const char *at, const char *end)
 {
     bool changed = false;
     const char *start = at;
@@ -119,7 +121,7 @@ static bool mark(struct piece *pieces, int count, const char *at, const char *en
             while (at + length < end && in_name(at[length]))
                 length++;
             for (int i = 0; i < count && (at == start || at[-1] != '.'); i++) {
-                struct piece *p = &pieces[i];
+                struct definition *p = &definitions[i];
                 if (!p->kept && p->name_length == length && memcmp(p->name, at, length) == 0)
                     p->kept = changed = true;
             }
@@ -152,8 +154,8 @@ static void write_glsl(struct text *text, const char *at, const char *end)
         size_t length = 1;
         while (at + length < end && in_name(at[length]))
             length++;
-        if (length == 2 && begins(at, "FN ")) {
-            at += 3;
+        if (begins(at, "FN ") || begins(at, "SCENE ") || begins(at, "IN_SCENE ")) {
+            at += length + 1;
             continue;
         }
         if (length == 6 && begins(at, "STRUCT(")) {
@@ -185,7 +187,7 @@ static void write_glsl(struct text *text, const char *at, const char *end)
 }
 
 // Writes a definition. The comments of a struct's members are aligned again, because the GLSL types differ in length.
-static void write_definition(struct text *text, const struct piece *p)
+static void write_definition(struct text *text, const struct definition *p)
 {
     if (!begins(p->start, "STRUCT(")) {
         write_glsl(text, p->lead, p->end);
@@ -218,12 +220,12 @@ static void write_definition(struct text *text, const struct piece *p)
 
 // --- all files
 
-enum { FILES = 8 };
+enum { FILES = 10 };
 
 struct equations {
     struct text sources[FILES];
-    struct piece pieces[PIECES_MAX];
-    struct source_span spans[PIECES_MAX + 1];
+    struct definition definitions[DEFINITIONS_MAX];
+    struct source_span spans[DEFINITIONS_MAX + 1];
     int count;
 };
 
@@ -232,19 +234,19 @@ static int keep(struct equations *w, char *calls)
 {
     char *calls_end = calls + strlen(calls);
     for (int i = 0; i < w->count; i++)
-        w->pieces[i].kept = false;
-    mark(w->pieces, w->count, calls, calls_end);
+        w->definitions[i].kept = false;
+    mark(w->definitions, w->count, calls, calls_end);
     for (bool changed = true; changed;) {
         changed = false;
         for (int i = 0; i < w->count; i++)
-            if (w->pieces[i].kept)
-                changed |= mark(w->pieces, w->count, w->pieces[i].start, w->pieces[i].end);
+            if (w->definitions[i].kept)
+                changed |= mark(w->definitions, w->count, w->definitions[i].start, w->definitions[i].end);
     }
     int count = 0;
     w->spans[count++] = (struct source_span){calls, calls_end};
     for (int i = 0; i < w->count; i++)
-        if (w->pieces[i].kept)
-            w->spans[count++] = (struct source_span){w->pieces[i].start, w->pieces[i].end};
+        if (w->definitions[i].kept)
+            w->spans[count++] = (struct source_span){w->definitions[i].start, w->definitions[i].end};
     return count;
 }
 
@@ -256,13 +258,15 @@ static void write_kept(struct text *text, const struct equations *w)
         "kinds of light",
         "light that arrives at a point: direction, distance, attenuation and cone",
         "light that leaves a point: its terms and their sum",
+        "a point before it is lit: its normal and tangent, and what maps make of its material",
         "layers of physical materials",
         "light through the layers of a physical material",
+        "the light of an environment around a point",
         "tone curves: from light to colours of a screen"};
     int file = -1;
     bool define = false;
     for (int i = 0; i < w->count; i++) {
-        const struct piece *p = &w->pieces[i];
+        const struct definition *p = &w->definitions[i];
         if (!p->kept)
             continue;
         if (p->file != file)
@@ -278,15 +282,16 @@ static void write_kept(struct text *text, const struct equations *w)
 
 void equations_add(struct text *text, char *calls, const struct known_condition *known)
 {
-    static const char *const sources[FILES] = {text_prelude_glsl, text_lobes_h,       text_light_kinds_h, text_lights_h,
-                                               text_sum_h,        text_layer_kinds_h, text_layers_h,      text_tone_h};
+    static const char *const sources[FILES] = {text_prelude_glsl,   text_lobes_h, text_light_kinds_h, text_lights_h,
+                                               text_sum_h,          text_point_h, text_layer_kinds_h, text_layers_h,
+                                               text_surroundings_h, text_tone_h};
     struct equations *w = calloc(1, sizeof *w);
     bool ok = w != NULL;
     for (int i = 0; ok && i < FILES; i++) {
         specialize_conditions(&w->sources[i], sources[i], known);
         ok = !w->sources[i].failed;
         if (ok)
-            w->count = split_pieces(w->pieces, w->count, w->sources[i].bytes, i);
+            w->count = split_definitions(w->definitions, w->count, w->sources[i].bytes, i);
     }
     if (ok) {
         while (specialize_members(w->spans, keep(w, calls)))

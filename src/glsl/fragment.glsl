@@ -1,4 +1,4 @@
-//@if numbers_triangles
+//@if depth_ids shadows
 
 uniform int first_triangle; // number of the draw's first triangle
 //@end
@@ -9,14 +9,14 @@ uniform usampler2D opaque_depth_ids;
 //@end
 layout(location = 0) out vec4 pixel;
 layout(location = 1) out uvec2 depth_id; // bits of the depth, and triangle number + 1; 0: empty
-//@if transmits
+//@if writes_transmittance
 layout(location = 2) out vec4 through;
 //@end
 //@elif !glsl_120
 
 out vec4 pixel;
 //@end
-//@if encoded
+//@if encodes
 
 // Encodes linear light as sRGB (IEC 61966-2-1).
 float encode(float x)
@@ -41,7 +41,7 @@ void main()
         discard;
     }
 //@end
-//@if mapped
+//@if has_maps
 //@if first_texcoords
     footprint first = footprint_of(surface_texcoord);
 //@end
@@ -59,55 +59,53 @@ void main()
 @value_mask@
 //@end
 //@if output_geometry
-//@if depth
+//@if output_depth
     float depth = -eye_position.z; // in front of the eye
     @pixel@ = vec4(depth, depth, depth, 1.0);
-//@elif facing
+//@elif output_facing
     float side = gl_FrontFacing ? 1.0 : -1.0;
     @pixel@ = vec4(side, side, side, 1.0);
-//@elif occlusion
+//@elif output_occlusion
 //@if occluded
     float share = texelFetch(ambient_occlusion, ivec2(gl_FragCoord.xy), 0).r;
 //@else
     float share = 1.0;
 //@end
     @pixel@ = vec4(share, share, share, 1.0);
-//@elif ids
+//@elif output_ids
     @pixel@ = vec4(float(triangle % 16777216), object, float(triangle / 16777216), 1.0);
 //@else
     @pixel@ = vec4(1.0);
 //@end
 //@elif per_fragment
-//@if passes_normal
-//@if bends
-    // None of the three is made unit after interpolation (MikkTSpace).
+//@if needs_normal
+//@if has_normal_map
     vec3 bitangent = bitangent_sign * cross3(eye_normal, eye_tangent);
-    vec3 n = eye_tangent * maps.bend.x + bitangent * maps.bend.y + eye_normal * maps.bend.z;
+    vec3 n = mapped_normal(maps.normal, eye_tangent, bitangent, eye_normal);
 //@else
     vec3 n = eye_normal;
 //@end
-//@if coat_normal
-//@if coat_bends
+//@if has_coat_normal
+//@if has_coat_normal_map
     vec3 coat_bitangent = bitangent_sign * cross3(eye_normal, eye_tangent);
-    vec3 coat = eye_tangent * maps.coat_bend.x + coat_bitangent * maps.coat_bend.y + eye_normal * maps.coat_bend.z;
+    vec3 coat = mapped_normal(maps.coat_normal, eye_tangent, coat_bitangent, eye_normal);
 //@else
     vec3 coat = eye_normal;
 //@end
 //@end
-//@if tilts
-    n = unit3(n);
-    n = n - (perpendicular3(maps.across, n) * maps.slopes.x + perpendicular3(maps.down, n) * maps.slopes.y);
+//@if has_bump_map
+    n = bumped_normal(unit3(n), maps.across, maps.down, maps.slopes.x, maps.slopes.y);
 //@end
 //@if two_sided
     if (!gl_FrontFacing) {
         n = negate3(n);
-//@if coat_normal
+//@if has_coat_normal
         coat = negate3(coat);
 //@end
     }
 //@end
 //@end
-//@if turns
+//@if has_anisotropy
 //@if tangents
     float turn = bitangent_sign;
 //@else
@@ -119,13 +117,13 @@ void main()
     }
 //@end
 //@end
-//@if fragment_shadows
+//@if shadows
     lit_triangle = first_triangle + triangle;
 //@if from_vertices
     lit_corner = 2; // the one that OpenGL takes flat values from
 //@end
 //@end
-//@if apart
+//@if separate_texture_terms
     vec3 rest;
 //@end
     vec4 light = light_point(@fragment_arguments@);
@@ -139,54 +137,52 @@ void main()
 //@end
 //@else
     vec4 light = front_light;
-//@if apart
+//@if separate_texture_terms
     vec3 rest = front_rest;
 //@end
 //@if two_sided
     if (!gl_FrontFacing) {
         light = back_light;
-//@if apart
+//@if separate_texture_terms
         rest = back_rest;
 //@end
     }
 //@end
 //@end
 //@if !output_geometry
-//@if apart
+//@if separate_texture_terms
     // The diffuse map multiplies the ambient and diffuse light alone.
-//@if late_color
+//@if color_map_last
     light.rgb = light.rgb * maps.color;
 //@end
     light.rgb = light.rgb + rest;
-//@if late_emission
+//@if emission_map_last
     light.rgb = light.rgb + @glow@.rgb * maps.emission;
 //@end
 //@end
-//@if late_opacity
+//@if opacity_map_last
     light.a = light.a * maps.opacity;
 //@end
     light.a = saturate(light.a);
-//@if alpha_ruled
 @alpha_rule@
-//@end
-//@if transmits
-//@if passes
+//@if writes_transmittance
+//@if has_transmission
     through = vec4(1.0 - light.a * (1.0 - passing), 1.0);
 //@else
     through = vec4(vec3(1.0 - light.a), 1.0);
 //@end
-//@elif passes_one_alpha
+//@elif blends_transmission
     // One alpha for all channels: what goes through is blended without its colour.
     float solid = 1.0 - dot(passing, vec3(1.0 / 3.0));
     light = vec4(light.rgb / max(solid, 1.0e-3), light.a * solid);
 //@end
-//@if exposed
+//@if exposes
     light.rgb = light.rgb * exposure;
 //@end
-//@if toned
+//@if has_tone
     light.rgb = saturate3(@tone@(tone_input(light.rgb)));
 //@end
-//@if encoded
+//@if encodes
     @pixel@ = vec4(encode(light.r), encode(light.g), encode(light.b), light.a);
 //@elif premultiplied
     @pixel@ = vec4(light.rgb * light.a, light.a);

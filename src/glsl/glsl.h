@@ -184,13 +184,13 @@ static inline bool glsl_converts(const struct frame *frame, const lam_material *
     return frame_material_is_converted(frame, material) && glsl_lights_maps(frame, material);
 }
 
-// Whether a shader of these materials keeps the light apart that the diffuse map multiplies (glsl_facts.apart).
-bool glsl_keeps_apart(const struct frame *frame, const struct frame_draw_range *range);
+// Whether a shader of these materials keeps the light apart that the diffuse map multiplies (glsl_facts.separate_texture_terms).
+bool glsl_separates_texture_terms(const struct frame *frame, const struct frame_draw_range *range);
 
 // The least opacity of a masked surface that is seen. Numbers of surfaces are decided by the maps and vertex colours alone.
 float glsl_alpha_cutoff(const struct frame *frame, const lam_material *material);
-// The emission that an emission map multiplies where it is added late (glsl_facts.late).
-void glsl_glow(const struct frame *frame, const struct frame_draw_range *range, bool back, float out[4]);
+// The emission that an emission map multiplies at each fragment (glsl_facts.maps_interpolated_light).
+void glsl_mapped_emission(const struct frame *frame, const struct frame_draw_range *range, bool back, float out[4]);
 
 // The rows of a map's uniforms NAME_map_s and NAME_map_t: those of the matrix from the mesh's texture coordinates to the
 // picture's, with the scale and the offset of the texel. NULL: a map whose value is 1 everywhere.

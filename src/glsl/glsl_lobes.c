@@ -37,7 +37,7 @@ bool glsl_lobe_reads(const struct glsl_facts *f, const char *parameter)
         return true;
     if (f->environment_light && (strcmp(parameter, "roughness") == 0 || strcmp(parameter, "metallic") == 0))
         return true;
-    if (!f->adds_lights || !f->lights)
+    if (!f->adds_lights || !f->has_lights)
         return false;
     bool numbers = f->converts && !f->microfacet; // the classic model's numbers come from these
     if (strcmp(parameter, "shininess") == 0)
@@ -59,8 +59,7 @@ void glsl_add_parameters(struct text *text, const struct glsl_facts *f)
 {
     for (int i = 0; selects(f) && i < PARAMETERS; i++)
         if (glsl_lobe_reads(f, parameters[i]))
-            text_print(text, "%s    float own_%s = front ? %s : back_%s;", text->bytes ? "\n" : "", parameters[i],
-                       parameters[i], parameters[i]);
+            text_print(text, "    float own_%s = front ? %s : back_%s;\n", parameters[i], parameters[i], parameters[i]);
 }
 
 static void add_parameter(struct text *text, const struct glsl_facts *f, const char *name, size_t length)
@@ -107,25 +106,7 @@ void glsl_add_lobe(struct text *text, const struct glsl_facts *f)
     text_add(text, ")");
 }
 
-// The members of struct layer_values that are numbers and colours of the material, and the layer that reads each.
-static const struct {
-    const char *member, *field; // field NULL: of the same name
-    int layer;
-    bool color;
-} layer_members[] = {
-    {"ior", NULL, LAYER_DIELECTRIC, false},
-    {"specular_weight", NULL, LAYER_DIELECTRIC, false},
-    {"f0_color", NULL, LAYER_DIELECTRIC, true},
-    {"specular_glossiness", NULL, LAYER_DIELECTRIC, false},
-    {"clearcoat", NULL, LAYER_CLEARCOAT, false},
-    {"clearcoat_roughness", NULL, LAYER_CLEARCOAT, false},
-    {"sheen_color", NULL, LAYER_SHEEN, true},
-    {"sheen_roughness", NULL, LAYER_SHEEN, false},
-    {"iridescence", NULL, LAYER_IRIDESCENCE, false},
-    {"iridescence_ior", NULL, LAYER_IRIDESCENCE, false},
-    {"film", "iridescence_thickness_max", LAYER_IRIDESCENCE, false},
-    {"transmission", NULL, LAYER_TRANSMISSION, false},
-};
+// --- layers
 
 // The value of a field of a layer at the point: what maps make of it, else the visible side's own.
 static void add_layer_field(struct text *text, const struct glsl_facts *f, const char *member, const char *field,
@@ -143,12 +124,13 @@ static void add_layer_field(struct text *text, const struct glsl_facts *f, const
 
 void glsl_add_layers(struct text *text, const struct glsl_facts *f)
 {
-    for (size_t i = 0; i < sizeof layer_members / sizeof *layer_members; i++) {
-        const char *member = layer_members[i].member, *field = layer_members[i].field;
-        if (!(f->layers & layer_members[i].layer))
+    for (int i = 0; material_field(i); i++) { // in the order of the table of fields
+        const struct material_field *row = material_field(i);
+        const struct glsl_layer_input *input = glsl_layer_input_of(row);
+        if (!input || !(f->layers & row->layer))
             continue;
-        text_print(text, "    given.%s = ", member);
-        add_layer_field(text, f, member, field ? field : member, layer_members[i].color);
+        text_print(text, "    given.%s = ", input->member);
+        add_layer_field(text, f, input->member, input->field, input->color);
         text_add(text, ";\n");
     }
     if (f->layers & LAYER_ANISOTROPY) {
@@ -162,7 +144,7 @@ void glsl_add_layers(struct text *text, const struct glsl_facts *f)
             text_add(text, ");\n");
         }
         text_add(text, "    given.anisotropy = turned.z;\n"
-                       "    given.stretch = unit3(s.t * turned.x + cross3(s.n, s.t) * (turn * turned.y));\n");
+                       "    given.stretch = along_surface(s.n, s.t, turned.x, turn * turned.y);\n");
     }
     if (f->layers & LAYER_VOLUME) {
         text_add(text, "    mat3 axes = mat3(model_view);\n    float scale = square_root((dot3(axes[0], axes[0]) + "
@@ -171,12 +153,8 @@ void glsl_add_layers(struct text *text, const struct glsl_facts *f)
         text_add(text, ";\n    vec3 left = ");
         add_layer_field(text, f, "attenuation_color", "attenuation_color", true);
         text_add(text, ";\n    given.attenuation_log = vec3(log2_of(left.x), log2_of(left.y), log2_of(left.z));\n"
-                       "    given.path = attenuation > 0.0 ? ");
-        add_layer_field(text, f, "thickness", "thickness", false);
-        text_add(text, " * scale / attenuation : 0.0;\n");
+                       "    given.path = attenuation > 0.0 ? given.thickness * scale / attenuation : 0.0;\n");
     }
-    if (text->length && text->bytes) // the line has an end of its own
-        text->bytes[--text->length] = 0;
 }
 
 const char *glsl_tone_function(lam_tone tone)

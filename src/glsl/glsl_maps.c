@@ -17,11 +17,14 @@
 static bool is_drawn(int map) { return map != LAM_MAP_DISPLACEMENT && map != LAM_MAP_REFLECTION; }
 
 // Where light is evaluated at vertices or once for a triangle, these maps are applied at each fragment.
-static bool is_late(int map) { return map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY || map == LAM_MAP_EMISSION; }
+static bool follows_lighting(int map)
+{
+    return map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY || map == LAM_MAP_EMISSION;
+}
 
 static bool is_read(const struct frame *frame, const lam_material *material, int map)
 {
-    return material->maps[map] && is_drawn(map) && (frame->shading == LAM_SHADING_PHONG || is_late(map));
+    return material->maps[map] && is_drawn(map) && (frame->shading == LAM_SHADING_PHONG || follows_lighting(map));
 }
 
 bool glsl_reads_maps(const struct frame *frame, const lam_material *material)
@@ -113,7 +116,7 @@ void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4
     }
 }
 
-bool glsl_keeps_apart(const struct frame *frame, const struct frame_draw_range *range)
+bool glsl_separates_texture_terms(const struct frame *frame, const struct frame_draw_range *range)
 {
     bool any = false;
     for (int side = 0; side < 2; side++) {
@@ -133,7 +136,7 @@ float glsl_alpha_cutoff(const struct frame *frame, const lam_material *material)
     return opacity > 0 ? cutoff / opacity : 2;
 }
 
-void glsl_glow(const struct frame *frame, const struct frame_draw_range *range, bool back, float out[4])
+void glsl_mapped_emission(const struct frame *frame, const struct frame_draw_range *range, bool back, float out[4])
 {
     const lam_material *material = frame->materials[back ? range->back : range->front];
     bool shown = output_is_picture(frame->output) || frame->output == LAM_OUTPUT_EMISSION;
@@ -178,7 +181,7 @@ static bool material_reads(const struct glsl_facts *f, int side, lam_map map)
 static bool reads(const struct glsl_facts *f, int side, lam_map map)
 {
     if (f->output_material)
-        return (!f->late && material_reads(f, side, map)) ||
+        return (!f->maps_interpolated_light && material_reads(f, side, map)) ||
                (f->value_masks && (map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY));
     bool sums = f->adds_lights, lit = f->lit && !f->unlit;
     switch (map) {
@@ -189,7 +192,7 @@ static bool reads(const struct glsl_facts *f, int side, lam_map map)
         return sums || (f->application && !f->output_vector);
     case LAM_MAP_NORMAL:
     case LAM_MAP_BUMP: // GLSL 120 has no textureSize
-        return lit && (f->lights || f->hemispheres || f->environment || f->output_vector) &&
+        return lit && (f->has_lights || f->has_hemispheres || f->has_environment || f->output_vector) &&
                (map == LAM_MAP_NORMAL || f->choices->version != GLSL_120);
     case LAM_MAP_SHININESS:
         return sums && f->highlights && !f->microfacet;
@@ -206,26 +209,28 @@ void glsl_find_maps(struct glsl_facts *f)
     const struct glsl_choices *c = f->choices;
     bool two = c->two_sided && c->back_material, values = f->output_vector || f->output_geometry || f->output_material;
     for (int side = 0; side <= two; side++) {
-        f->masks |= c->alpha[side] == LAM_ALPHA_MASK;
-        f->apart |= c->maps[side][LAM_MAP_DIFFUSE].used || c->maps[side][LAM_MAP_EMISSION].used;
+        f->has_mask |= c->alpha[side] == LAM_ALPHA_MASK;
+        f->separate_texture_terms |= c->maps[side][LAM_MAP_DIFFUSE].used || c->maps[side][LAM_MAP_EMISSION].used;
     }
-    f->value_masks = f->masks && values;
-    f->late = !(f->lit && f->per_fragment && f->shading == LAM_SHADING_PHONG);
-    f->apart &= f->late && !values;
+    f->value_masks = f->has_mask && values;
+    f->maps_interpolated_light = !(f->lit && f->per_fragment && f->shading == LAM_SHADING_PHONG);
+    f->separate_texture_terms &= f->maps_interpolated_light && !values;
     f->back_material |= two && (f->value_masks || (f->application && !values));
     for (int side = 0; side <= f->back_material; side++)
-        f->converts |= c->converted[side] && f->adds_lights && f->lights && !f->late;
+        f->converts |= c->converted[side] && f->adds_lights && f->has_lights && !f->maps_interpolated_light;
     for (int side = 0; side <= f->back_material; side++)
         for (int i = 0; i < LAM_MAP_COUNT; i++) {
-            if (!c->maps[side][i].used || (f->late && !is_late(i)) || !reads(f, side, (lam_map)i))
+            if (!c->maps[side][i].used || (f->maps_interpolated_light && !follows_lighting(i)) ||
+                !reads(f, side, (lam_map)i))
                 continue;
-            f->maps[side][i] = f->mapped = true;
-            f->texcoords[c->maps[side][i].texcoords] = true;
-            f->bends |= i == LAM_MAP_NORMAL;
-            f->coat_bends |= i == LAM_MAP_CLEARCOAT_NORMAL;
-            f->tilts |= i == LAM_MAP_BUMP;
+            f->maps[side][i] = f->has_maps = true;
+            f->first_texcoords |= !c->maps[side][i].texcoords;
+            f->second_texcoords |= c->maps[side][i].texcoords != 0;
+            f->has_normal_map |= i == LAM_MAP_NORMAL;
+            f->has_coat_normal_map |= i == LAM_MAP_CLEARCOAT_NORMAL;
+            f->has_bump_map |= i == LAM_MAP_BUMP;
         }
-    f->converts &= f->mapped;
+    f->converts &= f->has_maps;
 }
 
 lam_map glsl_map_owner(const struct glsl_facts *f, int side, lam_map map)
@@ -239,13 +244,13 @@ lam_map glsl_map_owner(const struct glsl_facts *f, int side, lam_map map)
 
 static bool any_has(const struct glsl_facts *f, lam_map map) { return f->maps[0][map] || f->maps[1][map]; }
 
-// The members of the struct.
+// The members of the struct, and the map that each comes from; those of layers follow (glsl_layer_input).
 enum {
     COLOR,
     AMBIENT,
     SPECULAR,
     EMISSION,
-    BEND,
+    NORMAL,
     OPACITY,
     SHININESS,
     OCCLUSION,
@@ -256,89 +261,50 @@ enum {
     ACROSS,
     DOWN,
     LEVEL,
-    SPECULAR_WEIGHT,
-    F0_COLOR,
-    CLEARCOAT,
-    CLEARCOAT_ROUGHNESS,
-    COAT_BEND,
-    SHEEN_COLOR,
-    SHEEN_ROUGHNESS,
+    COAT_NORMAL,
     STRETCH,
-    IRIDESCENCE,
-    FILM,
-    TRANSMISSION,
-    THICKNESS,
     MEMBERS
 };
 static const struct {
     const char *name, *type, *meaning;
+    lam_map map;
 } members[MEMBERS] = {
-    [COLOR] = {"color", "vec3", "factor of the diffuse or base colour"},
-    [AMBIENT] = {"ambient", "vec3", "factor of the ambient colour"},
-    [SPECULAR] = {"specular", "vec3", "factor of the highlights"},
-    [EMISSION] = {"emission", "vec3", "factor of the emission"},
-    [BEND] = {"bend", "vec3", "the normal beside tangent, bitangent and normal"},
-    [OPACITY] = {"opacity", "float", "factor of the opacity"},
-    [SHININESS] = {"shininess", "float", "exponent of the highlights"},
-    [OCCLUSION] = {"occlusion", "float", "share of the light from everywhere that arrives"},
-    [ROUGHNESS] = {"roughness", "float", "0 a mirror, 1 matt"},
-    [METALLIC] = {"metallic", "float", "0 a dielectric, 1 a metal"},
-    [DIELECTRIC] = {"dielectric", "float", "factor of the diffuse light"},
-    [SLOPES] = {"slopes", "vec2", "by how much the surface rises along the next two"},
-    [ACROSS] = {"across", "vec3", "the direction of the picture's rows in eye space, not unit"},
-    [DOWN] = {"down", "vec3", "the direction of its columns"},
-    [LEVEL] = {"level", "float", "level of detail"},
-    [SPECULAR_WEIGHT] = {"specular_weight", "float", "how much of a dielectric's reflection there is"},
-    [F0_COLOR] = {"f0_color", "vec3", "colour of a dielectric's reflection along the normal"},
-    [CLEARCOAT] = {"clearcoat", "float", "share of the surface under a clear coat"},
-    [CLEARCOAT_ROUGHNESS] = {"clearcoat_roughness", "float", "of the coat"},
-    [COAT_BEND] = {"coat_bend", "vec3", "the coat's normal beside tangent, bitangent and normal"},
-    [SHEEN_COLOR] = {"sheen_color", "vec3", "colour of the fibres"},
-    [SHEEN_ROUGHNESS] = {"sheen_roughness", "float", "how much they lean"},
-    [STRETCH] = {"stretch", "vec3", "direction of the stretch by tangent and bitangent, and its strength"},
-    [IRIDESCENCE] = {"iridescence", "float", "share of the surface under a thin film"},
-    [FILM] = {"film", "float", "thickness of the film in nanometres"},
-    [TRANSMISSION] = {"transmission", "float", "share of the light in a dielectric that goes through"},
-    [THICKNESS] = {"thickness", "float", "of the volume behind the surface"},
+    [COLOR] = {"color", "vec3", "factor of the diffuse or base colour", LAM_MAP_DIFFUSE},
+    [AMBIENT] = {"ambient", "vec3", "factor of the ambient colour", LAM_MAP_AMBIENT},
+    [SPECULAR] = {"specular", "vec3", "factor of the highlights", LAM_MAP_SPECULAR},
+    [EMISSION] = {"emission", "vec3", "factor of the emission", LAM_MAP_EMISSION},
+    [NORMAL] = {"normal", "vec3", "the parts of the normal along tangent, bitangent and the mesh's normal",
+                LAM_MAP_NORMAL},
+    [OPACITY] = {"opacity", "float", "factor of the opacity", LAM_MAP_OPACITY},
+    [SHININESS] = {"shininess", "float", "exponent of the highlights", LAM_MAP_SHININESS},
+    [OCCLUSION] = {"occlusion", "float", "share of the light from everywhere that arrives", LAM_MAP_OCCLUSION},
+    [ROUGHNESS] = {"roughness", "float", "0 a mirror, 1 matt", LAM_MAP_ROUGHNESS},
+    [METALLIC] = {"metallic", "float", "0 a dielectric, 1 a metal", LAM_MAP_METALLIC},
+    [DIELECTRIC] = {"dielectric", "float", "factor of the diffuse light", LAM_MAP_METALLIC},
+    [SLOPES] = {"slopes", "vec2", "by how much the surface rises along the next two", LAM_MAP_BUMP},
+    [ACROSS] = {"across", "vec3", "the direction of the picture's rows in eye space, not unit", LAM_MAP_BUMP},
+    [DOWN] = {"down", "vec3", "the direction of its columns", LAM_MAP_BUMP},
+    [LEVEL] = {"level", "float", "level of detail", LAM_MAP_COUNT},
+    [COAT_NORMAL] = {"coat_normal", "vec3", "those of the coat's normal", LAM_MAP_CLEARCOAT_NORMAL},
+    [STRETCH] = {"stretch", "vec3", "direction of the stretch by tangent and bitangent, and its strength",
+                 LAM_MAP_ANISOTROPY},
 };
 
 static bool has_member(const struct glsl_facts *f, int member)
 {
-    bool level = f->output_material && f->choices->output == LAM_OUTPUT_LOD;
     bool masks = member == OPACITY && f->value_masks;
-    if ((level && !masks) || member == LEVEL)
-        return level && member == LEVEL && f->mapped && !f->late;
-    static const lam_map maps[MEMBERS] = {[COLOR] = LAM_MAP_DIFFUSE,
-                                          [AMBIENT] = LAM_MAP_AMBIENT,
-                                          [SPECULAR] = LAM_MAP_SPECULAR,
-                                          [EMISSION] = LAM_MAP_EMISSION,
-                                          [BEND] = LAM_MAP_NORMAL,
-                                          [OPACITY] = LAM_MAP_OPACITY,
-                                          [SHININESS] = LAM_MAP_SHININESS,
-                                          [OCCLUSION] = LAM_MAP_OCCLUSION,
-                                          [ROUGHNESS] = LAM_MAP_ROUGHNESS,
-                                          [METALLIC] = LAM_MAP_METALLIC,
-                                          [DIELECTRIC] = LAM_MAP_METALLIC,
-                                          [SLOPES] = LAM_MAP_BUMP,
-                                          [ACROSS] = LAM_MAP_BUMP,
-                                          [DOWN] = LAM_MAP_BUMP,
-                                          [SPECULAR_WEIGHT] = LAM_MAP_SPECULAR_WEIGHT,
-                                          [F0_COLOR] = LAM_MAP_F0_COLOR,
-                                          [CLEARCOAT] = LAM_MAP_CLEARCOAT,
-                                          [CLEARCOAT_ROUGHNESS] = LAM_MAP_CLEARCOAT_ROUGHNESS,
-                                          [COAT_BEND] = LAM_MAP_CLEARCOAT_NORMAL,
-                                          [SHEEN_COLOR] = LAM_MAP_SHEEN_COLOR,
-                                          [SHEEN_ROUGHNESS] = LAM_MAP_SHEEN_ROUGHNESS,
-                                          [STRETCH] = LAM_MAP_ANISOTROPY,
-                                          [IRIDESCENCE] = LAM_MAP_IRIDESCENCE,
-                                          [FILM] = LAM_MAP_IRIDESCENCE_THICKNESS,
-                                          [TRANSMISSION] = LAM_MAP_TRANSMISSION,
-                                          [THICKNESS] = LAM_MAP_THICKNESS};
+    if (member == LEVEL || (f->shows_level && !masks))
+        return member == LEVEL && f->shows_level && f->has_maps && !f->maps_interpolated_light;
     bool from_physical = member == SPECULAR || member == SHININESS
                              ? f->highlights
                              : member == ROUGHNESS || member == METALLIC || member == DIELECTRIC;
-    return any_has(f, maps[member]) || (member == OPACITY && any_has(f, LAM_MAP_DIFFUSE)) ||
-           (f->converts && f->mapped && from_physical);
+    return any_has(f, members[member].map) || (member == OPACITY && any_has(f, LAM_MAP_DIFFUSE)) ||
+           (f->converts && f->has_maps && from_physical);
+}
+
+static bool has_layer_input(const struct glsl_facts *f, const struct glsl_layer_input *input)
+{
+    return input->map != LAM_MAP_COUNT && any_has(f, input->map) && !f->shows_level;
 }
 
 bool glsl_maps_have(const struct glsl_facts *f, const char *member)
@@ -346,6 +312,9 @@ bool glsl_maps_have(const struct glsl_facts *f, const char *member)
     for (int i = 0; i < MEMBERS; i++)
         if (strcmp(members[i].name, member) == 0)
             return has_member(f, i);
+    for (int i = 0; glsl_layer_input(i); i++)
+        if (strcmp(glsl_layer_input(i)->member, member) == 0)
+            return has_layer_input(f, glsl_layer_input(i));
     return false;
 }
 
@@ -484,19 +453,17 @@ static void add_conversion(struct text *text, const struct glsl_facts *f, int si
     bool mirrored = lobe_properties((int)f->choices->reflection) & LOBE_MIRRORED;
     if (!has_member(f, SHININESS) || !has_member(f, SPECULAR))
         return;
-    text_add(text, "    float slope = maps.roughness * maps.roughness;\n"
-                   "    float exponent = clamp(2.0 / max(slope * slope, 1.0e-12) - 2.0, 1.0, 4096.0);\n"
-                   "    vec3 base = ");
+    text_add(text, "    float exponent = classic_exponent(maps.roughness);\n    vec3 base = ");
     add_own(text, f, side, "diffuse.rgb");
     text_print(text, "%s%s;\n", f->choices->colors ? " * tint.rgb" : "", has_member(f, COLOR) ? " * maps.color" : "");
     text_print(text,
-               "    maps.specular = mix3(vec3(DIELECTRIC_F0), base, maps.metallic) * ((exponent + 8.0) * 0.125);\n"
+               "    maps.specular = classic_specular(base, maps.metallic, exponent);\n"
                "    maps.shininess = exponent%s;\n",
                mirrored ? " * 0.25" : "");
 }
 
 // The normal of a map of normals, beside tangent, bitangent and the mesh's own.
-static void add_bend(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map)
+static void add_normal(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map)
 {
     const char *to = members[member].name, *p = prefix(side), *name = lam_map_name(map);
     if (!has_member(f, member))
@@ -511,20 +478,24 @@ static void add_bend(struct text *text, const struct glsl_facts *f, int side, in
     text_print(text, "    if (%s%s_map_s.w == 0.0) {\n        maps.%s = vec3(0.0, 0.0, 1.0);\n    }\n", p, name, to);
 }
 
-// A colour of a layer: the material's own times the map's.
-static void add_layer_color(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map)
+// A number or a colour of a layer: the material's own times the map's. A film's thickness lies between two of the material's.
+static void add_layer_input(struct text *text, const struct glsl_facts *f, int side,
+                            const struct glsl_layer_input *input)
 {
-    if (!has_member(f, member))
-        return;
-    text_print(text, "    maps.%s = ", members[member].name);
-    add_own(text, f, side, members[member].name);
-    text_add(text, ".rgb");
-    if (f->maps[side][map]) {
-        text_add(text, " * (");
-        add_value(text, f, side, map, "rgb");
-        text_add(text, ")");
+    bool read = f->maps[side][input->map], between = read && input->map == LAM_MAP_IRIDESCENCE_THICKNESS;
+    text_print(text, between ? "    maps.%s = mix(" : "    maps.%s = ", input->member);
+    if (between) {
+        add_own(text, f, side, "iridescence_thickness_min");
+        text_add(text, ", ");
     }
-    text_add(text, ";\n");
+    add_own(text, f, side, input->field);
+    text_add(text, input->color ? ".rgb" : "");
+    text_add(text, between ? ", " : read ? " * (" : "");
+    if (read && input->color)
+        add_value(text, f, side, input->map, "rgb");
+    else if (read)
+        add_number(text, f, side, input->map);
+    text_add(text, read ? ");\n" : ";\n");
 }
 
 static void add_stretch(struct text *text, const struct glsl_facts *f, int side)
@@ -546,42 +517,22 @@ static void add_stretch(struct text *text, const struct glsl_facts *f, int side)
     text_add(text, ");\n");
 }
 
-// The film's thickness lies between two of the material's.
-static void add_film(struct text *text, const struct glsl_facts *f, int side)
-{
-    if (!has_member(f, FILM))
-        return;
-    text_add(text, "    maps.film = ");
-    if (!f->maps[side][LAM_MAP_IRIDESCENCE_THICKNESS]) {
-        add_own(text, f, side, "iridescence_thickness_max");
-        text_add(text, ";\n");
-        return;
-    }
-    text_add(text, "mix(");
-    add_own(text, f, side, "iridescence_thickness_min");
-    text_add(text, ", ");
-    add_own(text, f, side, "iridescence_thickness_max");
-    text_add(text, ", ");
-    add_number(text, f, side, LAM_MAP_IRIDESCENCE_THICKNESS);
-    text_add(text, ");\n");
-}
-
 static void add_side(struct text *text, const struct glsl_facts *f, int side)
 {
     const struct glsl_choices *c = f->choices;
     bool varies = c->converted[side] || f->maps[side][LAM_MAP_METALLIC];
     text_print(text, "\n// What the maps of the %s say of the point.\nsurface_maps %s_maps(%s%s%s%s%s)\n{\n",
-               side ? "back" : "front", side ? "back" : "front", f->texcoords[0] ? "footprint first" : "",
-               f->texcoords[0] && f->texcoords[1] ? ", " : "", f->texcoords[1] ? "footprint second" : "",
-               f->tilts ? ", vec3 p" : "", c->colors && f->converts ? ", vec4 tint" : "");
+               side ? "back" : "front", side ? "back" : "front", f->first_texcoords ? "footprint first" : "",
+               f->first_texcoords && f->second_texcoords ? ", " : "", f->second_texcoords ? "footprint second" : "",
+               f->has_bump_map ? ", vec3 p" : "", c->colors && f->converts ? ", vec4 tint" : "");
     text_add(text, "    surface_maps maps;\n");
     add_texels(text, f, side);
     add_color(text, f, side, COLOR, LAM_MAP_DIFFUSE);
     add_color(text, f, side, AMBIENT, LAM_MAP_AMBIENT);
     add_color(text, f, side, SPECULAR, LAM_MAP_SPECULAR);
     add_color(text, f, side, EMISSION, LAM_MAP_EMISSION);
-    add_bend(text, f, side, BEND, LAM_MAP_NORMAL);
-    add_bend(text, f, side, COAT_BEND, LAM_MAP_CLEARCOAT_NORMAL);
+    add_normal(text, f, side, NORMAL, LAM_MAP_NORMAL);
+    add_normal(text, f, side, COAT_NORMAL, LAM_MAP_CLEARCOAT_NORMAL);
     if (has_member(f, LEVEL)) {
         lam_map map = lod_map(f, side);
         const char *p = prefix(side), *name = map < LAM_MAP_COUNT ? lam_map_name(map) : NULL;
@@ -601,22 +552,10 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
     if (has_member(f, DIELECTRIC)) // without products the diffuse colours of lights never have this factor
         text_add(text, varies || (!c->products && f->microfacet) ? "    maps.dielectric = 1.0 - maps.metallic;\n"
                                                                  : "    maps.dielectric = 1.0;\n");
-    static const struct {
-        int member;
-        lam_map map;
-    } layers[] = {{SPECULAR_WEIGHT, LAM_MAP_SPECULAR_WEIGHT},
-                  {CLEARCOAT, LAM_MAP_CLEARCOAT},
-                  {CLEARCOAT_ROUGHNESS, LAM_MAP_CLEARCOAT_ROUGHNESS},
-                  {SHEEN_ROUGHNESS, LAM_MAP_SHEEN_ROUGHNESS},
-                  {IRIDESCENCE, LAM_MAP_IRIDESCENCE},
-                  {TRANSMISSION, LAM_MAP_TRANSMISSION},
-                  {THICKNESS, LAM_MAP_THICKNESS}};
-    for (size_t i = 0; i < sizeof layers / sizeof *layers; i++)
-        add_factor(text, f, side, layers[i].member, layers[i].map, members[layers[i].member].name);
-    add_layer_color(text, f, side, F0_COLOR, LAM_MAP_F0_COLOR);
-    add_layer_color(text, f, side, SHEEN_COLOR, LAM_MAP_SHEEN_COLOR);
+    for (int i = 0; glsl_layer_input(i); i++)
+        if (has_layer_input(f, glsl_layer_input(i)))
+            add_layer_input(text, f, side, glsl_layer_input(i));
     add_stretch(text, f, side);
-    add_film(text, f, side);
     if (c->converted[side])
         add_conversion(text, f, side);
     text_add(text, "    return maps;\n}\n");
@@ -624,12 +563,18 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
 
 void glsl_add_maps(struct text *text, const struct glsl_facts *f)
 {
-    if (!f->mapped)
+    if (!f->has_maps)
         return;
     text_add(text, "// What maps say of a point.\nstruct surface_maps {\n");
     for (int i = 0; i < MEMBERS; i++)
         if (has_member(f, i))
             text_print(text, "    %s %s; // %s\n", members[i].type, members[i].name, members[i].meaning);
+    for (int i = 0; material_field(i); i++) {
+        const struct glsl_layer_input *input = glsl_layer_input_of(material_field(i));
+        if (input && has_layer_input(f, input))
+            text_print(text, "    %s %s; // %s\n", input->color ? "vec3" : "float", input->member,
+                       material_field(i)->field.summary);
+    }
     text_add(text, "};\n");
     for (int side = 0; side <= f->back_material; side++)
         add_side(text, f, side);

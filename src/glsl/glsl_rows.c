@@ -4,46 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
-{
-    struct glsl_facts f = {.choices = c};
-    f.output_geometry = glsl_output_is_geometry(c->output);
-    f.output_vector = output_is_vector(c->output);
-    f.output_one_light = f.output_vector && output_is_one_light(c->output);
-    f.shading = f.output_geometry ? LAM_SHADING_PHONG : c->shading;
-    f.application = c->stage == LAM_STAGE_APPLICATION && !f.output_geometry;
-    f.per_vertex = c->stage == LAM_STAGE_VERTEX && !f.output_geometry;
-    f.per_fragment = !f.application && !f.per_vertex;
-    f.lit = !f.application && !f.output_geometry;
-    f.output_material = f.lit && output_is_material(c->output);
-    f.unlit = f.lit && (c->reflection == LAM_REFLECTION_NONE || f.output_material) && !f.output_vector;
-    bool sums = f.lit && !f.unlit && !f.output_vector;
-    f.lights = c->light_count > 0 && (sums || f.output_one_light);
-    f.hemispheres = c->hemisphere_count > 0 && sums;
-    f.environment = c->environment != GLSL_NO_ENVIRONMENT && sums;
-    const lam_reflection_info *lobe = lam_reflection_describe(c->reflection);
-    f.adds_lights = sums;
-    f.tangent = (sums && lobe->tangents) || (f.lit && c->output == LAM_OUTPUT_TANGENTS);
-    f.highlights = sums && c->light_count > 0 && lobe->base;
-    f.environment_light = f.environment && c->environment_light;
-    f.occlusion = c->occlusion && f.per_fragment && (sums || c->output == LAM_OUTPUT_AMBIENT_OCCLUSION);
-    f.microfacet = lobe && lobe->microfacet && (f.highlights || f.environment_light);
-    f.layers = f.microfacet ? c->layers : 0;
-    f.tangent |= (f.layers & LAYER_ANISOTROPY) != 0;
-    f.turns = f.layers & LAYER_ANISOTROPY;
-    f.back_material = c->two_sided && c->back_material && f.lit && !f.output_vector;
-    for (int i = 0; i < c->group_count; i++) {
-        f.attenuated |= f.lights && !f.output_vector && c->groups[i].falloff != FALLOFF_NONE;
-        f.cones |= f.lights && !f.output_vector && c->groups[i].kind >= LIGHT_SPOT_CUTOFF;
-        f.positions |= c->groups[i].kind != LIGHT_DIRECTIONAL;
-        f.directions |= c->groups[i].kind != LIGHT_POINT;
-    }
-    glsl_find_maps(&f);
-    f.coat_normal = f.layers & LAYER_CLEARCOAT && (f.bends || f.tilts || f.coat_bends);
-    f.signed_tangent = f.bends || f.coat_bends || (f.turns && c->tangents);
-    return f;
-}
-
 struct list {
     struct glsl_row *rows;
     int count;
@@ -79,7 +39,7 @@ static bool is_read(const struct glsl_facts *f, const struct material_field *row
     case FIELD_LIT:
         return !f->unlit;
     case FIELD_ENVIRONMENT:
-        return f->environment;
+        return f->has_environment;
     case FIELD_HIGHLIGHT:
         return f->highlights && !f->microfacet;
     case FIELD_LAYER:
@@ -113,8 +73,8 @@ static void add_products(struct list *list, const struct glsl_facts *f, bool bac
     const char *p = back ? "back_" : "",
                *block = c->storage == GLSL_BLOCK ? (back ? "BackProducts" : "Products") : NULL;
     bool all = block != NULL, lists = c->storage != GLSL_TEXTURE;
-    int first = list->count, lights = f->lights && lists ? c->light_count : 0,
-        hemispheres = f->hemispheres && lists ? c->hemisphere_count : 0;
+    int first = list->count, lights = f->has_lights && lists ? c->light_count : 0,
+        hemispheres = f->has_hemispheres && lists ? c->hemisphere_count : 0;
     add_fields(list, f, block, p);
     if (lights) {
         add(list, GLSL_DIFFUSE_PRODUCT, "vec4", lights, block, "%sdiffuse_product", p);
@@ -134,7 +94,7 @@ static void add_products(struct list *list, const struct glsl_facts *f, bool bac
         add(list, GLSL_GROUND_PRODUCT, "vec4", hemispheres, block, "%sground_product", p);
         set_meaning(list, "ka times the light from below, of each hemisphere");
     }
-    if (!lists && (f->lights || f->hemispheres)) {
+    if (!lists && (f->has_lights || f->has_hemispheres)) {
         add(list, GLSL_FIRST_PRODUCT, "int", 0, NULL, "%sfirst_product", p);
         set_meaning(list, "index of the material's first texel in product_list");
     }
@@ -167,18 +127,88 @@ static void add_maps(struct list *list, const struct glsl_facts *f)
         }
 }
 
+static void add_environment(struct list *list, const struct glsl_facts *f)
+{
+    const struct glsl_choices *c = f->choices;
+    if (f->has_environment) {
+        add(list, GLSL_ENVIRONMENT_MATRIX, "mat3", 0, NULL, "environment_matrix");
+        set_meaning(list, "directions in eye space to the environment's axes");
+        if (c->environment == GLSL_CUBE) {
+            add(list, GLSL_ENVIRONMENT, "samplerCube", 0, NULL, "environment");
+            set_meaning(list, "linear light; bilinear filter, seamless, no mipmaps");
+        } else {
+            add(list, GLSL_ENVIRONMENT, "sampler2DArray", 0, NULL, "environment_faces");
+            set_meaning(list, "linear light; six faces +x -x +y -y +z -z, each with a border of one texel");
+        }
+        if (f->environment_light) {
+            add(list, GLSL_ENVIRONMENT_LIGHT, "sampler2D", 0, NULL, "environment_light");
+            set_meaning(list, "float texture, 1024 texels wide, no filter: lam_environment_light_image");
+        }
+    }
+    if (f->occluded) {
+        add(list, GLSL_OCCLUSION, "sampler2D", 0, NULL, "ambient_occlusion");
+        set_meaning(list, "a texel for each pixel: the share of the light from all around that arrives there");
+    }
+}
+
+// The light of an output of one light.
+static void add_one_light(struct list *list, const struct glsl_facts *f)
+{
+    bool texture = f->choices->storage == GLSL_TEXTURE;
+    if (!f->has_lights)
+        return;
+    add(list, texture ? GLSL_LIGHT_LIST : GLSL_LIGHTS, texture ? "sampler2D" : "Light",
+        texture ? 0 : f->choices->light_count, f->choices->storage == GLSL_BLOCK ? "Lights" : NULL,
+        texture ? "light_list" : "lights");
+    set_meaning(list, "the light");
+}
+
+static void add_lights(struct list *list, const struct glsl_facts *f)
+{
+    const struct glsl_choices *c = f->choices;
+    const char *block = c->storage == GLSL_BLOCK ? "Lights" : NULL;
+    if (!c->products && !f->unlit) {
+        add(list, GLSL_AMBIENT_LIGHT, "vec4", 0, block, "ambient_light");
+        set_meaning(list, "La: global ambient light plus the ambient light of all lights");
+    }
+    if (c->storage == GLSL_TEXTURE) {
+        if (f->has_lights || f->has_hemispheres) {
+            add(list, GLSL_LIGHT_LIST, "sampler2D", 0, NULL, "light_list");
+            set_meaning(list, "float texture, 1024 texels wide, no filter: the lights, then the hemispheres "
+                              "(docs/shaders.md)");
+            if (c->products) {
+                add(list, GLSL_PRODUCT_LIST, "sampler2D", 0, NULL, "product_list");
+                set_meaning(list, "float texture, 1024 texels wide, no filter: the products of the materials and the "
+                                  "lights");
+            }
+        }
+    } else {
+        if (f->has_lights) {
+            add(list, GLSL_LIGHTS, "Light", c->light_count, block, "lights");
+            set_meaning(list, "the lights, grouped by kind");
+        }
+        if (f->has_hemispheres) {
+            add(list, GLSL_HEMISPHERES, "Hemisphere", c->hemisphere_count, block, "hemispheres");
+            set_meaning(list, "hemisphere lights");
+        }
+    }
+    if (c->passed && f->has_lights && c->storage != GLSL_TEXTURE) {
+        add(list, GLSL_PASSED, "float", c->light_count, NULL, "passed");
+        set_meaning(list, "the share of each light that nothing keeps from the surface, 0...1");
+    }
+}
+
 int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
 {
     const struct glsl_choices *c = f->choices;
     struct list list = {.rows = rows};
     add(&list, GLSL_MODEL_VIEW_PROJECTION, "mat4", 0, NULL, "model_view_projection");
     set_meaning(&list, "mesh positions to clip space");
-    bool normals = f->lit && !f->unlit;
-    if (normals || c->output == LAM_OUTPUT_DEPTH) {
+    if (f->needs_position) {
         add(&list, GLSL_MODEL_VIEW, "mat4", 0, NULL, "model_view");
         set_meaning(&list, "mesh positions to eye space");
     }
-    if (normals) {
+    if (f->needs_normal) {
         add(&list, GLSL_NORMAL_MATRIX, "mat3", 0, NULL, "normal_matrix");
         set_meaning(&list,
                     "normals to eye space: the inverse transpose of model_view's 3x3, times any positive number");
@@ -187,16 +217,17 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
         add(&list, GLSL_EXPOSURE, "float", 0, NULL, "exposure");
         set_meaning(&list, "factor of all light: 2 to the power of the stops");
     }
-    for (int back = 0; back <= f->back_material && f->masks; back++)
+    for (int back = 0; back <= f->back_material && f->has_mask; back++)
         if (c->alpha[back] == LAM_ALPHA_MASK) {
             add(&list, GLSL_ALPHA_CUTOFF, "float", 0, NULL, "%salpha_cutoff", back ? "back_" : "");
             set_meaning(&list, "points with less opacity are left out");
             list.rows[list.count - 1].back = back;
         }
     add_maps(&list, f);
-    bool glows = f->late && (f->maps[0][LAM_MAP_EMISSION] || f->maps[1][LAM_MAP_EMISSION]);
-    for (int back = 0; back <= f->back_material && glows; back++) {
-        add(&list, GLSL_GLOW, "vec4", 0, NULL, "%sglow", back ? "back_" : "");
+    bool has_emission_map =
+        f->maps_interpolated_light && (f->maps[0][LAM_MAP_EMISSION] || f->maps[1][LAM_MAP_EMISSION]);
+    for (int back = 0; back <= f->back_material && has_emission_map; back++) {
+        add(&list, GLSL_MAPPED_EMISSION, "vec4", 0, NULL, "%sglow", back ? "back_" : "");
         set_meaning(&list, "emission, which the emission map multiplies");
         list.rows[list.count - 1].back = back;
     }
@@ -204,66 +235,12 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
         add(&list, GLSL_OBJECT, "float", 0, NULL, "object");
         set_meaning(&list, "index of the object");
     }
-    if (f->environment) {
-        add(&list, GLSL_ENVIRONMENT_MATRIX, "mat3", 0, NULL, "environment_matrix");
-        set_meaning(&list, "directions in eye space to the environment's axes");
-        if (c->environment == GLSL_CUBE) {
-            add(&list, GLSL_ENVIRONMENT, "samplerCube", 0, NULL, "environment");
-            set_meaning(&list, "linear light; bilinear filter, seamless, no mipmaps");
-        } else {
-            add(&list, GLSL_ENVIRONMENT, "sampler2DArray", 0, NULL, "environment_faces");
-            set_meaning(&list, "linear light; six faces +x -x +y -y +z -z, each with a border of one texel");
-        }
-        if (f->environment_light) {
-            add(&list, GLSL_ENVIRONMENT_LIGHT, "sampler2D", 0, NULL, "environment_light");
-            set_meaning(&list, "float texture, 1024 texels wide, no filter: lam_environment_light_image");
-        }
-    }
-    if (f->occlusion) {
-        add(&list, GLSL_OCCLUSION, "sampler2D", 0, NULL, "ambient_occlusion");
-        set_meaning(&list, "a texel for each pixel: the share of the light from all around that arrives there");
-    }
+    add_environment(&list, f);
     if (!f->lit || f->output_vector) {
-        if (f->lights) {
-            const char *block = c->storage == GLSL_BLOCK ? "Lights" : NULL;
-            add(&list, GLSL_LIGHTS, c->storage == GLSL_TEXTURE ? "sampler2D" : "Light",
-                c->storage == GLSL_TEXTURE ? 0 : c->light_count, block,
-                c->storage == GLSL_TEXTURE ? "light_list" : "lights");
-            list.rows[list.count - 1].semantic = c->storage == GLSL_TEXTURE ? GLSL_LIGHT_LIST : GLSL_LIGHTS;
-            set_meaning(&list, "the light");
-        }
+        add_one_light(&list, f);
         return list.count;
     }
-    const char *block = c->storage == GLSL_BLOCK ? "Lights" : NULL;
-    if (!c->products && !f->unlit) {
-        add(&list, GLSL_AMBIENT_LIGHT, "vec4", 0, block, "ambient_light");
-        set_meaning(&list, "La: global ambient light plus the ambient light of all lights");
-    }
-    if (c->storage == GLSL_TEXTURE) {
-        if (f->lights || f->hemispheres) {
-            add(&list, GLSL_LIGHT_LIST, "sampler2D", 0, NULL, "light_list");
-            set_meaning(&list, "float texture, 1024 texels wide, no filter: the lights, then the hemispheres "
-                               "(docs/shaders.md)");
-            if (c->products) {
-                add(&list, GLSL_PRODUCT_LIST, "sampler2D", 0, NULL, "product_list");
-                set_meaning(&list, "float texture, 1024 texels wide, no filter: the products of the materials and the "
-                                   "lights");
-            }
-        }
-    } else {
-        if (f->lights) {
-            add(&list, GLSL_LIGHTS, "Light", c->light_count, block, "lights");
-            set_meaning(&list, "the lights, grouped by kind");
-        }
-        if (f->hemispheres) {
-            add(&list, GLSL_HEMISPHERES, "Hemisphere", c->hemisphere_count, block, "hemispheres");
-            set_meaning(&list, "hemisphere lights");
-        }
-    }
-    if (c->passed && f->lights && c->storage != GLSL_TEXTURE) {
-        add(&list, GLSL_PASSED, "float", c->light_count, NULL, "passed");
-        set_meaning(&list, "the share of each light that nothing keeps from the surface, 0...1");
-    }
+    add_lights(&list, f);
     for (int back = 0; back <= f->back_material; back++) {
         if (c->products) {
             add_products(&list, f, back);
@@ -295,7 +272,7 @@ int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_
     if (f->signed_tangent)
         rows[count++] = (struct glsl_attribute){3, "vec4", "tangent",
                                                 "mesh tangent, unit, and the sign of the bitangent (MikkTSpace)"};
-    else if (f->tangent && c->tangents)
+    else if (f->needs_tangent && c->tangents)
         rows[count++] = (struct glsl_attribute){
             3, "vec3", "tangent",
             flat && glsl_120 ? "mesh tangent; at all three vertices that of the triangle's last vertex"
@@ -307,7 +284,7 @@ int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_
             rows[count++] = (struct glsl_attribute){5, "vec4", "back_color",
                                                     "light that leaves the back at the vertex, and the opacity"};
     }
-    if (f->application && f->apart) {
+    if (f->application && f->separate_texture_terms) {
         static const char meaning[] = "the part of that light which the diffuse map does not multiply";
         rows[count++] = (struct glsl_attribute){9, "vec3", "front_plain", meaning};
         if (c->two_sided)
@@ -316,9 +293,9 @@ int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_
     if (flat && glsl_120 && shaded)
         rows[count++] = (struct glsl_attribute){6, "vec3", "provoking_position",
                                                 "position of the triangle's last vertex, where a flat triangle is lit"};
-    if (f->texcoords[0])
+    if (f->first_texcoords)
         rows[count++] = (struct glsl_attribute){7, "vec2", "texcoord", "texture coordinates"};
-    if (f->texcoords[1])
+    if (f->second_texcoords)
         rows[count++] = (struct glsl_attribute){8, "vec2", "second_texcoord", "second set of texture coordinates"};
     return count;
 }
@@ -348,10 +325,11 @@ bool glsl_row_is_in(const struct glsl_facts *f, const struct glsl_row *row, bool
     case GLSL_MAP_S:
     case GLSL_MAP_T:
     case GLSL_ALPHA_CUTOFF:
-    case GLSL_GLOW:
+    case GLSL_MAPPED_EMISSION:
         return fragment;
     case GLSL_MODEL_VIEW: // field_tangent reads its columns
-        return !fragment || (f->per_fragment && ((f->tangent && !f->choices->tangents) || f->layers & LAYER_VOLUME));
+        return !fragment ||
+               (f->per_fragment && ((f->needs_tangent && !f->choices->tangents) || f->layers & LAYER_VOLUME));
     default:
         return fragment == f->per_fragment;
     }
@@ -372,11 +350,11 @@ int glsl_members(const struct glsl_facts *f, const char *type, struct glsl_row r
             add_member(&list, GLSL_LIGHTS, "vec4", 4, "direction",
                        "in eye space, unit, w 0: direction of travel of a directional light, axis of a spot");
         }
-        if (all || f->attenuated) {
+        if (all || f->has_falloff) {
             add_member(&list, GLSL_LIGHTS, "vec4", 8, "attenuation",
                        "constant, linear, quadratic, 1 / range (0: no range)");
         }
-        if (all || f->cones) {
+        if (all || f->has_cone) {
             add_member(&list, GLSL_LIGHTS, "vec4", 12, "cone",
                        "cos cutoff, exponent, cos outer, 1 / max(0.001, cos inner - cos outer); "
                        "read according to the kind of spot");

@@ -35,7 +35,7 @@ enum glsl_semantic {
     GLSL_MAP_S, // glsl_map_values
     GLSL_MAP_T,
     GLSL_ALPHA_CUTOFF,
-    GLSL_GLOW, // glsl_glow
+    GLSL_MAPPED_EMISSION, // glsl_mapped_emission
 };
 
 struct glsl_row {
@@ -52,46 +52,109 @@ struct glsl_row {
 };
 enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
 
-// Properties of a shader that follow from its choices.
+// Properties of a shader that follow from its choices. Each is a member of struct glsl_facts and a flag of the sources
+// (shader_preprocess.h).
+// clang-format off
+#define GLSL_FACTS(X) \
+    /* of the light and where it is evaluated */ \
+    X(application) /* the program lights the vertices */ \
+    X(per_vertex) /* the vertex shader does */ \
+    X(per_fragment) /* the fragment shader does, or writes a number of the geometry */ \
+    X(lit) /* the shader has a function light_point */ \
+    X(unlit) /* the surface has its diffuse colour */ \
+    X(adds_lights) /* light_point sums terms of lights */ \
+    X(has_lights) /* light_point reads them */ \
+    X(has_hemispheres) \
+    X(has_falloff) /* of any light */ \
+    X(has_cone) /* of any light */ \
+    X(positions) /* any light is not directional */ \
+    X(directions) /* any light is not a point */ \
+    X(has_light_shares) /* the program says what share of each light arrives */ \
+    X(clamped) /* colours of vertices are clamped, as in OpenGL 1 */ \
+    /* of the output */ \
+    X(output_geometry) /* a number of the geometry */ \
+    X(output_vector) /* a vector, or a cosine of one light */ \
+    X(output_one_light) /* the latter */ \
+    X(output_material) /* what the material is at the point; the surface is unlit */ \
+    X(output_depth) X(output_facing) X(output_ids) X(output_occlusion) \
+    X(shows_level) /* the level of detail of a map */ \
+    /* of the surface */ \
+    X(back_material) /* it has a material of its own */ \
+    X(needs_surface) /* light_point reads normal or point */ \
+    X(needs_normal) /* which come from the mesh */ \
+    X(needs_position) \
+    X(needs_tangent) /* light_point reads a tangent */ \
+    X(tangent_field) /* it needs some and has none */ \
+    X(needs_tangent_attribute) \
+    X(signed_tangent) /* with the sign of the bitangent, which the fragment shader reads */ \
+    X(vertex_colors) /* light_point reads them */ \
+    X(needs_vertex_color) /* the fragment shader does */ \
+    /* of the material */ \
+    X(highlights) /* the reflection model has a highlight */ \
+    X(microfacet) /* Fresnel's factor colours it */ \
+    X(layered) /* layers lie over the surface */ \
+    X(has_clearcoat) X(has_anisotropy) \
+    X(has_transmission) /* the fragment shader finds what goes through */ \
+    X(blends_transmission) /* with one alpha for all channels */ \
+    X(converts) /* a side's material is converted (glsl_choices.converted) */ \
+    X(has_mask) /* a side is masked */ \
+    X(value_masks) /* and the fragment writes a number of the surface */ \
+    /* of maps */ \
+    X(has_maps) /* the fragment shader reads some */ \
+    X(has_normal_map) X(has_bump_map) \
+    X(has_coat_normal_map) /* a normal map of the clear coat */ \
+    X(has_coat_normal) /* light_point gets the coat's normal, which is not the other layers' */ \
+    X(first_texcoords) /* maps read them */ \
+    X(second_texcoords) \
+    X(exact_filter) /* the shader filters */ \
+    X(anisotropic) /* by several probes */ \
+    X(maps_interpolated_light) /* the fragment applies maps to light that was evaluated without them */ \
+    X(separate_texture_terms) /* with that: the terms that a diffuse map multiplies are apart from the rest */ \
+    X(separate_reflection) /* and so is the matt part of the reflection */ \
+    X(color_map_last) /* the fragment applies this map to that light */ \
+    X(emission_map_last) X(opacity_map_last) \
+    X(map_color) /* light_point applies this map */ \
+    X(map_ambient) X(map_specular) X(map_emission) X(map_occlusion) X(map_dielectric) X(map_opacity) \
+    /* of light from all around */ \
+    X(has_environment) /* light_point reads it */ \
+    X(environment_light) /* as light of a physical material */ \
+    X(cube_map) /* it is one texture */ \
+    X(cube_points) /* directions become points of a cube in the shader */ \
+    X(occluded) /* the fragment shader reads ambient occlusion */ \
+    /* of shadows */ \
+    X(from_vertices) /* rays start at corners of the mesh */ \
+    /* of what the fragment writes, and of a stage */ \
+    X(depth_ids) /* a second output has the depth and that number */ \
+    X(peels) /* layers are peeled */ \
+    X(writes_transmittance) /* a third output has the share that passes */ \
+    X(exposes) /* the light is multiplied by the exposure */ \
+    X(has_tone) /* and takes a tone curve */ \
+    X(encodes) /* and becomes sRGB */ \
+    X(premultiplied) /* the colour is multiplied by the opacity */ \
+    X(glsl_120) \
+    X(fragment) /* the stage is the fragment shader */
+// Choices that are flags as well, under their names in struct glsl_choices.
+#define GLSL_CHOICE_FLAGS(X) \
+    X(distant_viewer) X(gl1) X(two_sided) X(tangents) X(products) X(single_scattering) X(passes_rays) X(tints_rays) X(catches) X(shadows)
+// clang-format on
+
 struct glsl_facts {
     const struct glsl_choices *choices;
-    lam_shading shading; // PHONG for outputs of the geometry
-    bool application, per_vertex, per_fragment;
-    bool output_geometry, output_vector;
-    bool output_one_light;       // an output_vector of one light
-    bool output_material;        // what the material is at the point; the surface is unlit
-    bool unlit;                  // the surface has its diffuse colour
-    bool lit;                    // the shader has a function light_point
-    bool adds_lights;            // light_point sums terms of lights
-    bool lights, hemispheres;    // light_point reads them
-    bool attenuated;             // any light has a falloff
-    bool cones;                  // any light has a cone
-    bool positions;              // any light is not directional
-    bool directions;             // any light is not a point
-    bool highlights;             // the reflection model has a highlight
-    bool microfacet;             // Fresnel's factor colours it
-    bool tangent;                // light_point reads a tangent
-    bool environment;            // light_point reads the environment
-    bool environment_light;      // as light of a physical material
-    bool occlusion;              // the fragment shader reads ambient occlusion
-    bool back_material;          // the back has a material of its own
-    bool mapped;                 // the fragment shader reads maps
-    bool maps[2][LAM_MAP_COUNT]; // those of the front, of the back
-    bool texcoords[2];           // the sets of texture coordinates that they read
-    bool bends;                  // a normal map
-    bool tilts;                  // a bump map
+    lam_shading shading;         // PHONG for outputs of the geometry
     int layers;                  // LAYER_… that light_point adds
-    bool coat_bends;             // a normal map of the clear coat
-    bool coat_normal;            // light_point gets the coat's normal, which is not the other layers'
-    bool turns;                  // light_point gets the sign of the bitangent
-    bool signed_tangent;         // the tangent attribute has that sign, and the fragment shader reads it
-    bool converts;               // a side's material is converted (glsl_choices.converted)
-    bool masks;                  // a side is masked
-    bool value_masks;            // and the fragment writes a number of the surface
-    bool late;                   // the fragment applies maps to light that was evaluated without them
-    bool apart;                  // late, with the light that the diffuse map multiplies apart from the rest
+    bool maps[2][LAM_MAP_COUNT]; // those that are read, of the front and of the back
+#define FACT(name) bool name;
+    GLSL_FACTS(FACT)
+#undef FACT
 };
 struct glsl_facts glsl_facts_of(const struct glsl_choices *choices);
+// The facts of one stage.
+struct glsl_facts glsl_stage_facts(const struct glsl_facts *facts, bool fragment);
+// The flags of a stage, and the values of its inputs and outputs, as all styles have them.
+void glsl_add_flags(struct preprocess_tables *tables, const struct glsl_facts *stage);
+void glsl_add_interface(struct preprocess_tables *tables, const struct glsl_facts *stage);
+// Appends a stage after its version and its uniforms.
+void glsl_add_stage(struct text *text, const struct glsl_facts *stage);
 
 // Whether the reflection model reads a parameter of the material, by its name in LOBE_PARAMETERS
 // (src/lighting/lobes.h).
@@ -106,6 +169,14 @@ lam_map glsl_map_owner(const struct glsl_facts *facts, int side, lam_map map);
 bool glsl_is_physical(const struct glsl_facts *facts);
 // Whether the maps' struct has a member of this name.
 bool glsl_maps_have(const struct glsl_facts *facts, const char *member);
+// A member of struct layer_values that is a field of the material, times its map's value (layer_inputs.h).
+struct glsl_layer_input {
+    char member[28], field[28]; // not pointers, which a program would have to fix when it starts
+    lam_map map;                // LAM_MAP_COUNT: none
+    bool color;
+};
+const struct glsl_layer_input *glsl_layer_input(int index);                             // NULL past the end
+const struct glsl_layer_input *glsl_layer_input_of(const struct material_field *field); // NULL: none
 // Appends the lines that set the variable `given`, of struct layer_values, except for its vectors.
 void glsl_add_layers(struct text *text, const struct glsl_facts *facts);
 // Appends the struct of what maps say of a point, and the functions that fill it.

@@ -6,23 +6,23 @@
 
 @attributes@
 //@end
-//@if has_varyings
+//@if has_maps needs_vertex_color needs_position vertex_colors application per_vertex output_ids depth_ids shadows
 
 //@end
 //@if per_fragment
-//@if passes_position
+//@if needs_position
 @varying@vec3 eye_position;
 //@end
-//@if passes_normal
+//@if needs_normal
 @varying@vec3 eye_normal;
 //@end
-//@if passes_tangent
+//@if needs_tangent_attribute
 @varying@vec3 eye_tangent;
 //@end
 //@if signed_tangent
 @varying@float bitangent_sign;
 //@end
-//@if passes_tint
+//@if needs_vertex_color
 @varying@vec4 tint;
 //@end
 //@elif !output_geometry
@@ -30,13 +30,13 @@
 //@if two_sided
 @varying@vec4 back_light;
 //@end
-//@if apart
+//@if separate_texture_terms
 @varying@vec3 front_rest;
 //@if two_sided
 @varying@vec3 back_rest;
 //@end
 //@end
-//@if passes_tint
+//@if needs_vertex_color
 @smooth_varying@vec4 tint;
 //@end
 //@end
@@ -46,6 +46,6 @@
 //@if second_texcoords
 @smooth_varying@vec2 surface_second_texcoord;
 //@end
-//@if triangle_ids
+//@if output_ids depth_ids shadows
 @flat_varying@int triangle;
 //@end

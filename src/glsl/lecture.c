@@ -5,7 +5,6 @@
 #include "lecture.inc"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 bool lecture_check(const struct glsl_choices *c, const struct glsl_facts *f, lam_error *error)
 {
@@ -20,7 +19,7 @@ bool lecture_check(const struct glsl_choices *c, const struct glsl_facts *f, lam
     } missing[] = {
         {!output_is_picture(c->output), "'--show'", ""},
         {other, NULL, "'--reflection lambert', 'phong', 'blinn-phong' or 'kajiya-kay', or "},
-        {f->mapped || masked, "textures", ""},
+        {f->has_maps || masked, "textures", ""},
         {c->storage == GLSL_TEXTURE, "'--lights-in texture'", "'--lights-in array' or "},
         {c->shadows || c->passed || c->catches, "'--shadows'", ""},
         {c->occlusion, "'--ao'", "'--ao off' or "},
@@ -28,7 +27,7 @@ bool lecture_check(const struct glsl_choices *c, const struct glsl_facts *f, lam
         {f->back_material, "'--back-material'", ""},
         {c->exposes, "'--exposure'", ""},
         {c->tone > LAM_TONE_NONE, "'--tone'", "'--tone none' or "},
-        {f->environment && (f->environment_light || c->environment != GLSL_CUBE), "'--environment'", ""},
+        {f->has_environment && (f->environment_light || c->environment != GLSL_CUBE), "'--environment'", ""},
         {c->layer != GLSL_NO_LAYERS, "translucent surfaces on this device", ""},
     };
     for (size_t i = 0; i < sizeof missing / sizeof *missing; i++)
@@ -61,18 +60,24 @@ static int lights_of(const struct glsl_choices *c, int kind, char condition[48])
     return count;
 }
 
-bool lecture_has_kind(const struct glsl_choices *c, int kind)
+static bool has_kind(const struct glsl_choices *c, int kind)
 {
     char condition[48];
     return lights_of(c, kind, condition) > 0;
 }
 
-bool lecture_has_range(const struct glsl_choices *c)
+void lecture_add_flags(struct preprocess_tables *t, const struct glsl_facts *f)
 {
-    bool any = false;
+    const struct glsl_choices *c = f->choices;
+    bool any_range = false;
     for (int i = 0; i < c->group_count; i++)
-        any |= c->groups[i].falloff == FALLOFF_RANGE;
-    return any;
+        any_range |= c->groups[i].falloff == FALLOFF_RANGE;
+    glsl_add_flags(t, f);
+    preprocess_flag(t, "has_range", any_range);
+    preprocess_flag(t, "has_cutoff", has_kind(c, LIGHT_SPOT_CUTOFF));
+    preprocess_flag(t, "gated_threads", c->reflection == LAM_REFLECTION_KAJIYA_KAY);
+    preprocess_flag(t, "phong", f->highlights && c->reflection == LAM_REFLECTION_PHONG);
+    preprocess_flag(t, "blinn_phong", f->highlights && c->reflection == LAM_REFLECTION_BLINN_PHONG);
 }
 
 void lecture_add_way(struct text *text, const struct glsl_choices *c, const char *against, const char *towards)
@@ -108,90 +113,46 @@ void lecture_add_spots(struct text *text, const struct glsl_choices *c, const ch
     }
 }
 
-void lecture_add(struct text *text, const struct glsl_facts *f, bool fragment)
+// The values of the material and of the vertex colour.
+static void add_material(struct preprocess_tables *t, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
-    bool glsl_120 = c->version == GLSL_120, flat = f->shading == LAM_SHADING_FLAT;
-    bool lights_here = f->lit && fragment == f->per_fragment, tints = c->colors && f->lit;
-    bool tangents = f->tangent && c->tangents;
-    struct text attributes = {0}, way = {0}, spots = {0};
-    glsl_declare_attributes(&attributes, f);
-    lecture_add_way(&way, c, "-lights[i].direction.xyz", "lights[i].position.xyz - P");
-    lecture_add_spots(&spots, c, "float");
-    const struct preprocess_flag flags[] = {
-        LECTURE_FLAGS(c, f),
-        {"fragment", fragment},
-        {"glsl_120", glsl_120},
-        {"per_fragment", f->per_fragment},
-        {"application", f->application},
-        {"passes_tint", tints && f->per_fragment},
-        {"lights_here", lights_here},
-        {"products", c->products},
-        {"reads_eye", f->highlights || f->environment},
-        {"has_environment", f->environment},
-        {"tangents", c->tangents},
-        {"encodes", fragment && c->encoding == GLSL_ENCODED},
-        {"premultiplied", c->encoding == GLSL_PREMULTIPLIED},
-        {NULL, false},
-    };
-    char varying[32], lights[16], hemispheres[16], opacity[48], diffuse[64], parameters[64], arguments[64];
-    snprintf(varying, sizeof varying, "%s%s", flat && !glsl_120 ? "flat " : "",
-             glsl_120   ? "varying "
-             : fragment ? "in "
-                        : "out ");
-    snprintf(lights, sizeof lights, "%d", c->light_count);
-    snprintf(hemispheres, sizeof hemispheres, "%d", c->hemisphere_count);
-    const char *tint = f->per_fragment ? "tint" : "color";
-    snprintf(opacity, sizeof opacity, "%s%s%s",
-             c->alpha[0] == LAM_ALPHA_OPAQUE ? "1.0"
-             : c->products                   ? "diffuse.a"
-                                             : "material.diffuse.a",
-             tints && c->alpha[0] != LAM_ALPHA_OPAQUE ? " * " : "",
-             tints && c->alpha[0] != LAM_ALPHA_OPAQUE ? (f->per_fragment ? "tint.a" : "color.a") : "");
-    snprintf(diffuse, sizeof diffuse, "%s%s", tints ? "tint.rgb * " : "",
-             c->products ? "diffuse_product[i].rgb" : "kd * lights[i].diffuse.rgb");
-    snprintf(parameters, sizeof parameters, "vec3 P, vec3 N%s%s", tangents ? ", vec3 T" : "",
-             tints ? ", vec4 tint" : "");
-    snprintf(arguments, sizeof arguments, "eye_position, N%s%s%s",
-             !tangents         ? ""
-             : f->per_fragment ? ", eye_tangent"
-                               : ", T",
-             tints ? ", " : "", tints ? tint : "");
-    const struct preprocess_value values[] = {
-        {"attributes", attributes.bytes ? attributes.bytes : ""},
-        {"varying", varying},
-        {"parameters", parameters},
-        {"arguments", arguments},
-        {"tinted", tints ? "tint.rgb * " : ""},
-        {"emission", c->products ? "emission.rgb" : "material.emission.rgb"},
-        {"hemispheres", hemispheres},
-        {"lights", lights},
-        {"way", way.bytes ? way.bytes : ""},
-        {"spots", spots.bytes ? spots.bytes : ""},
-        {"diffuse_light", diffuse},
-        {"specular_light", c->products ? "specular_product[i].rgb" : "ks * lights[i].specular.rgb"},
-        {"shininess", c->products ? "shininess" : "material.shininess"},
-        {"fibre", c->products ? "fibre" : "material.fibre"},
-        {"reflectivity", c->products ? "reflectivity.rgb" : "material.reflectivity.rgb"},
-        {"arriving", f->cones && f->attenuated ? "spot * attenuation * "
-                     : f->cones                ? "spot * "
-                     : f->attenuated           ? "attenuation * "
-                                               : ""},
-        {"texture_cube", glsl_120 ? "textureCube" : "texture"},
-        {"opacity", opacity},
-        {"lit_position", flat && glsl_120 ? "provoking_position" : "position"},
-        {"pixel", glsl_120 ? "gl_FragColor" : "pixel"},
-        {NULL, NULL},
-    };
-    const struct preprocess_words words = {flags, values};
-    const struct text *parts[] = {&attributes, &way, &spots};
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
-        if (parts[i]->failed) {
-            text->failed = true;
-            text->error = parts[i]->error;
-        }
+    const char *tint = !f->vertex_colors ? "" : f->per_fragment ? "tint" : "color", *p = c->products ? "" : "material.";
+    bool opaque = c->alpha[0] == LAM_ALPHA_OPAQUE;
+    text_print(preprocess_text(t, "opacity"), "%s%s%s%s%s", opaque ? "" : p, opaque ? "1.0" : "diffuse.a",
+               opaque || !*tint ? "" : " * ", opaque ? "" : tint, opaque || !*tint ? "" : ".a");
+    preprocess_value(t, "tinted", *tint ? "tint.rgb * " : "");
+    text_print(preprocess_text(t, "diffuse_light"), "%s%s", *tint ? "tint.rgb * " : "",
+               c->products ? "diffuse_product[i].rgb" : "kd * lights[i].diffuse.rgb");
+    preprocess_value(t, "specular_light", c->products ? "specular_product[i].rgb" : "ks * lights[i].specular.rgb");
+    text_print(preprocess_text(t, "emission"), "%semission.rgb", p);
+    text_print(preprocess_text(t, "shininess"), "%sshininess", p);
+    text_print(preprocess_text(t, "fibre"), "%sfibre", p);
+    text_print(preprocess_text(t, "reflectivity"), "%sreflectivity.rgb", p);
+    text_print(preprocess_text(t, "parameters"), "vec3 P, vec3 N%s%s", f->needs_tangent_attribute ? ", vec3 T" : "",
+               *tint ? ", vec4 tint" : "");
+    text_print(preprocess_text(t, "arguments"), "eye_position, N%s%s%s",
+               !f->needs_tangent_attribute ? ""
+               : f->per_fragment           ? ", eye_tangent"
+                                           : ", T",
+               *tint ? ", " : "", tint);
+}
+
+void lecture_add(struct text *text, const struct glsl_facts *f)
+{
+    const struct glsl_choices *c = f->choices;
+    struct preprocess_tables t = {.flag_count = 0};
+    lecture_add_flags(&t, f);
+    preprocess_flag(&t, "lights_here", f->lit && f->fragment == f->per_fragment);
+    glsl_add_interface(&t, f);
+    add_material(&t, f);
+    preprocess_number(&t, "hemispheres", c->hemisphere_count);
+    preprocess_number(&t, "lights", c->light_count);
+    lecture_add_way(preprocess_text(&t, "way"), c, "-lights[i].direction.xyz", "lights[i].position.xyz - P");
+    lecture_add_spots(preprocess_text(&t, "spots"), c, "float");
+    text_print(preprocess_text(&t, "arriving"), "%s%s", f->has_cone ? "spot * " : "",
+               f->has_falloff ? "attenuation * " : "");
+    const struct preprocess_words words = preprocess_finish(&t, text);
     preprocess_add(text, text_lecture_glsl, &words);
-    free(attributes.bytes);
-    free(way.bytes);
-    free(spots.bytes);
+    preprocess_free(&t);
 }

@@ -6,7 +6,7 @@
 //@if per_fragment
 @varying@vec3 eye_position;
 @varying@vec3 eye_normal;
-//@if passes_tangent
+//@if needs_tangent_attribute
 @varying@vec3 eye_tangent;
 //@end
 //@else
@@ -15,7 +15,7 @@
 @varying@vec4 back_light;
 //@end
 //@end
-//@if passes_tint
+//@if needs_vertex_color
 @varying@vec4 tint;
 //@end
 //@if fragment
@@ -35,14 +35,14 @@ vec3 lit(@parameters@)
     vec3 ka = material.ambient.rgb, kd = material.diffuse.rgb;
 //@end
 //@end
-//@if reads_eye
+//@if highlights has_environment
 //@if distant_viewer
     const vec3 V = vec3(0.0, 0.0, 1.0); // towards an eye that is infinitely far away
 //@else
     vec3 V = normalize(-P);         // from the point to the eye
 //@end
 //@end
-//@if threads
+//@if needs_tangent
 //@if !tangents
     vec3 T = cross(normalize(model_view[1].xyz), N); // around the mesh's y axis, like the marks of a lathe
     if (dot(T, T) < 1.0e-8)
@@ -85,7 +85,7 @@ vec3 lit(@parameters@)
 //@end
 @spots@
 //@end
-//@if threads
+//@if needs_tangent
         float sin_TL = length(cross(T, L)), sin_TV = length(cross(T, V));
 //@if gated_threads
         float faces = dot(N, L) > 0.0 || @fibre@ > 0.5 ? 1.0 : 0.0; // a fibre has no inside
@@ -121,6 +121,7 @@ vec3 lit(@parameters@)
     return color;
 }
 //@end
+//@if fragment
 //@if encodes
 
 // From linear light to the numbers of a screen (sRGB).
@@ -129,6 +130,7 @@ vec3 encode(vec3 light)
     vec3 x = clamp(light, 0.0, 1.0);
     return mix(12.92 * x, 1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, x));
 }
+//@end
 //@end
 
 void main()
@@ -160,10 +162,10 @@ void main()
 //@if per_fragment
     eye_position = (model_view * vec4(@lit_position@, 1.0)).xyz;
     eye_normal = normalize(normal_matrix * normal);
-//@if passes_tangent
+//@if needs_tangent_attribute
     eye_tangent = normalize(mat3(model_view) * tangent);
 //@end
-//@if passes_tint
+//@if needs_vertex_color
     tint = color;
 //@end
 //@elif application
@@ -174,7 +176,7 @@ void main()
 //@else
     vec3 eye_position = (model_view * vec4(@lit_position@, 1.0)).xyz;
     vec3 N = normalize(normal_matrix * normal);
-//@if passes_tangent
+//@if needs_tangent_attribute
     vec3 T = normalize(mat3(model_view) * tangent);
 //@end
     front_light = vec4(lit(@arguments@), @opacity@);

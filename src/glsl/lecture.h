@@ -10,7 +10,7 @@
 bool lecture_check(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
 
 // Appends a stage after its version and its uniforms.
-void lecture_add(struct text *text, const struct glsl_facts *facts, bool fragment);
+void lecture_add(struct text *text, const struct glsl_facts *stage);
 
 // Makes the C source of the application stage: a function `light_vertex` that computes the colours of a vertex of one of the
 // draws `ranges`. order[i] is the index in the frame of the shader's light i; choices->mistake is in it. The caller frees the
@@ -20,26 +20,8 @@ char *lecture_application(const struct glsl_choices *choices, const struct frame
 
 // --- parts of the text that GLSL and C share (lecture.c)
 
-bool lecture_has_kind(const struct glsl_choices *choices, int kind); // LIGHT_…
-bool lecture_has_range(const struct glsl_choices *choices);
-// The conditions of both texts that follow from the choices `c` and the facts `f`: rows of preprocess_flag.
-// clang-format off
-#define LECTURE_FLAGS(c, f) \
-    {"two_sided", (c)->two_sided}, \
-    {"highlights", (f)->highlights}, \
-    {"distant_viewer", (c)->distant_viewer}, \
-    {"has_hemispheres", (f)->hemispheres}, \
-    {"has_lights", (f)->lights}, \
-    {"has_falloff", (f)->attenuated}, \
-    {"has_range", lecture_has_range(c)}, \
-    {"has_cone", (f)->cones}, \
-    {"has_cutoff", lecture_has_kind(c, LIGHT_SPOT_CUTOFF)}, \
-    {"threads", (f)->tangent}, \
-    {"passes_tangent", (f)->tangent && (c)->tangents}, \
-    {"gated_threads", (c)->reflection == LAM_REFLECTION_KAJIYA_KAY}, \
-    {"phong", (f)->highlights && (c)->reflection == LAM_REFLECTION_PHONG}, \
-    {"blinn_phong", (f)->highlights && (c)->reflection == LAM_REFLECTION_BLINN_PHONG}
-// clang-format on
+// Adds the flags of both texts: those of every shader (glsl_add_flags), and what the lines of the blackboard depend on.
+void lecture_add_flags(struct preprocess_tables *tables, const struct glsl_facts *facts);
 // Appends the vector from the point to light i: `against` of directional lights, `towards` of the others.
 void lecture_add_way(struct text *text, const struct glsl_choices *choices, const char *against, const char *towards);
 // Appends the lines that set `spot`, the factor of a spotlight's cone, of the type `number`.

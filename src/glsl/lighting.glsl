@@ -73,24 +73,18 @@ vec3 level_color(int level, vec3 point)
     return mix3(mix3(a, b, part.x), mix3(c, d, part.x), part.y);
 }
 
-// The light around the direction d in eye space: level 0 is the environment, as a mirror shows it.
-vec3 prefiltered_color(vec3 d, float level)
+vec3 irradiance_at(vec3 normal)
 {
-    vec3 point = cube_point(environment_matrix * d);
-    float first = min_of(floor(level), PREFILTERED_LAST - 1.0);
-    vec3 low = first > 0.5 ? level_color(int(first), point) : environment_color(d);
-    return mix3(low, level_color(int(first) + 1, point), level - first);
+    return level_color(int(PREFILTERED_LAST) + 1, cube_point(environment_matrix * normal));
 }
 
-surroundings surroundings_of(surface s, float roughness)
+// Level 0 is the environment, as a mirror shows it.
+vec3 prefiltered_at(vec3 direction, float level)
 {
-    surroundings e;
-    float n_dot_v = eye_cosine(s);
-    e.irradiance = level_color(int(PREFILTERED_LAST) + 1, cube_point(environment_matrix * s.n));
-    e.prefiltered = prefiltered_color(mirror3(s.v, s.n), prefilter_level(roughness));
-    e.albedo = single_scattering(n_dot_v, roughness);
-    e.bias = schlick_scattering(n_dot_v, roughness);
-    return e;
+    vec3 point = cube_point(environment_matrix * direction);
+    float first = min_of(floor(level), PREFILTERED_LAST - 1.0);
+    vec3 low = first > 0.5 ? level_color(int(first), point) : environment_color(direction);
+    return mix3(low, level_color(int(first) + 1, point), level - first);
 }
 //@end
 //@if occluded
@@ -108,10 +102,11 @@ float unoccluded_share()
     return texelFetch(ambient_occlusion, ivec2(gl_FragCoord.xy), 0).r;
 }
 //@end
-//@if reads_lights
+//@if !output_vector
+//@if has_lights has_hemispheres
 
 // --- lights and materials
-//@if texture
+//@if lights_in_texture
 
 vec4 list_texel(sampler2D list, int number)
 {
@@ -124,7 +119,7 @@ vec4 list_texel(sampler2D list, int number)
 light_source light_of(int i@list_parameter@)
 {
     light_source light;
-//@if texture
+//@if lights_in_texture
     int first = i * @light_texels@;
     light.position = list_texel(light_list, first).xyz;
     light.direction = list_texel(light_list, first + 1).xyz;
@@ -157,7 +152,7 @@ light_source light_of(int i@list_parameter@)
     light.inverse_width = cone.w;
 //@end
 //@if products
-//@if texture
+//@if lights_in_texture
     int product = $(first_product) + i * @product_texels@;
     light.diffuse = list_texel(product_list, product).rgb;
     light.specular = list_texel(product_list, product + 1).rgb;
@@ -170,7 +165,7 @@ light_source light_of(int i@list_parameter@)
 //@end
 //@end
 //@else
-//@if texture
+//@if lights_in_texture
 //@if microfacet
     light.diffuse = mul3(@lambert@, list_texel(light_list, first + 4).rgb);
     light.specular = list_texel(light_list, first + 5).rgb;
@@ -196,24 +191,24 @@ light_source light_of(int i@list_parameter@)
 //@end
 //@if occluded
     // w: the share of the light that occlusion dims.
-//@if texture
+//@if lights_in_texture
     float occluded = list_texel(light_list, first + 1).w;
 //@else
     float occluded = lights[i].direction.w;
 //@end
-    float kept = 1.0 - occluded * (1.0 - unoccluded_share());
+    float kept = unoccluded_light(occluded, unoccluded_share());
     light.diffuse = scale3(light.diffuse, kept);
     light.specular = scale3(light.specular, kept);
 //@end
     return light;
 }
-//@if passes_lights
+//@if has_light_shares
 
 // The share of light i that reaches the point p in eye space: 1 where nothing is in the way. The program sets it for a whole
 // draw; a shadow map of its own is looked up here.
 float passed_light(int i, vec3 p)
 {
-//@if texture
+//@if lights_in_texture
     return list_texel(light_list, i * @light_texels@).w;
 //@else
     return passed[i];
@@ -226,13 +221,13 @@ float passed_light(int i, vec3 p)
 vec3 ambient_of(int i@list_parameter@)
 {
 //@if products
-//@if texture
+//@if lights_in_texture
     return list_texel(product_list, $(first_product) + i * @product_texels@ + 2).rgb;
 //@else
     return $(light_ambient_product[i]).rgb;
 //@end
 //@else
-//@if texture
+//@if lights_in_texture
     return mul3(m.ambient.rgb, list_texel(light_list, i * @light_texels@ + 6).rgb);
 //@else
     return mul3(m.ambient.rgb, lights[i].ambient.rgb);
@@ -246,7 +241,7 @@ vec3 ambient_of(int i@list_parameter@)
 hemisphere hemisphere_of(int i@list_parameter@)
 {
     hemisphere h;
-//@if texture
+//@if lights_in_texture
     int first = @hemispheres_at@ + i * @hemisphere_texels@;
     h.up = list_texel(light_list, first).xyz;
 //@if products
@@ -271,8 +266,9 @@ hemisphere hemisphere_of(int i@list_parameter@)
 }
 //@end
 //@end
+//@end
 
-//@if passes
+//@if has_transmission
 // What the last point that was lit lets through of the light behind it.
 vec3 passing = vec3(0.0);
 
@@ -288,9 +284,9 @@ vec3 passing = vec3(0.0);
 //@if vertex_colors
 // `tint` is the vertex colour: a factor of the ambient and diffuse terms, and of the opacity.
 //@end
-//@if apart
+//@if separate_texture_terms
 // `rest` is the part of the light that the diffuse map does not multiply.
-//@elif mapped
+//@elif has_maps
 // `maps` is what the material's textures say of the point.
 //@end
 vec4 light_point(@lit_parameters@)
@@ -317,7 +313,7 @@ vec4 light_point(@lit_parameters@)
     s.p = p;
     s.n = unit3(normal);
     s.v = to_eye(p, @viewer@);
-//@if tangent
+//@if needs_tangent
     s.t = perpendicular3(tangent, s.n);
 //@else
     s.t = black3();
@@ -332,9 +328,7 @@ vec4 light_point(@lit_parameters@)
 //@else
     terms sum = start_terms(mul3(m.ambient.rgb, ambient_light.rgb), m.emission.rgb);
 //@end
-//@if selects_parameters
 @parameters@
-//@end
 //@if has_hemispheres
     for (int i = 0; i < @hemispheres@; i++) {
         sum = add_hemisphere(sum, s, hemisphere_of(i@list_argument@));
@@ -357,8 +351,8 @@ vec4 light_point(@lit_parameters@)
     given.base = base;
     given.metallic = @metallic@;
     given.roughness = @roughness@;
-//@if clearcoat
-//@if coat_normal
+//@if has_clearcoat
+//@if has_coat_normal
     given.clearcoat_normal = unit3(coat);
 //@else
     given.clearcoat_normal = s.n;
@@ -372,9 +366,7 @@ vec4 light_point(@lit_parameters@)
     fresnel mirror = fresnel_of(base, @metallic@, scattering_gain(s, @roughness@));
 //@end
 //@end
-//@if has_lights
 @groups@
-//@end
 //@if map_dielectric
     sum.diffuse = scale3(sum.diffuse, maps.dielectric);
 //@end
@@ -392,37 +384,27 @@ vec4 light_point(@lit_parameters@)
 //@end
 //@if layered
     sum = cover_terms(sum, layering, 0);
-//@if passes
+//@if has_transmission
     passing = layered_transmittance(s, layering, given, 0);
 //@end
 //@end
 //@if has_environment
-//@if mapped_reflection
+//@if separate_reflection
     vec3 matte = black3(); // the matte part of the reflection
 //@end
     if (present(s.n) && present(s.v)) {
 //@if environment_light
         vec3 matt = scale3(base, 1.0 - @metallic@);
 //@if layered
-//@if anisotropy
-        surroundings around = surroundings_of(s, mean_roughness(given.roughness, given.anisotropy));
-        around.prefiltered = surroundings_of(bent_surface(s, layering, given.anisotropy), given.roughness).prefiltered;
-//@else
-        surroundings around = surroundings_of(s, given.roughness);
-//@end
-//@if clearcoat
-        surroundings top = surroundings_of(coat_surface(s, layering), layering.coat_roughness);
-//@else
-        surroundings top = around;
-//@end
-        vec3 arriving = layered_surroundings(s, layering, matt, around, top, 0);
-//@if mapped_reflection
-        matte = sub3(arriving, layered_surroundings(s, layering, black3(), around, top, 0));
+        layered_around around = layered_around_of(s, given, layering, 0);
+        vec3 arriving = layered_surroundings(s, layering, matt, around.base, around.top, 0);
+//@if separate_reflection
+        matte = sub3(arriving, layered_surroundings(s, layering, black3(), around.base, around.top, 0));
 //@end
 //@else
         surroundings around = surroundings_of(s, @roughness@);
         vec3 arriving = surroundings_light(mirror, matt, around);
-//@if mapped_reflection
+//@if separate_reflection
         matte = sub3(arriving, surroundings_light(mirror, black3(), around));
 //@end
 //@end
@@ -453,12 +435,10 @@ vec4 light_point(@lit_parameters@)
     sum = tint_terms(sum, tint.rgb);
 //@end
 //@if output_material
-//@if selects_parameters
 @parameters@
-//@end
     return vec4(@output_material@, 1.0);
 //@else
-//@if apart
+//@if separate_texture_terms
     vec3 color = @output_mapped@;
     rest = @output_rest@;
 //@if clamped
@@ -489,15 +469,3 @@ vec4 light_point(@lit_parameters@)
 //@end
 //@end
 }
-//@if tangent_field
-
-// The tangent of a surface without tangents: around the mesh's y axis, like the marks of a lathe (y x n); along x where n is
-// along y.
-vec3 field_tangent(vec3 n)
-{
-    vec3 axis = unit3(model_view[1].xyz);
-    vec3 side = unit3(model_view[0].xyz);
-    vec3 around = cross3(axis, unit3(n));
-    return dot3(around, around) < 1.0e-8 ? side : around;
-}
-//@end

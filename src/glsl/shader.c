@@ -122,7 +122,7 @@ static bool merge_choices(struct build *m, lam_stage stage, int object, bool har
                         "expected the number of one object",
                         a, b);
         struct glsl_facts facts = glsl_facts_of(&own);
-        if (facts.tangent && own.tangents != m->choices.tangents)
+        if (facts.needs_tangent && own.tangents != m->choices.tangents)
             return fail(error, LAM_BAD_ARGUMENT,
                         "objects %d and %d: one has tangents, the other has none, and one shader cannot draw both; "
                         "expected the number of one object",
@@ -305,8 +305,8 @@ static int value_of(const struct build *m, const struct frame_draw_range *range,
     case GLSL_ALPHA_CUTOFF:
         out[0] = glsl_alpha_cutoff(&m->frame, material);
         return 1;
-    case GLSL_GLOW:
-        glsl_glow(&m->frame, range, row->back, out);
+    case GLSL_MAPPED_EMISSION:
+        glsl_mapped_emission(&m->frame, range, row->back, out);
         return 4;
     case GLSL_MAP:
     case GLSL_ENVIRONMENT:
@@ -458,7 +458,7 @@ static bool list_textures(const struct build *m)
     if (!lists)
         return false;
     result->textures = lists;
-    if (c->storage != GLSL_TEXTURE || (!m->facts.lights && !m->facts.hemispheres))
+    if (c->storage != GLSL_TEXTURE || (!m->facts.has_lights && !m->facts.has_hemispheres))
         return true;
     size_t bytes = glsl_lights_bytes(c), each = glsl_products_bytes(c), materials = (size_t)m->frame.material_count;
     float *values = arena_alloc(&m->shader->arena, bytes);

@@ -3,6 +3,7 @@
 
 #include "fail.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static void report(struct text *text, const char *what, const char *name, size_t length)
@@ -51,6 +52,7 @@ static const char *value_of(const struct preprocess_words *words, const char *na
 // Appends one line, with values substituted.
 static void add_line(struct text *text, const char *at, const char *end, const struct preprocess_words *words)
 {
+    const char *const line = at;
     while (at < end) {
         if (*at == '@') {
             const char *close = memchr(at + 1, '@', (size_t)(end - at - 1));
@@ -60,7 +62,8 @@ static void add_line(struct text *text, const char *at, const char *end, const s
                 return;
             }
             text_add(text, value);
-            at = close + 1;
+            bool alone = at == line && close[1] == '\n', ends = !*value || value[strlen(value) - 1] == '\n';
+            at = alone && ends ? end : close + 1;
         } else if (at[0] == '$' && at[1] == '(') {
             const char *inner = at + 2, *close = memchr(inner, ')', (size_t)(end - inner));
             if (!close) {
@@ -111,4 +114,49 @@ void preprocess_add(struct text *text, const char *source, const struct preproce
     }
     if (depth)
         report(text, "missing //@end", "", 0);
+}
+
+// --- the tables
+
+void preprocess_flag(struct preprocess_tables *t, const char *name, bool on)
+{
+    t->flags[t->flag_count++] = (struct preprocess_flag){name, on};
+}
+
+void preprocess_value(struct preprocess_tables *t, const char *name, const char *text)
+{
+    t->values[t->value_count++] = (struct preprocess_value){name, text};
+}
+
+struct text *preprocess_text(struct preprocess_tables *t, const char *name)
+{
+    preprocess_value(t, name, NULL);
+    return &t->made[t->made_count++];
+}
+
+void preprocess_number(struct preprocess_tables *t, const char *name, int number)
+{
+    text_print(preprocess_text(t, name), "%d", number);
+}
+
+struct preprocess_words preprocess_finish(struct preprocess_tables *t, struct text *text)
+{
+    const struct text *from = t->made;
+    for (int i = 0; i < t->value_count; i++) {
+        if (t->values[i].text)
+            continue;
+        t->values[i].text = from->bytes ? from->bytes : "";
+        if (from->failed && !text->failed) {
+            text->failed = true;
+            text->error = from->error;
+        }
+        from++;
+    }
+    return (struct preprocess_words){t->flags, t->values};
+}
+
+void preprocess_free(struct preprocess_tables *t)
+{
+    for (int i = 0; i < t->made_count; i++)
+        free(t->made[i].bytes);
 }

@@ -89,7 +89,7 @@ vec4 texel_at(sampler2D map, vec2 at, float detail, sampling how)
 }
 //@end
 
-//@if tilts
+//@if has_bump_map
 // The directions in eye space in which the picture's rows and columns run on the triangle through p; not unit.
 void picture_axes(vec3 p, vec4 s, vec4 t, footprint f, out vec3 across, out vec3 down)
 {

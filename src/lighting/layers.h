@@ -27,7 +27,8 @@ STRUCT(layer_values)
     num iridescence_ior;
     num film; // thickness in nanometres
     num transmission;
-    num path;             // how far light goes through the volume, in units of attenuation_distance
+    num thickness;        // of the volume behind the surface
+    num path;             // how far light goes through it, in units of attenuation_distance
     vec3 attenuation_log; // the volume's colour after a path of 1, as logarithm to the base 2
 };
 
@@ -59,11 +60,18 @@ STRUCT(layered)
     num coat_gain; // light between its mirrors
 };
 
-// The response of all layers to light from one direction: factors of kd Ld and of Ls.
+// The response of all layers to light from one direction: factors of kd Ld and of Ls; and the steps towards them, which drawing
+// does not read.
 STRUCT(layered_value)
 {
     num diffuse;
     vec3 specular;
+    num strength; // S of the base
+    num base_diffuse;
+    vec3 base;
+    num sheen_left; // what the sheen leaves of the base
+    vec3 sheen;
+    num coat;
 };
 
 FN num largest3(vec3 a) { return max_of(max_of(a.x, a.y), a.z); }
@@ -338,19 +346,26 @@ FN layered_value layered_light(surface s, layered m, vec3 l, lobe_value lobe, in
     }
     r.diffuse = lambert * positive(1.0f - largest3(dielectric)) * m.matt;
     r.specular = scale3(layered_mix(m, dielectric, metal), strength);
+    r.strength = strength;
+    r.base_diffuse = r.diffuse;
+    r.base = r.specular;
+    r.sheen_left = num_of(1.0f);
+    r.sheen = black3();
+    r.coat = num_of(0.0f);
     if ((set & LAYER_SHEEN) != 0) {
         num left = positive(1.0f - m.sheen_largest * sheen_albedo(positive(dot3(s.n, l)), m.sheen_roughness));
-        left = min_of(left, m.sheen_left);
-        r.diffuse = r.diffuse * left;
-        r.specular = add3(scale3(r.specular, left), scale3(m.sheen_color, sheen_lobe(s, l, m.sheen_roughness)));
+        r.sheen_left = min_of(left, m.sheen_left);
+        r.sheen = scale3(m.sheen_color, sheen_lobe(s, l, m.sheen_roughness));
+        r.diffuse = r.diffuse * r.sheen_left;
+        r.specular = add3(scale3(r.specular, r.sheen_left), r.sheen);
     }
     if ((set & LAYER_CLEARCOAT) != 0) {
         surface top = s;
         top.n = m.coat_normal;
         lobe_sample c = ggx_lobe(top, l, m.coat_roughness);
-        num mirrored = m.coat * (1.0f + m.coat_gain) * pick(c.lit, c.base, num_of(0.0f));
+        r.coat = m.coat * (1.0f + m.coat_gain) * pick(c.lit, c.base, num_of(0.0f));
         r.diffuse = r.diffuse * (1.0f - m.coat);
-        r.specular = add3(scale3(r.specular, 1.0f - m.coat), grey3(mirrored));
+        r.specular = add3(scale3(r.specular, 1.0f - m.coat), grey3(r.coat));
     }
     return r;
 }
@@ -456,21 +471,18 @@ LANE_FN layer_values layers_of(const lam_material *m)
     y.base = vec3_of(num_of(m->diffuse.r), num_of(m->diffuse.g), num_of(m->diffuse.b));
     y.metallic = num_of(m->metallic);
     y.roughness = num_of(m->roughness);
-    y.ior = num_of(m->ior);
-    y.specular_weight = num_of(m->specular_weight);
-    y.f0_color = vec3_of(num_of(m->f0_color.r), num_of(m->f0_color.g), num_of(m->f0_color.b));
-    y.specular_glossiness = num_of(m->specular_glossiness);
-    y.clearcoat = num_of(m->clearcoat);
-    y.clearcoat_roughness = num_of(m->clearcoat_roughness);
     y.clearcoat_normal = zero;
-    y.sheen_color = vec3_of(num_of(m->sheen_color.r), num_of(m->sheen_color.g), num_of(m->sheen_color.b));
-    y.sheen_roughness = num_of(m->sheen_roughness);
     y.anisotropy = num_of(m->anisotropy);
     y.stretch = zero;
-    y.iridescence = num_of(m->iridescence);
-    y.iridescence_ior = num_of(m->iridescence_ior);
-    y.film = num_of(m->iridescence_thickness_max);
-    y.transmission = num_of(m->transmission);
+#define NUMBER(member)                    y.member = num_of(m->member);
+#define MAPPED_NUMBER(member, field, map) y.member = num_of(m->field);
+#define MAPPED_COLOR(member, field, map)  y.member = vec3_of(num_of(m->field.r), num_of(m->field.g), num_of(m->field.b));
+    LAYER_NUMBERS(NUMBER)
+    LAYER_MAPPED_NUMBERS(MAPPED_NUMBER)
+    LAYER_MAPPED_COLORS(MAPPED_COLOR)
+#undef NUMBER
+#undef MAPPED_NUMBER
+#undef MAPPED_COLOR
     y.path = num_of(0.0f);
     y.attenuation_log = zero;
     return y;

@@ -13,7 +13,9 @@
 #include "light_kinds.h"
 #include "lights.h"
 #include "sum.h"
+#include "point.h"
 #include "layer_kinds.h"
+#include "layer_inputs.h"
 #include "layers.h"
 #include "tone.h"
 

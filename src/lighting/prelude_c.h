@@ -1,6 +1,6 @@
 // prelude_c.h: gives the words of the equations their meaning in C: one pixel with LANES 1, or 4, 8, 16 at a time.
 //
-// The equations (lobes.h, lights.h, sum.h) are one text for C and GLSL. Its words are + − * / and comparisons on num,
+// The equations (lobes.h, lights.h, sum.h, point.h, layers.h) are one text for C and GLSL. Its words are + − * / and comparisons on num,
 // the functions below and those of lanes.h and functions.h named in prelude.glsl, which gives the same words their
 // meaning there. A new word is one line here, one there, and one row in tests/lighting/words.h.
 #ifndef PRELUDE_C_H

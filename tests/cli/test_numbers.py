@@ -73,7 +73,7 @@ def counted(what, count):
 
 LAYERS = constant("src/cpu/raster/tile.h", "LAYERS_MAX")
 TILE = constant("src/cpu/raster/tile.h", "TILE")
-FEW_LIGHTS = constant("src/cpu/shade/light_bounds.h", "LIGHTS_ALL_SUMMED")
+FEW_LIGHTS = constant("src/cpu/lights/light_bounds.h", "LIGHTS_ALL_SUMMED")
 FOVY = code("src/scene/camera.c", r"fovy_rad = (\d+) \* \(PI / 180\)")
 FILL = code("src/scene/camera_fit.c", r"view->fill : ([\d.]+)")
 CREASE = code("src/scene/scene.c", r"math_radians\((\d+)\)")
@@ -86,7 +86,7 @@ PIXELS_OVER_CHECK = counted("1 divided by " + OVER_CHECK.what, lambda: 1 / OVER_
 TOLERANCE = code("src/check/check.c", r"p->tolerance : ([\d.]+) / 255")
 
 SAMPLES = [constant("src/frame/frame.c", name) for name in ("SMALL_SAMPLES", "SMALL_SIDE", "LARGE_SAMPLES")]
-BLOCK = constant("src/cpu/shade/light_cull_blocks.inc", "BLOCK_SHIFT")
+BLOCK = constant("src/cpu/lights/light_cull_blocks.inc", "BLOCK_SHIFT")
 LEAST_ID = code("src/device/encode_values.c", r"uint8_t\)\((\d+) \+")
 OVERDRAW = code("src/device/encode_values.c", r"/ \(v\[c\] \+ ([\d.]+)f")
 
@@ -115,10 +115,10 @@ ROWS = [
     ("docs/rooms/cpu.md", "shaded in batches of {}", constant("src/cpu/shade/shading_batch.h", "BATCH_MAX")),
     ("docs/rooms/cpu.md", "over up to {} points", constant("src/cpu/shade/shading_batch.h", "LIGHT_BATCH")),
     ("docs/rooms/cpu.md", "With more than {} lights ({} for Gouraud and flat shading)",
-     code("src/cpu/shade/light_bounds.h", r"LAM_SHADING_PHONG \? (\d+) :"), FEW_LIGHTS),
+     code("src/cpu/lights/light_bounds.h", r"LAM_SHADING_PHONG \? (\d+) :"), FEW_LIGHTS),
     ("include/lambent/check.h", "32..1024 pixels; 0: {}", code("src/check/check.c", r"p->size : (\d+);")),
     ("docs/rooms/cpu.md", "with more than {} lights the weakest", FEW_LIGHTS),
-    ("docs/rooms/cpu.md", "in groups of {} that are tested first", constant("src/cpu/shade/light_bounds.h", "LIGHTS_IN_GROUP")),
+    ("docs/rooms/cpu.md", "in groups of {} that are tested first", constant("src/cpu/lights/light_bounds.h", "LIGHTS_IN_GROUP")),
     ("docs/rooms/cpu.md", "one block of {}×{} pixels", *2 * [counted("1 << BLOCK_SHIFT of light_cull_blocks.inc", lambda: 2 ** BLOCK.look_up())]),
     ("docs/rooms/normals.md", "until {} of them can be computed", constant("src/geometry/normals/corner_fan_simd.h", "FAN_POSITIONS")),
     ("docs/show.md", "front blue (0, {}, 255), back red (255, {}, 0)", code("src/device/encode_values.c", r"front\[3\] = \{0, (\d+)"),

@@ -126,7 +126,8 @@ static void uploads(void **state)
     lam_scene_free(next);
 }
 
-// Maps of diffuse colour, opacity and emission where light is evaluated at vertices, in every stage: opaque, masked, blended.
+// Maps of diffuse colour, opacity and emission where light is evaluated at vertices, in every stage: opaque, masked, blended; and
+// a map of opacity alone.
 static void lit_at_vertices(void **state)
 {
     (void)state;
@@ -143,15 +144,21 @@ static void lit_at_vertices(void **state)
         skip();
     lam_texture *colors = random_texture(8, 8, 1), *glow = random_texture(4, 4, 2);
     lam_texture_map map = {.texture = colors}, emission = {.texture = glow, .magnify = LAM_FILTER_NEAREST};
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         lam_scene *scene = floor_scene(&map);
         lam_material m = *lam_scene_material(scene, 0);
         m.unlit = false;
-        m.alpha_mode = (lam_alpha_mode)i;
+        m.alpha_mode = (lam_alpha_mode)(i % 3);
         m.alpha_cutoff = 0.5f;
         m.emission = (lam_rgb){0.2f, 0.4f, 0.1f};
         m.maps[LAM_MAP_EMISSION] = &emission;
         m.maps[LAM_MAP_OPACITY] = &map; // by its red
+        if (i == 3) {
+            m.maps[LAM_MAP_DIFFUSE] = m.maps[LAM_MAP_EMISSION] = NULL;
+            m.ambient = m.specular = (lam_rgb){0.1f, 0.5f, 0.2f};
+            m.diffuse = (lam_rgba){0.1f, 0.8f, 0.3f, 1};
+            m.alpha_mode = LAM_ALPHA_BLEND;
+        }
         assert_true(lam_scene_set_material(scene, 0, &m, NULL));
         for (size_t k = 0; k < 5 * 3; k++) {
             char name[64];

@@ -14,7 +14,7 @@
 #define LANES 1
 #include "lighting.h"
 
-static const char *const equation_files[] = {"lobes.h", "light_kinds.h", "lights.h", "sum.h"};
+static const char *const equation_files[] = {"lobes.h", "light_kinds.h", "lights.h", "sum.h", "point.h"};
 enum { EQUATION_FILES = sizeof equation_files / sizeof *equation_files };
 
 struct word {

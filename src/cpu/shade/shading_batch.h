@@ -2,6 +2,7 @@
 #ifndef SHADING_BATCH_H
 #define SHADING_BATCH_H
 
+#include "layer_inputs.h"
 #include "light_cull.h"
 #include "opacity.h"
 #include "texture_map.h"
@@ -60,11 +61,14 @@ struct shading_batch {
     float power[BATCH_ROW], roughness[BATCH_ROW], metallic[BATCH_ROW], occlusion[BATCH_ROW];
     // Of materials with maps and layers (layered.inc): what the maps make of their numbers.
     struct {
-        float specular_weight[BATCH_ROW], f0_color[3][BATCH_ROW];
-        float clearcoat[BATCH_ROW], clearcoat_roughness[BATCH_ROW], clearcoat_normal[3][BATCH_ROW]; // of any length
-        float sheen_color[3][BATCH_ROW], sheen_roughness[BATCH_ROW];
+#define NUMBER_ROW(member, field, map) float member[BATCH_ROW];
+#define COLOR_ROWS(member, field, map) float member[3][BATCH_ROW];
+        LAYER_MAPPED_NUMBERS(NUMBER_ROW)
+        LAYER_MAPPED_COLORS(COLOR_ROWS)
+#undef NUMBER_ROW
+#undef COLOR_ROWS
+        float clearcoat_normal[3][BATCH_ROW];               // of any length
         float stretch[2][BATCH_ROW], anisotropy[BATCH_ROW]; // by tangent and bitangent
-        float iridescence[BATCH_ROW], film[BATCH_ROW], transmission[BATCH_ROW], thickness[BATCH_ROW];
     } layered;
     float through[3][BATCH_ROW]; // of surfaces that transmit: the share of what is behind them
     float sign[BATCH_ROW];       // of the bitangent

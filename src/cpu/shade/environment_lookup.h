@@ -1,6 +1,6 @@
-// surroundings_at.h: the environment around LANES surfaces (sum.h, surroundings_light). Include with LANES defined.
-#ifndef SURROUNDINGS_AT_H
-#define SURROUNDINGS_AT_H
+// environment_lookup.h: the light of an environment in LANES directions. Include with LANES defined.
+#ifndef ENVIRONMENT_LOOKUP_H
+#define ENVIRONMENT_LOOKUP_H
 
 #include "frame.h"
 #include "lighting.h"
@@ -46,20 +46,6 @@ LANE_FN vec3 prefiltered_gathered(const struct environment_light *light, num lev
     }
     vec3 a = cube_gathered(&light->level[number], direction), b = cube_gathered(&light->level[number + 1], direction);
     return add3(a, scale3(sub3(b, a), level - num_of_int(first)));
-}
-
-// The surroundings of a surface of that roughness.
-LANE_FN surroundings surroundings_at(const struct frame *frame, const struct environment_light *light, surface s,
-                                     num roughness)
-{
-    surroundings e;
-    vec3 n = to_environment_axes(frame, s.n), r = to_environment_axes(frame, mirror3(s.v, s.n));
-    num n_dot_v = eye_cosine(s);
-    e.irradiance = cube_gathered(&light->irradiance, n);
-    e.prefiltered = prefiltered_gathered(light, prefilter_level(roughness), r);
-    e.albedo = single_scattering(n_dot_v, roughness);
-    e.bias = schlick_scattering(n_dot_v, roughness);
-    return e;
 }
 
 #endif

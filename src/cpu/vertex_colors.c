@@ -1,0 +1,69 @@
+// vertex_colors.c: the memory of the shading of vertices alone.
+#include "vertex_colors.h"
+
+#include "isa.h"
+#include "kernels.h"
+#include "srgb.h"
+
+#include <stdlib.h>
+
+// The arrays, one after the other in one block.
+struct arrays {
+    struct shading_batch batch; // first: it is aligned to cache lines
+    struct shadow_rows shadows;
+    uint32_t key[VERTEX_RUN_MAX][4];
+    float color[VERTEX_RUN_MAX][4], rest[VERTEX_RUN_MAX][3];
+};
+
+bool vertex_colors_start(struct vertex_colors *colors, const struct frame *frame, const struct environment_light *light,
+                         const struct hierarchy *hierarchy, struct call_control *call, lam_error *error)
+{
+    if (!colors->kernels) {
+        colors->kernels = kernels_of(widest_isa());
+        for (int i = 0; i < 256; i++) {
+            colors->decode_srgb[i] = (float)srgb_linear(i / 255.0);
+            colors->decode_linear[i] = (float)(i / 255.0);
+        }
+    }
+    if (!buffer_reserve(&colors->storage, sizeof(struct arrays), call, error))
+        return false;
+    struct arrays *arrays = colors->storage.data;
+    struct shading *shading = &colors->shading;
+    shading->batch = &arrays->batch;
+    shading->shadows = &arrays->shadows;
+    shading->vertices.key = arrays->key;
+    shading->vertices.color = arrays->color;
+    shading->vertices.rest = arrays->rest;
+    shading->ray_layers.failed = false;
+    colors->failure = FAILED_NOT;
+    colors->work = (struct work){.call = call, .failure = &colors->failure, .limit = UINT64_MAX};
+    shading->work = &colors->work;
+    if (frame->shadows && colors->pattern.count != frame->shadow_samples)
+        light_pattern_fill(&colors->pattern, frame->shadow_samples);
+    colors->shade = (struct shade_frame){.frame = frame,
+                                         .materials = products_make(&colors->products, frame, call, error),
+                                         .environment_light = light,
+                                         .hierarchy = hierarchy,
+                                         .light_pattern = &colors->pattern,
+                                         .decode_srgb = colors->decode_srgb,
+                                         .decode_linear = colors->decode_linear};
+    return colors->shade.materials != NULL;
+}
+
+void vertex_colors_light(struct vertex_colors *colors, const struct vertex_run *run)
+{
+    colors->kernels->light_vertices(&colors->shade, &colors->shading, run);
+}
+
+uint64_t vertex_colors_bytes(const struct vertex_colors *colors)
+{
+    return colors->storage.capacity + colors->products.capacity +
+           (uint64_t)colors->shading.ray_layers.capacity * sizeof *colors->shading.ray_layers.list;
+}
+
+void vertex_colors_free(struct vertex_colors *colors)
+{
+    buffer_free(&colors->storage);
+    buffer_free(&colors->products);
+    free(colors->shading.ray_layers.list);
+}

@@ -1,0 +1,48 @@
+// surroundings.h: the light of an environment around a point of a physical material.
+//
+// One text for C and GLSL (prelude_c.h, prelude.glsl). Who includes it looks the light up: in C with SCENE and IN_SCENE defined as a
+// parameter and its argument, which GLSL does not have.
+
+// The environment's irradiance divided by pi at a surface of that normal, and its light around a direction, prefiltered for a level
+// (prefilter_level). Directions are in eye space.
+FN vec3 irradiance_at(SCENE vec3 normal);
+FN vec3 prefiltered_at(SCENE vec3 direction, num level);
+
+FN surroundings surroundings_of(SCENE surface s, num roughness)
+{
+    surroundings e;
+    num n_dot_v = eye_cosine(s);
+    e.irradiance = irradiance_at(IN_SCENE s.n);
+    e.prefiltered = prefiltered_at(IN_SCENE mirror3(s.v, s.n), prefilter_level(roughness));
+    e.albedo = single_scattering(n_dot_v, roughness);
+    e.bias = schlick_scattering(n_dot_v, roughness);
+    return e;
+}
+
+// What layered_surroundings takes: around the base, whose mirror image of the eye may be stretched, and around the coat.
+STRUCT(layered_around)
+{
+    surroundings base;
+    surroundings top;
+};
+
+FN layered_around layered_around_of(SCENE surface s, layer_values given, layered m, int set)
+{
+    layered_around a;
+    num mean = given.roughness;
+    if ((set & LAYER_ANISOTROPY) != 0) {
+        mean = mean_roughness(given.roughness, given.anisotropy);
+    }
+    surroundings base = surroundings_of(IN_SCENE s, mean);
+    if ((set & LAYER_ANISOTROPY) != 0) {
+        surface bent = bent_surface(s, m, given.anisotropy);
+        surroundings stretched = surroundings_of(IN_SCENE bent, given.roughness);
+        base.prefiltered = stretched.prefiltered;
+    }
+    a.base = base;
+    a.top = base;
+    if ((set & LAYER_CLEARCOAT) != 0) {
+        a.top = surroundings_of(IN_SCENE coat_surface(s, m), m.coat_roughness);
+    }
+    return a;
+}

@@ -64,10 +64,10 @@ static void sky_row(int face, int t, float *texels)
     }
 }
 
-// A dark room, a cube about the origin: a broad lamp at the ceiling, a tall strip at the left, wide dim ones at the right
-// and in front, a small one behind, a floor that returns some of it. A face of the cube map is a wall of the room. The
-// ceiling is as bright as lets a level white surface (irradiance / π of 0.85) come out darker than white paper, of
-// 230 in 255 after the tone curve. The lamp in front keeps metals that face the viewer from mirroring a dark wall alone.
+// A room, a cube about the origin, for the default picture of physical materials. A broad lamp at the ceiling lights the tops,
+// a large one in front and above the sides that are seen first, a dim strip at the right the third, so that the three faces of
+// a cube differ. Metals mirror the bright horizon between a dark floor and a dim wall; the small lamp behind brightens the rims of
+// black things. A level white surface has 1.1 (irradiance / π), of which the tone curve makes 0.9. A face of the cube map is a wall of the room.
 struct lamp {
     double intensity;
     struct rgb color;
@@ -76,11 +76,11 @@ struct lamp {
 };
 #define WHITE {{1.00, 0.97, 0.92}}
 #define COOL  {{0.82, 0.90, 1.00}}
-static const struct lamp lamps[LAM_FACE_COUNT] = {[LAM_FACE_PY] = {2.8, WHITE, 0, 0.15, 0.55, 0.4},
-                                                  [LAM_FACE_NX] = {3.6, WHITE, 0.25, 0.1, 0.2, 0.65},
-                                                  [LAM_FACE_PX] = {1.2, COOL, 0.1, 0.15, 0.6, 0.45},
-                                                  [LAM_FACE_PZ] = {0.2, WHITE, 0, 0.05, 0.8, 0.7},
-                                                  [LAM_FACE_NZ] = {2.0, COOL, 0.45, 0.35, 0.15, 0.3}};
+static const struct lamp lamps[LAM_FACE_COUNT] = {[LAM_FACE_PY] = {2.95, WHITE, 0.08, -0.27, 0.37, 0.71},
+                                                  [LAM_FACE_NX] = {0.55, WHITE, 0.24, 0.48, 0.2, 0.56},
+                                                  [LAM_FACE_PX] = {0.52, COOL, -0.38, -0.22, 0.65, 0.12},
+                                                  [LAM_FACE_PZ] = {1.66, WHITE, -0.18, 0.36, 0.6, 0.71},
+                                                  [LAM_FACE_NZ] = {5.5, COOL, 0.3, 0.3, 0.35, 0.35}};
 
 // 1 within half a width of 0, soft at its edges.
 static double soft_edge(double x, double half_width)
@@ -89,37 +89,34 @@ static double soft_edge(double x, double half_width)
     return ramp(-half_width - edge, -half_width, x < 0 ? x : -x);
 }
 
-// Walls are evenly bright but for the lower part of the upright ones, which darken upwards, and the lamps: only there a
-// texel is computed for itself, from its direction on the unit sphere.
+// The walls at a height in the room, −1 … 1: the floor's colour below, and a band of light at the horizon.
+static struct rgb wall_at(double height)
+{
+    static const struct rgb floor_color = {{0.085, 0.0825, 0.08}}, wall = {{0.055, 0.0567, 0.0633}},
+                            horizon = {{0.71, 0.735, 0.75}};
+    struct rgb light = mix(floor_color, wall, ramp(-1, 0.2, height));
+    double band = ramp(-0.18, 0.12, height) - ramp(0.12, 0.42, height);
+    for (int i = 0; i < 3; i++)
+        light.c[i] += band * horizon.c[i];
+    return light;
+}
+
+// The height is the same in a whole row of a face.
 static void studio_row(int face, int t, float *texels)
 {
-    static const struct rgb floor_color = {{0.16, 0.155, 0.15}}, wall = {{0.05, 0.052, 0.058}};
     const struct lamp *lamp = &lamps[face];
     double d[3], across[3], down[3];
     cube_direction(face, 0, 1, 0, across);
     cube_direction(face, 0, 0, 1, down);
     int s_axis = across[0] != 0 ? 0 : 2, t_axis = down[1] != 0 ? 1 : 2;
     cube_direction(face, SIDE, 0, 2 * t + 1 - SIDE, d);
-    bool darkens = t_axis == 1 && d[1] / SIDE < 0.21;
-    bool has_lamp = lamp->intensity > 0 && soft_edge(d[t_axis] / SIDE - lamp->center_t, lamp->half_height) > 0;
-    struct rgb even = mix(floor_color, wall, ramp(-1, 0.2, d[1] / SIDE));
+    struct rgb wall = wall_at(d[1] / SIDE);
+    double row = lamp->intensity * soft_edge(d[t_axis] / SIDE - lamp->center_t, lamp->half_height);
     for (int s = 0; s < SIDE; s++) {
-        struct rgb light = even;
-        d[s_axis] = across[s_axis] * (2 * s + 1 - SIDE);
-        bool lit = has_lamp && soft_edge(d[s_axis] / SIDE - lamp->center_s, lamp->half_width) > 0;
-        if (darkens || lit) {
-            double length = __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), onto_wall = 1 / (SIDE / length);
-            if (darkens)
-                light = mix(floor_color, wall, ramp(-1, 0.2, d[1] / length * onto_wall));
-            double x = d[s_axis] / length * onto_wall, y = d[t_axis] / length * onto_wall;
-            double share =
-                lit ? soft_edge(x - lamp->center_s, lamp->half_width) * soft_edge(y - lamp->center_t, lamp->half_height)
-                    : 0;
-            for (int channel = 0; channel < 3; channel++)
-                light.c[channel] += lamp->intensity * share * lamp->color.c[channel];
-        }
+        double x = across[s_axis] * (2 * s + 1 - SIDE) / SIDE;
+        double light = row > 0 ? row * soft_edge(x - lamp->center_s, lamp->half_width) : 0;
         for (int channel = 0; channel < 3; channel++)
-            *texels++ = (float)light.c[channel];
+            *texels++ = (float)(wall.c[channel] + light * lamp->color.c[channel]);
     }
 }
 

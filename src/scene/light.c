@@ -82,34 +82,35 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
     return light;
 }
 
-// The default rig. The key stands near, 3.2 halves of the box's diagonal from the centre, so that the light changes across a flat face: from 1.5
-// times its strength on the side of the model that faces it to 0.7 on the other. A point reflects ka or kd times at most
+// The default rig. The key stands near, 3.2 halves of the box's diagonal from the centre, in front and to the left, so that the
+// light changes across a flat face: from 1.3 times its strength on the side of the model that faces it to 0.75 on the other.
+// The rim light stands above and behind: tops are brightest, sides that face left are darker, those that face right darkest,
+// and the three faces of a cube differ from each azimuth. A point reflects ka or kd times at most
 //
-//   0.52·1.5 (key) + 0.22·cos 79° (fill, at the key's maximum) + 0.17 (sky, there) = 0.99
+//   0.64·1.33 (key) + 0.19 (sky, there) = 1.04
 //
-// so that even a white material keeps its shading and does not clip. Where shadows are cast (--shadows, --ground), the key alone
-// casts them, soft ones: the fill stands for large surfaces, whose shadows are ambient occlusion. The rim light brightens the upper edges, so that a
-// model stands out from a dark page.
+// at the corner of the box that is nearest to the key. Where shadows are cast (--shadows, --ground), the key alone
+// casts them, soft ones: the others stand for large surfaces, whose shadows are ambient occlusion.
 static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = lam_light_default(LAM_LIGHT_POINT);
     lights[0].name = "key";
     lights[0].frame = LAM_FRAME_VIEW;
-    lights[0].position = v3(-1.65, 1.90, 2.00);
-    lights[0].attenuation = (lam_attenuation){0.35f, 0, 0.0635f}; // 1 at the centre
-    lights[0].diffuse = (lam_rgb){0.52f, 0.52f, 0.52f};
+    lights[0].position = v3(-1.23, 1.29, 2.66);
+    lights[0].attenuation = (lam_attenuation){0.527f, 0, 0.0462f}; // 1 at the centre
+    lights[0].diffuse = (lam_rgb){0.64f, 0.64f, 0.64f};
     lights[0].specular = (lam_rgb){0.8f, 0.8f, 0.8f};
     lights[0].occluded = 0.5f;
     lights[0].radius = 0.4f;
-    lights[1] = camera_light("fill", v3(0.95, 0.10, 0.55), 0.22f, 0.15f);
+    lights[1] = camera_light("fill", v3(0.95, 0.25, -0.28), 0.06f, 0.10f);
     lights[1].occluded = 1;
     lights[1].no_shadows = true;
-    lights[2] = camera_light("rim", v3(0.25, 0.70, -0.80), 0.28f, 0.30f);
+    lights[2] = camera_light("rim", v3(-0.53, 0.66, -0.55), 0.46f, 0.30f);
     lights[2].no_shadows = true;
     lights[3] = lam_light_default(LAM_LIGHT_HEMISPHERE);
     lights[3].name = "sky";
-    lights[3].sky = (lam_rgb){0.20f, 0.20f, 0.20f};
-    lights[3].ground = (lam_rgb){0.06f, 0.06f, 0.06f};
+    lights[3].sky = (lam_rgb){0.195f, 0.195f, 0.195f};
+    lights[3].ground = (lam_rgb){0.066f, 0.066f, 0.066f};
     return 4;
 }
 

@@ -18,12 +18,12 @@
 
 static const struct material_field rows[] = {
     {.field = {MEMBER(ambient), .symbol = "ka", .source = "Ka", .type = LAM_FIELD_RGB, .max = UNBOUNDED,
-               .standard = GREY(0.55f), .summary = "ka: share of ambient and hemisphere light that is returned"},
+               .standard = GREY(0.62f), .summary = "ka: share of ambient and hemisphere light that is returned"},
      .product = "ambient_product",
      .product_summary = "ka La: the material's ambient colour times all light from everywhere",
      .reader = FIELD_LIT},
     {.field = {MEMBER(diffuse), .symbol = "kd", .source = "Kd", .type = LAM_FIELD_RGBA, .max = UNBOUNDED,
-               .standard = GREY(0.55f), .summary = "kd: share that is returned evenly to all sides; a: opacity"}},
+               .standard = GREY(0.62f), .summary = "kd: share that is returned evenly to all sides; a: opacity"}},
     {.field = {MEMBER(specular), .symbol = "ks", .source = "Ks", .type = LAM_FIELD_RGB, .max = UNBOUNDED,
                .standard = GREY(0.12f), .summary = "ks: strength of the highlight"},
      .product = "",

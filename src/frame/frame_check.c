@@ -83,7 +83,7 @@ bool frame_params_check(const lam_draw_params *params, lam_error *error)
     if (params->cavity == LAM_CAVITY_ON && params->occlusion == LAM_OCCLUSION_RAYS)
         return fail(
             error, LAM_BAD_ARGUMENT,
-            "cavity is found from the picture: it goes with ambient occlusion 'screen' or 'off', not with 'rays'");
+            "cavity is found on the screen: it goes with the ambient occlusion 'screen' or 'off', not with 'rays'");
     if (!(params->occlusion_radius >= 0 && params->occlusion_radius <= 10))
         return fail(error, LAM_BAD_ARGUMENT, "occlusion_radius is %g, expected more than 0, up to 10",
                     (double)params->occlusion_radius);

@@ -92,7 +92,7 @@ class Reference:
         return out
 
     def material(self, words):
-        plain = {"diffuse": (0.55,) * 3, "alpha": 1, "specular": (0.12,) * 3, "emission": UNLIT, "shininess": 32, "reflectivity": UNLIT,
+        plain = {"diffuse": (0.62,) * 3, "alpha": 1, "specular": (0.12,) * 3, "emission": UNLIT, "shininess": 32, "reflectivity": UNLIT,
                  "fibre": False}
         plain.update(self.given(words))
         plain.setdefault("ambient", plain["diffuse"])

@@ -65,6 +65,7 @@ static const struct {
     {"planes", .floats = 1e-3},
     {"translucent", .floats = 8e-3},
     {"lines", .floats = 1e-2},
+    {"samples-8", .floats = 2e-3}, // the cavity, from distances that differ in their last bits
     {"environment-light", .floats = 5e-3},
     {"shadows-soft", .floats = 5e-4, .soft = true},
     {"ground-shadow", .floats = 5e-4, .soft = true},

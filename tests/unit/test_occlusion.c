@@ -422,6 +422,31 @@ static void test_screen_beside_rays(void **state)
     lam_scene_free(scene);
 }
 
+// The cavity leaves planes as they are, darkens the inner edges of a step and lightens the outer ones.
+static void test_cavity(void **state)
+{
+    (void)state;
+    lam_scene *scene = lam_scene_make(NULL);
+    // Two levels and the wall between them, seen from in front and above.
+    add_rectangle(scene, (lam_vec3){-1, 0, 0}, (lam_vec3){2, 0, 0}, (lam_vec3){0, 0, 1});
+    add_rectangle(scene, (lam_vec3){-1, 0, 0}, (lam_vec3){0, 0.5, 0}, (lam_vec3){2, 0, 0});
+    add_rectangle(scene, (lam_vec3){-1, 0.5, 0}, (lam_vec3){2, 0, 0}, (lam_vec3){0, 0, -1});
+    lam_camera camera = {.eye = {0, 3, 3}, .target = {0, 0.25, 0}, .up = {0, 1, 0}, .ortho_half_height = 1.5};
+    lam_draw_params params = {.samples = 1, .occlusion = LAM_OCCLUSION_OFF, .cavity = LAM_CAVITY_ON};
+    float *shown = shares(scene, &camera, params);
+    int lighter = 0, darker = 0, even = 0;
+    for (int y = 0; y < SIZE; y++) {
+        float share = shown[y * SIZE + SIZE / 2];
+        lighter += share > 1.02f;
+        darker += share >= 0 && share < 0.9f;
+        even += share >= 1 - 1e-5f && share <= 1 + 1e-5f;
+    }
+    if (lighter < 2 || darker < 2 || even < SIZE / 4)
+        fail_msg("%d lighter, %d darker, %d even", lighter, darker, even);
+    free(shown);
+    lam_scene_free(scene);
+}
+
 static bool same_picture(const lam_scene *scene, lam_draw_params a, lam_draw_params b)
 {
     lam_error error;
@@ -451,10 +476,14 @@ static void test_when(void **state)
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_shape(scene, "gyroid", NULL, &error);
     assert_true(object.mesh >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);
-    const lam_draw_params plain = {.occlusion_radius = 0.3f}, off = {.occlusion = LAM_OCCLUSION_OFF},
+    const lam_draw_params plain = {.occlusion_radius = 0.3f, .cavity = LAM_CAVITY_OFF},
+                          off = {.occlusion = LAM_OCCLUSION_OFF}, automatic = {.occlusion_radius = 0.3f},
+                          both = {.occlusion = LAM_OCCLUSION_SCREEN, .occlusion_radius = 0.3f, .cavity = LAM_CAVITY_ON},
                           screen = {.occlusion = LAM_OCCLUSION_SCREEN, .occlusion_radius = 0.3f};
     assert_false(same_picture(scene, plain, off));
     assert_true(same_picture(scene, plain, screen));
+    assert_false(same_picture(scene, plain, automatic));
+    assert_true(same_picture(scene, automatic, both));
     lam_draw_params flat = plain, flat_off = off;
     flat.shading = flat_off.shading = LAM_SHADING_FLAT;
     assert_true(same_picture(scene, flat, flat_off));
@@ -497,7 +526,7 @@ int main(void)
         cmocka_unit_test(test_planes),        cmocka_unit_test(test_wall),
         cmocka_unit_test(test_rays_integral), cmocka_unit_test(test_rays_known),
         cmocka_unit_test(test_rays_opacity),  cmocka_unit_test(test_screen_beside_rays),
-        cmocka_unit_test(test_when),
+        cmocka_unit_test(test_when),          cmocka_unit_test(test_cavity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -140,7 +140,7 @@ typedef enum lam_output {
     // Level of detail of the diffuse map, else of the first map that the material has; 0: no map. Below 0 the map is
     // magnified, by -50 where it has no footprint. 8 bits: level / 10.
     LAM_OUTPUT_LOD,
-    // The share of the light from all around that reaches the point (lam_occlusion, lam_cavity), 0 … 1, on ridges up to 1.3.
+    // The share of the light from all around that reaches the point (lam_occlusion, lam_cavity), 0 … 1, on ridges more.
     LAM_OUTPUT_AMBIENT_OCCLUSION,
     LAM_OUTPUT_COUNT,
 } lam_output;
@@ -198,7 +198,7 @@ typedef enum lam_occlusion {
 // The name of a kind of occlusion: "auto", "screen". A static string; NULL out of range.
 LAM_API const char *lam_occlusion_name(lam_occlusion occlusion);
 
-// Ambient occlusion at a small radius, 0.03 of half the diagonal of the scene's box and at least three cells of the
+// Ambient occlusion at a small radius, 0.05 of half the diagonal of the scene's box and at least three cells of the
 // picture, so that letters, holes and seams can be seen. On scenes whose colours come from no texture, ridges become lighter by the same
 // measure as valleys become darker (docs/lighting/occlusion.md).
 typedef enum lam_cavity {

@@ -99,7 +99,7 @@ static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
     lights[0].position = v3(-1.23, 1.29, 2.66);
     lights[0].attenuation = (lam_attenuation){0.527f, 0, 0.0462f}; // 1 at the centre
     lights[0].diffuse = (lam_rgb){0.64f, 0.64f, 0.64f};
-    lights[0].specular = (lam_rgb){0.8f, 0.8f, 0.8f};
+    lights[0].specular = (lam_rgb){0.9f, 0.9f, 0.9f};
     lights[0].occluded = 0.5f;
     lights[0].radius = 0.4f;
     lights[1] = camera_light("fill", v3(0.95, 0.25, -0.28), 0.06f, 0.10f);

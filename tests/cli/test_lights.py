@@ -39,7 +39,7 @@ class UpAxis(Case):
 class Default(Case):
     def test_faces_of_a_cube(self):
         """From every azimuth the three faces that are seen differ by 20 steps each, for grey meshes and for white physical ones."""
-        scene = {"lambent": 1, "objects": [{"shape": "cube", "material": {"kind": "physical", "base_color": [1, 1, 1], "metallic": 0}}]}
+        scene = {"lambent": 1, "objects": [{"shape": "cube", "material": {"diffuse": [1, 1, 1], "metallic": 0}}]}
         (self.folder / "white.json").write_text(json.dumps(scene))
         for ending in ("obj", "stl"):
             self.good("shape", "cube", "-q", "-o", "part." + ending)
@@ -47,7 +47,7 @@ class Default(Case):
         for model in ("part.obj", "part.stl", "white.json"):
             for azimuth in range(15, 76, 15):
                 words = (model, "-s", "64", "--azimuth", azimuth)
-                normals, picture = self.picture(*words, "--show", "normals"), self.picture(*words)
+                normals, picture = self.png(*words, "--show", "normals"), self.png(*words)
                 faces = {}
                 for n, c in zip(zip(*[iter(normals[2])] * 4), zip(*[iter(picture[2])] * 4)):
                     if n[3] == c[3] == 255:
@@ -57,9 +57,6 @@ class Default(Case):
                     self.assertEqual(len(tones), 3)
                     self.assertGreaterEqual(min(tones[1] - tones[0], tones[2] - tones[1]), 20)
                     self.assertLessEqual(tones[2], 245) # darker than white paper
-
-    def picture(self, *words):
-        return read_png(self.png(*words))
 
 
 class Looks(Case):
@@ -281,7 +278,7 @@ class Materials(Pictures):
         self.same(("--material", "ambient=0.62,diffuse=0.62,specular=0.12,shininess=32,emission=0"), ())  # the default's numbers
         self.same(("--material", "color=1/0.5/0,ka=0.2,kd=0.8,specular_color=1,ks=0.3"),
                   ("--material", "ambient=0.2/0.1/0,diffuse=0.8/0.4/0,specular=0.3"))
-        self.same(("--material", "kd=0.5"), ("--material", "diffuse=0.275"))
+        self.same(("--material", "kd=0.5"), ("--material", "diffuse=0.31"))
         self.same(("--material", "color=red,ambient=0"), ("--material", "diffuse=red,ambient=0"))
         self.same(("--material", "shininess=5"), ("--shininess", "5"))
         glow = self.picture("--material", "ambient=0,diffuse=0,specular=0,emission=0.5", "--color-mode", "raw")

@@ -213,7 +213,7 @@ CONTEXT = {
     "shadow-samples": (["--shadows", "--light", "point:position=2r/3r/1r,radius=0.5"], "3"),
     "wireframe-width": (["--wireframe"], "2"), "wireframe-color": (["--wireframe"], "red"), "edge-angle": (["--edges", "crease"], "20"),
     "edge-width": (["--edges", "all"], "3"), "edge-color": (["--edges", "all"], "red"), "hidden-lines": (["--wireframe"], "show"), "surfaces": ([], "off"),
-    "look": ([], "classic"), "ground": ([], "checker"), "ao": ([], "off"), "ao-radius": ([], "0.3"), "ao-samples": (["--ao", "rays"], "16"),
+    "look": ([], "classic"), "ground": ([], "checker"), "ao": ([], "off"), "cavity": ([], "off"), "ao-radius": ([], "0.3"), "ao-samples": (["--ao", "rays"], "16"),
     "environment-rotation": (["--environment", "studio", "--reflectivity", "0.5"], "90"),
 }
 

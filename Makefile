@@ -46,9 +46,12 @@ $(build)/lambent: $(build)/build.ninja
 
 demo: $(build)/lambent
 	@mkdir -p out
-	@$(build)/lambent teapot -o out/demo.png
+	@$(build)/lambent examples/models/spot.glb --azimuth 150 --ground -b '#dfe6ee' -s 800 -o out/demo.png
 	@echo 'The picture: out/demo.png'
-	@echo 'Next, try:   $(build)/lambent torus-knot --background white -o out/knot.png'
+	@echo 'Try next:'
+	@echo '    $(build)/lambent MODEL -b white -o out/model.png                    your own .glb, .obj, .stl or .ply file'
+	@echo '    $(build)/lambent compare gyroid --across material=jade,ruby,obsidian -o out/materials.png'
+	@echo '    $(build)/lambent torus-knot --turntable 24 -s 320 -o out/turn.webp  a turning model'
 
 web:
 	@scripts/setup.sh build web

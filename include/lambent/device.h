@@ -203,8 +203,8 @@ LAM_API const char *lam_occlusion_name(lam_occlusion occlusion);
 // measure as valleys become darker (docs/lighting/occlusion.md).
 typedef enum lam_cavity {
     LAM_CAVITY_AUTO = 0, // ON where LAM_OCCLUSION_AUTO is SCREEN, else OFF
-    LAM_CAVITY_OFF,
-    LAM_CAVITY_ON,
+    LAM_CAVITY_OFF,      // neither darker valleys nor lighter ridges
+    LAM_CAVITY_ON,       // both
     LAM_CAVITY_COUNT
 } lam_cavity;
 
@@ -297,7 +297,6 @@ typedef struct lam_draw_params {
     // Points of a light with a radius that are tested for each lit point, 1..256; 0: 16.
     int shadow_samples;
     lam_occlusion occlusion; // LAM_BAD_ARGUMENT: SCREEN or RAYS without Phong shading
-    lam_cavity cavity;       // LAM_BAD_ARGUMENT: ON with RAYS, or without Phong shading
     // How far away surfaces occlude, as a share of half the diagonal of the scene's box, above 0 … 10. 0: 0.1.
     float occlusion_radius;
     // With LAM_OCCLUSION_RAYS: rays from each lit point, 1..1024; 0: 64.
@@ -318,7 +317,8 @@ typedef struct lam_draw_params {
     float wireframe_width, edge_width; // pixels, up to 1000; 0: 1 and 1.5
     // Linear, not premultiplied. All zero: black, and white with no_surfaces over a background darker than 0.18.
     lam_rgba wireframe_color, edge_color;
-    LAM_RESERVED(15);
+    lam_cavity cavity; // LAM_BAD_ARGUMENT: ON with LAM_OCCLUSION_RAYS, or without Phong shading
+    LAM_RESERVED(14);
 } lam_draw_params;
 
 // The times of a frame in milliseconds, and counts.

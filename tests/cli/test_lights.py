@@ -58,6 +58,15 @@ class Default(Case):
                     self.assertGreaterEqual(min(tones[1] - tones[0], tones[2] - tones[1]), 20)
                     self.assertLessEqual(tones[2], 245) # darker than white paper
 
+    def test_named_metals_mirror_the_studio(self):
+        """A metal's name alone is the physical metal under the default lights, and the classic table's row under all others."""
+        physical = "diffuse=1/0.782/0.344,metallic=1,roughness=0.2"
+        draw = lambda *words: self.png("teapot", "-s", "48", *words)
+        self.assertEqual(draw("--material", "gold"), draw("--material", physical))
+        for words in (["--look", "classic"], ["--rig", "studio"], ["--light", "point"], ["--gl1"], ["--reflection", "phong"], ["--shading", "flat"]):
+            self.assertEqual(draw("--material", "gold", *words), draw("--material", "gold,opacity=1", *words), words)
+        self.assertNotEqual(draw("--material", "gold"), draw("--material", "gold,opacity=1"))
+
 
 class Looks(Case):
     def test_built_in(self):
@@ -309,7 +318,7 @@ class Materials(Pictures):
             self.other(("--color", color), ())
         top = pixel(self.picture("--color", "red"), 32, 20)
         self.assertEqual((top[0] > 150, top[1] < 90, top[2] < 90), (True, True, True), top)
-        self.same(("--material", "silver"), ("--material", "silver,opacity=1"))  # the material, not the colour of HTML
+        self.same(("--rig", "studio", "--material", "silver"), ("--rig", "studio", "--material", "silver,opacity=1"))  # the material, not the colour of HTML
         self.other(("--material", "silver"), ("--color", "silver"))
         # Every material of a model, and a warning where colours of its own multiply.
         picture = self.picture("--color", "#00ff00", "--light", "none", "--ambient", "1", "--view", "front", model="cube.obj")
@@ -374,7 +383,7 @@ class Materials(Pictures):
         answer = json.loads(self.good("materials", "--json").stdout)["materials"]
         words = ["%s=%s" % (key, "/".join(map(repr, value)) if key != "shininess" else value)
                  for key, value in answer[10].items() if key != "name"]
-        self.same(("--material", "gold"), ("--material", ",".join(words)))
+        self.same(("--rig", "studio", "--material", "gold"), ("--rig", "studio", "--material", ",".join(words)))
         self.good("materials", "-o", "sheet.png", "-s", "300")
         self.assertEqual(self.new_files(), {"sheet.png"})
         width, height, data = sheet = self.png("materials", "-s", "300x200")

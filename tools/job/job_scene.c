@@ -12,13 +12,26 @@
 
 // --- materials
 
+// Whether metals that are named by --material mirror the studio: it lights the picture, and nothing asks for the numbers of the classic
+// table.
+static bool metals_mirror(const struct options *o, const lam_scene *scene)
+{
+    const lam_draw_params *draw = &o->draw;
+    bool changed = o->model_color || o->has_shininess || o->materials.count > 1;
+    return !o->has_rig && !o->lights.count && lam_scene_light_count(scene) == 0 && !changed && !draw->reflection &&
+           !draw->shading && !draw->stage && !draw->gl1 && o->color_mode == LAM_COLOR_SRGB;
+}
+
 static bool set_materials(const struct texts *texts, bool back, const char *name, const struct options *o,
                           lam_scene *scene, lam_error *error)
 {
     for (int i = 0; i < texts->count; i++) {
         struct material_option option;
-        if (!material_option_parse(texts->items[i], (lam_color_mode)o->color_mode, &option, error) ||
-            !material_option_set(&option, back, name, scene, error))
+        if (!material_option_parse(texts->items[i], (lam_color_mode)o->color_mode, &option, error))
+            return false;
+        if (!back && metals_mirror(o, scene))
+            material_option_mirror(&option);
+        if (!material_option_set(&option, back, name, scene, error))
             return false;
         material_option_warn(&option, name, scene);
     }

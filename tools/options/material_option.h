@@ -14,6 +14,9 @@ struct material_option {
 // A text of lam_material_parse, with or without "@TARGET" after it.
 bool material_option_parse(const char *text, lam_color_mode mode, struct material_option *option, lam_error *error);
 
+// A metal's name alone then stands for the physical metal, which mirrors the studio, and not for the classic table's row.
+void material_option_mirror(struct material_option *option);
+
 // The material that the option makes of one.
 lam_material material_option_apply(const struct material_option *option, lam_material material);
 

@@ -558,7 +558,9 @@ const struct option option_table[] = {
     {"material", 0, GROUP_MATERIALS, "NAME|KEYS[@WHERE]", "the model's",
      "A material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
      "A name of the classic table, whose colours are sRGB, keys separated by commas, or a name followed by keys "
-     "(`gold,shininess=80`). "
+     "(`gold,shininess=80`). Under the default lights `brass`, `bronze`, `chrome`, `copper`, `gold` and `silver` alone "
+     "are "
+     "physical metals that mirror the studio. "
      "Fields without a key keep the model's values. The keys are the fields that `lambent help materials` lists "
      "(colours "
      "are `#rrggbb`, a name, `r/g/b` or one number); or `color` (ambient and diffuse) and `specular_color` with "

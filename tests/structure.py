@@ -2,10 +2,12 @@
 """structure.py BUILD: the dependencies between source files, read from the symbols of the objects in the build folder.
 
 Two rules hold the house together (docs/architecture.md): files never depend on one another in a circle, in the library or in
-the program; and a room of the library uses no room below it in the list. The include paths of the build keep headers to that
-order; this test keeps function calls to it. A third keeps the way through the house: a file that a page or a comment names
-is there. A fourth keeps reflection models replaceable: what is asked of a lobe is asked of its row in src/lighting/lobes.h."""
+the program; and a room of the library or a folder of the program uses none below it in the list. The include paths of the build
+keep the library's headers to that order; this test keeps function calls to it, and the program's headers (a fifth rule). A third
+keeps the way through the house: a file that a page or a comment names is there. A fourth keeps reflection models replaceable:
+what is asked of a lobe is asked of its row in src/lighting/lobes.h."""
 import collections
+import functools
 import glob
 import os
 import re
@@ -22,9 +24,35 @@ def rooms():
     return ["base/" + name for name in inner] + [name for name in re.findall(r"^subdir\('(\w+)'\)", text, re.M) if name != "base"]
 
 
+def floors():
+    """The folders of the program in their order: the list in tools/meson.build. main.c may use all of them."""
+    text = open(os.path.join(ROOT, "tools", "meson.build")).read()
+    folders = re.findall(r"'([\w/]+)'", re.search(r"^floors = \[(.*?)\]", text, re.M | re.S)[1])
+    return ["tools/" + name for name in folders] + ["tools"]
+
+
 def room(file):
-    """base/text/number -> base/text; gl/loader -> gl; import/obj/obj -> import."""
+    """base/text/number -> base/text; gl/loader -> gl; import/obj/obj -> import; tools/many/jobs/job_words -> tools/many/jobs."""
+    if file.startswith("tools/"):
+        return os.path.dirname(file)
     return "/".join(file.split("/")[:2 if file.startswith("base/") else 1])
+
+
+@functools.cache
+def program_files():
+    """The C files and headers of tools/, as paths from the root."""
+    return sorted(os.path.relpath(os.path.join(path, name), ROOT) for path, _, names in os.walk(os.path.join(ROOT, "tools"))
+                  for name in names if name.endswith((".c", ".h")))
+
+
+def headers_back(order):
+    """(file, header) for each header that a file of the program includes from a folder after its own."""
+    place = {os.path.basename(file): file for file in program_files() if file.endswith(".h")}
+    for file in program_files():
+        for name in re.findall(r'^#include "([^"]+)"', open(os.path.join(ROOT, file), encoding="utf-8").read(), re.M):
+            header = place.get(name)
+            if header and order.index(room(header)) > order.index(room(file)):
+                yield file, header
 
 
 def objects(build):
@@ -35,10 +63,10 @@ def objects(build):
 
 def source_of(build, path):
     """src/gl/liblambent-gl.a.p/loader.c.o -> gl/loader; folders within a room are in the object's name, joined by _.
-    lambent.p/tools_job_output.c.o -> tools/job/output."""
+    lambent.p/tools_job_job_scene.c.o -> tools/job/job_scene."""
     if os.path.dirname(path) == os.path.join(build, "lambent.p"):
-        return re.sub(r"^tools_(?:([a-z]+)_)?", lambda m: "tools/" + (m[1] + "/" if m[1] else ""),
-                      re.sub(r"\.c\.o$", "", os.path.basename(path)))
+        name = os.path.basename(path)[:-2]
+        return next(file[:-2] for file in program_files() if file.replace("/", "_") == name)
     folder = os.path.relpath(os.path.dirname(path), os.path.join(build, "src")).split(os.sep)[0]
     name = re.sub(r"\.c\.o$", "", os.path.basename(path))
     for inner in sorted(os.listdir(os.path.join(ROOT, "src", folder))):
@@ -136,9 +164,9 @@ def lobes_asked_by_name():
 
 
 def main():
-    edges, order = graph(sys.argv[1]), rooms()
+    edges, order = graph(sys.argv[1]), rooms() + floors()
     bad = 0
-    print("1..4")
+    print("1..5")
     found = circles(edges)
     print("%s 1 - no circle between files" % ("not ok" if found else "ok"))
     for part in found:
@@ -148,8 +176,7 @@ def main():
             for b in part:
                 if b in edges[a]:
                     print("#   %s uses %s: %s" % (a, b, ", ".join(sorted(edges[a][b])[:6])))
-    back = [(a, b, edges[a][b]) for a in edges for b in edges[a]
-            if not a.startswith("tools/") and order.index(room(b)) > order.index(room(a))]
+    back = [(a, b, edges[a][b]) for a in edges for b in edges[a] if order.index(room(b)) > order.index(room(a))]
     print("%s 2 - no room uses one below it" % ("not ok" if back else "ok"))
     for a, b, symbols in sorted(back):
         bad += 1
@@ -164,6 +191,11 @@ def main():
     for file, comparison in named:
         bad += 1
         print("#   src/%s: %s" % (file, comparison))
+    headers = list(headers_back(order))
+    print("%s 5 - no folder of the program includes a header from one below it" % ("not ok" if headers else "ok"))
+    for file, header in headers:
+        bad += 1
+        print("#   %s includes %s" % (file, header))
     if not edges:
         print("# no objects were found in %s" % sys.argv[1])
     return 1 if bad or not edges else 0

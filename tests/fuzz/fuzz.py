@@ -36,7 +36,7 @@ WORDS = {
     "obj": ["src/import/obj"], "mtl": ["src/import/obj/mtl.c", "src/import/obj/mtl_maps.c"], "ply": ["src/import/ply"],
     "stl": ["src/import/stl"], "gltf": ["src/import/gltf"], "glb": ["src/import/gltf"],
     "scene": ["src/scene_file", "src/scene", "src/words"],
-    "render": ["src/import/obj", "src/import/ply", "src/import/gltf"], "job": ["tools/batch/jobs", "tools/options", "src/words"], "formula": ["src/shapes/formula_parse.c"],
+    "render": ["src/import/obj", "src/import/ply", "src/import/gltf"], "job": ["tools/many/jobs", "tools/options", "src/words"], "formula": ["src/shapes/formula_parse.c"],
 }
 NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "scene", "render", "job", "formula")
 

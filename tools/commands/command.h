@@ -1,53 +1,13 @@
-// command.h: the commands of the program. A command is one word of COMMANDS, one row of command_table.c and one file.
+// command.h: the functions of the commands. A command is one word of COMMANDS, one row of command_table.c and one file.
 #ifndef COMMAND_H
 #define COMMAND_H
 
-#include "options.h"
-
-// In the order of the help. The first one runs when the command line names none.
-#define COMMANDS(row)                                                                                                  \
-    row(render) row(batch) row(journal) row(compare) row(explain) row(info) row(check) row(shader) row(diff) row(plot) \
-        row(lights) row(shape) row(view) row(shapes) row(formats) row(looks) row(materials) row(devices) row(help)     \
-            row(complete) row(generate)
-
-#define COMMAND_INDEX(name) COMMAND_##name,
-enum command_index { COMMANDS(COMMAND_INDEX) COMMAND_COUNT };
+#include "command_table.h"
 
 // Runs a command. Reports its own errors; returns the program's exit code.
 typedef int command_fn(int operand_count, char **operands, const struct options *options);
 
 #define COMMAND_FUNCTION(name) command_fn run_##name;
 COMMANDS(COMMAND_FUNCTION)
-
-// A command's own default of an option that others take too. Ends with a NULL option.
-struct own_default {
-    const char *option, *standard;
-};
-
-struct command {
-    const char *name;
-    const char *operands;               // as the help shows them; NULL: none
-    const char *summary;                // one sentence
-    unsigned groups;                    // bit g: accepts the options of group g; TAKES_…: single options
-    int min_operands, max_operands;     // max −1: no limit
-    const struct own_default *defaults; // NULL: none of its own
-    const char *one_more; // what to write instead, for the error about more operands; NULL: nothing is known
-    bool verbatim;        // its words are no options, but for -h and --help as the first
-};
-
-extern const struct command command_table[]; // in the order of COMMANDS; ends with a NULL name
-
-const struct command *find_command(const char *name); // NULL: no such command
-unsigned find_groups(const char *name);               // of a command; 0: no such command
-
-// The default of an option in words, for a command: its own, else the option's. NULL: none is shown.
-const char *default_of(const struct command *command, const struct option *option);
-
-// Examples: a command line and what it does. Ends with NULL.
-struct example {
-    const char *line, *meaning;
-    bool brief; // shown by -h too
-};
-extern const struct example examples[];
 
 #endif

@@ -1,4 +1,4 @@
-// render.c: the main command: each model becomes a picture. The loop over them is tools/batch.
+// render.c: the main command: each model becomes a picture. The loop over them is tools/many.
 #include "command.h"
 
 #include <string.h>

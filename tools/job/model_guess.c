@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "command.h"
+#include "command_table.h"
 #include "output.h"
 #include "sandbox_start.h"
 #include "suggest.h"

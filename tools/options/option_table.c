@@ -6,9 +6,6 @@
 
 #include <lambent/check.h>
 
-#include "sandbox.h"
-#include "terminal.h"
-
 // Degrees of --fov, and of --camera with fovy alone.
 #define FOV_MIN 0.1
 #define FOV_MAX 179.9

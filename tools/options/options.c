@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "command.h"
+#include "command_table.h"
 #include "console.h"
 #include "look_option.h"
 #include "suggest.h"

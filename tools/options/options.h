@@ -27,7 +27,7 @@ struct options {
     int compress;           // lam_compress
     int quality;            // 0: the format's own
     bool durable;
-    int term;          // enum term_kind (terminal.h)
+    int term;          // enum term_kind
     double exposure;   // stops, where the next is literal
     int exposure_kind; // enum exposure_kind
     const char *show;  // as written (show_option.h); NULL: the picture
@@ -212,6 +212,10 @@ enum { RIG_DARK = 100 };
 // What the lights of a turntable are fixed to.
 enum turntable_light { TURNTABLE_LIGHT_CAMERA, TURNTABLE_LIGHT_MODEL };
 
+// --term: the protocol of pictures in a terminal.
+enum term_kind { TERM_AUTO, TERM_KITTY, TERM_ITERM2, TERM_SIXEL, TERM_BLOCKS, TERM_OFF };
+
+enum sandbox_mode { SANDBOX_AUTO, SANDBOX_REQUIRE, SANDBOX_OFF };
 enum texture_filter { TEXTURE_FILTER_EXACT, TEXTURE_FILTER_HARDWARE };
 enum shard_by { SHARD_BY_NAME, SHARD_BY_LIST };
 enum device_name { DEVICE_AUTO, DEVICE_CPU, DEVICE_GL, DEVICE_GLES };

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "command.h"
+#include "command_table.h"
 #include "console.h"
 #include "exit_codes.h"
 #include "json.h"

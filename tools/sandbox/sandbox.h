@@ -6,8 +6,6 @@
 
 #include "writer.h"
 
-enum sandbox_mode { SANDBOX_AUTO, SANDBOX_REQUIRE, SANDBOX_OFF };
-
 enum {
     SANDBOX_READ = 1,  // a file, or all files of a folder and below it
     SANDBOX_WRITE = 2, // a pipe or a device; files are written by the writer (writer.h)

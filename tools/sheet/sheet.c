@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "command.h"
+#include "command_table.h"
 #include "console.h"
 #include "sheet_defaults.h"
 #include "suggest.h"

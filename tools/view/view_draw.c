@@ -13,7 +13,7 @@
 #include "console.h"
 #include "device_option.h"
 #include "environment_cache.h"
-#include "explain.h"
+#include "explain_json.h"
 #include "job_check.h"
 #include "kept_model.h"
 #include "page_model.h"

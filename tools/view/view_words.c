@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "command.h"
+#include "command_table.h"
 #include "console.h"
 #include "environment_option.h"
 #include "job_check.h"

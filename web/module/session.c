@@ -5,12 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "command.h"
+#include "command_table.h"
 #include "console.h"
 #include "device_option.h"
 #include "environment_cache.h"
 #include "exit_codes.h"
-#include "explain.h"
+#include "explain_json.h"
 #include "job.h"
 #include "job_check.h"
 #include "json.h"

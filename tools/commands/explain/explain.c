@@ -11,6 +11,7 @@
 #include "device_option.h"
 #include "drawing.h"
 #include "explain_figure.h"
+#include "explain_json.h"
 #include "interrupt.h"
 #include "job_steps.h"
 #include "output.h"

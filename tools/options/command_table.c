@@ -1,5 +1,5 @@
 // command_table.c: the commands and the examples.
-#include "command.h"
+#include "command_table.h"
 
 #include <string.h>
 

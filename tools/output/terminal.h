@@ -6,8 +6,6 @@
 
 #include "options.h"
 
-enum term_kind { TERM_AUTO, TERM_KITTY, TERM_ITERM2, TERM_SIXEL, TERM_BLOCKS, TERM_OFF };
-
 // A terminal, and the size of a character cell in it.
 struct terminal {
     enum term_kind kind;         // TERM_OFF: it shows no pictures

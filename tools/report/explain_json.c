@@ -1,7 +1,5 @@
 // explain_json.c: prints an explained pixel as one line of JSON. Angles are in degrees; missing values are null.
-#include "explain.h"
-
-#include <stdio.h>
+#include "explain_json.h"
 
 #include "explain_words.h"
 #include "json.h"

@@ -15,6 +15,7 @@ extern "C" {
 //   ruby                   becomes a named material (lam_material_name)
 //   shininess=9,ks=0.5     changes fields: the keys of scene files, with their ranges (lam_material_field)
 //   gold,opacity=0.5       both, the name first
+//   ambient=diffuse        returns as much ambient light as diffuse light
 //   #ff8800                is short for color=#ff8800; also a colour's name that no material has, or r/g/b
 // Colours are as lam_color_parse takes them, or one number for all three channels. The symbols of colours (ka, kd, ks,
 // kr) multiply them; `color` sets ambient and diffuse, `specular_color` the highlight's colour for ks and kr. False: the

@@ -16,6 +16,7 @@ _Static_assert((int)MATERIAL_KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_
 struct reading {
     lam_material_id id; // a named material; LAM_MATERIAL_COUNT: none
     bool given[MATERIAL_KEYS];
+    bool ambient_is_diffuse; // ambient=diffuse
     double numbers[MATERIAL_KEYS][4];
 };
 
@@ -71,6 +72,11 @@ static bool read_pair(char *pair, lam_color_mode mode, struct reading *reading, 
     if (given(reading, key))
         return fail(error, LAM_BAD_ARGUMENT, "'%s' is given twice", pair);
     reading->given[key] = true;
+    if (value && strcmp(pair, "ambient") == 0 && strcmp(value, "diffuse") == 0) {
+        reading->given[key] = false;
+        reading->ambient_is_diffuse = true;
+        return true;
+    }
     if (key < LAM_FIELDS_MAX)
         return word_field(lam_material_field(key), value ? value : "yes", mode, reading->numbers[key], error);
     if (key < MATERIAL_COLOR)
@@ -149,6 +155,8 @@ static lam_material apply(const struct reading *reading, lam_color_mode mode, la
     for (int i = 0; lam_material_field(i); i++)
         if (given(reading, factor_of(i)))
             set_factor(reading, i, &m);
+    if (reading->ambient_is_diffuse)
+        m.ambient = (lam_rgb){m.diffuse.r, m.diffuse.g, m.diffuse.b};
     return m;
 }
 

@@ -305,6 +305,13 @@ class Materials(Pictures):
         self.bad(1, "two.obj", "--material", "gold@rigth", says=["no object, part or material 'rigth'", "did you mean 'right'?"], leaves={"two.obj"})
         self.same(("--material", "gold@sphere"), ("--material", "gold"))
 
+    def test_ambient_is_diffuse(self):
+        self.same(("--ambient", "1", "--material", "diffuse=0.3/0.2/0.1,ambient=diffuse"), ("--ambient", "1", "--material", "color=0.3/0.2/0.1"))
+        (self.folder / "black.mtl").write_text("newmtl a\nKa 0 0 0\nKd 0.7 0.7 0.7\n")
+        (self.folder / "black.obj").write_text("mtllib black.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.given |= {"black.mtl", "black.obj"}
+        self.assertGreater(pixel(self.picture("--look", "technical", "--view", "front", model="black.obj"), 25, 40)[0], 150)
+
     def test_color(self):
         """A colour alone is a material, and --color is the colour of every material."""
         for color in ("red", "#ff8800", "0.2/0.4/0.1"):

@@ -317,7 +317,8 @@ typedef struct lam_draw_params {
     float wireframe_width, edge_width; // pixels, up to 1000; 0: 1 and 1.5
     // Linear, not premultiplied. All zero: black, and white with no_surfaces over a background darker than 0.18.
     lam_rgba wireframe_color, edge_color;
-    lam_cavity cavity; // LAM_BAD_ARGUMENT: ON with LAM_OCCLUSION_RAYS, or without Phong shading
+    // LAM_BAD_ARGUMENT: ON with LAM_OCCLUSION_RAYS, or without Phong shading.
+    lam_cavity cavity;
     LAM_RESERVED(14);
 } lam_draw_params;
 

@@ -64,10 +64,11 @@ static void sky_row(int face, int t, float *texels)
     }
 }
 
-// A room, a cube about the origin, for the default picture of physical materials. A broad lamp at the ceiling lights the tops,
-// a large one in front and above the sides that are seen first, a dim strip at the right the third, so that the three faces of
-// a cube differ. Metals mirror the bright horizon between a dark floor and a dim wall; the small lamp behind brightens the rims of
-// black things. A level white surface has 1.1 (irradiance / π), of which the tone curve makes 0.9. A face of the cube map is a wall of the room.
+// A room, a cube about the origin, for the default picture of physical materials. The brightest lamp, at the ceiling, lights the tops and
+// casts short soft shadows on a ground; a large one in front and above lights the sides that are seen first, a dim one at the right
+// the third, so that the three faces of a cube differ. Metals mirror the bright horizon between a dark floor and a dim wall; the lamp
+// behind brightens the rims of black things. A level white surface has 1.1 (irradiance / π), of which the tone curve makes 0.9. A
+// face of the cube map is a wall of the room.
 struct lamp {
     double intensity;
     struct rgb color;
@@ -76,11 +77,11 @@ struct lamp {
 };
 #define WHITE {{1.00, 0.97, 0.92}}
 #define COOL  {{0.82, 0.90, 1.00}}
-static const struct lamp lamps[LAM_FACE_COUNT] = {[LAM_FACE_PY] = {2.95, WHITE, 0.08, -0.27, 0.37, 0.71},
-                                                  [LAM_FACE_NX] = {0.55, WHITE, 0.24, 0.48, 0.2, 0.56},
-                                                  [LAM_FACE_PX] = {0.52, COOL, -0.38, -0.22, 0.65, 0.12},
-                                                  [LAM_FACE_PZ] = {1.66, WHITE, -0.18, 0.36, 0.6, 0.71},
-                                                  [LAM_FACE_NZ] = {5.5, COOL, 0.3, 0.3, 0.35, 0.35}};
+static const struct lamp lamps[LAM_FACE_COUNT] = {[LAM_FACE_PY] = {6.5, WHITE, -0.3, 0.1, 0.3, 0.36},
+                                                  [LAM_FACE_NX] = {0.5, WHITE, 0.24, 0.48, 0.2, 0.56},
+                                                  [LAM_FACE_PX] = {0.85, COOL, -0.3, -0.1, 0.65, 0.25},
+                                                  [LAM_FACE_PZ] = {1.4, WHITE, -0.18, 0.36, 0.6, 0.71},
+                                                  [LAM_FACE_NZ] = {2.7, COOL, 0.3, 0.35, 0.42, 0.4}};
 
 // 1 within half a width of 0, soft at its edges.
 static double soft_edge(double x, double half_width)

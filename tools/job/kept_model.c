@@ -1,6 +1,8 @@
 // kept_model.c: a model that stays loaded.
 #include "kept_model.h"
 
+#include <lambent/settings.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,22 +16,30 @@ void kept_model_forget(struct kept_model *model)
     *model = (struct kept_model){0};
 }
 
-// Whether a scene that is loaded serves other values of the option: those of the picture, the view, lights and materials.
-// An option that is not listed here is taken for one that changes the scene.
+// Whether the option is a setting of the library's table, whose keys have _ in place of -.
+static bool is_setting(const char *name)
+{
+    char key[40];
+    size_t i = 0;
+    for (; name[i] && i + 1 < sizeof key; i++)
+        key[i] = name[i] == '-' ? '_' : name[i];
+    key[i] = 0;
+    return lam_draw_setting_find(key) >= 0;
+}
+
+// Whether a scene that is loaded serves other values of the option: those of the picture, the view, lights, materials and
+// drawing. An option of another kind is taken for one that changes the scene.
 static bool changes_drawing_only(const struct option *option)
 {
-    static const char *const shading[] = {"shading", "stage",  "viewer",           "single-scattering", "reflectivity",
-                                          "shadows", "ground", "shadow-samples",   "shadow-terminator", "cull",
-                                          "tone",    "gl1",    "match-highlights", "flat-normal",       "reflection"};
     static const char *const except[] = {"up", "color-mode", "look"};
     for (size_t i = 0; i < sizeof except / sizeof *except; i++)
         if (strcmp(option->name, except[i]) == 0)
             return false;
-    for (size_t i = 0; i < sizeof shading / sizeof *shading; i++)
-        if (strcmp(option->name, shading[i]) == 0)
-            return true;
+    if (option->loads)
+        return false;
     return option->group == GROUP_PICTURE || option->group == GROUP_VIEW || option->group == GROUP_LIGHTS ||
-           option->group == GROUP_MATERIALS;
+           option->group == GROUP_MATERIALS || is_setting(option->name) || strcmp(option->name, "cull") == 0 ||
+           strcmp(option->name, "reflectivity") == 0;
 }
 
 // The model and the options that it is loaded by, from malloc.

@@ -651,7 +651,8 @@ const struct option option_table[] = {
      "into triangles. `--surfaces off` draws the lines alone. Lines are smooth whatever `--samples` says, and keep "
      "their "
      "colour and width: light, exposure, tone and distance do not change them. `docs/edges.md` has pictures.",
-     .store = store_switch, .others = "wire mesh mesh-lines show-edges polygons topology", FIELD(draw.wireframe)},
+     .store = store_switch, .others = "wire mesh mesh-lines show-edges polygons topology", FIELD(draw.wireframe),
+     .loads = true},
     {"wireframe-width", 0, GROUP_SHADING, "PIXELS", "1", "The width of the wireframe's lines.", NULL,
      .store = store_float, .others = "wire-width", FIELD(draw.wireframe_width), .min = 0.01, .max = 1000},
     {"wireframe-color", 0, GROUP_SHADING, "COLOR", "black", "The colour of the wireframe.",
@@ -663,7 +664,7 @@ const struct option option_table[] = {
      "`silhouette`: one of its two faces is seen from the front and the other from behind. "
      "`--edges all --surfaces off` is a technical drawing.",
      edge_words, .store = store_words, .others = "edge feature-edges outline outlines contour toon lineart line-art",
-     FIELD(draw.edges)},
+     FIELD(draw.edges), .loads = true},
     {"edge-angle", 0, GROUP_SHADING, "DEGREES", "40", "Creases are edges whose faces meet at more than this.", NULL,
      .store = store_angle, .others = "feature-angle sharp-angle", FIELD(draw.edge_angle_rad), .min = 0.001, .max = 180},
     {"edge-width", 0, GROUP_SHADING, "PIXELS", "1.5", "The width of feature edges.", NULL, .store = store_float,

@@ -1,8 +1,6 @@
 // kept_model.c: a model that stays loaded.
 #include "kept_model.h"
 
-#include <lambent/settings.h>
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,17 +14,6 @@ void kept_model_forget(struct kept_model *model)
     *model = (struct kept_model){0};
 }
 
-// Whether the option is a setting of the library's table, whose keys have _ in place of -.
-static bool is_setting(const char *name)
-{
-    char key[40];
-    size_t i = 0;
-    for (; name[i] && i + 1 < sizeof key; i++)
-        key[i] = name[i] == '-' ? '_' : name[i];
-    key[i] = 0;
-    return lam_draw_setting_find(key) >= 0;
-}
-
 // Whether a scene that is loaded serves other values of the option: those of the picture, the view, lights, materials and
 // drawing. An option of another kind is taken for one that changes the scene.
 static bool changes_drawing_only(const struct option *option)
@@ -38,7 +25,7 @@ static bool changes_drawing_only(const struct option *option)
     if (option->loads)
         return false;
     return option->group == GROUP_PICTURE || option->group == GROUP_VIEW || option->group == GROUP_LIGHTS ||
-           option->group == GROUP_MATERIALS || is_setting(option->name) || strcmp(option->name, "cull") == 0 ||
+           option->group == GROUP_MATERIALS || option_setting(option) || strcmp(option->name, "cull") == 0 ||
            strcmp(option->name, "reflectivity") == 0;
 }
 

@@ -327,19 +327,16 @@ const struct option option_table[] = {
      "Each pixel sees a texture through a footprint that is long where the surface turns away. One probe has the size "
      "of its "
      "longer axis, which blurs the shorter one; N probes along the longer axis are as sharp as N times that.",
-     .store = store_integer, .others = "anisotropic anisotropic-filtering", FIELD(draw.anisotropy), .min = 1,
-     .max = 16},
+     .store = store_integer, .others = "anisotropic anisotropic-filtering", FIELD(draw.anisotropy)},
     {"line-width", 0, GROUP_PICTURE, "PIXELS", "1.5", "The width of the lines that a model has.",
      "Lines of OBJ (`l`), PLY (`edge`) and glTF files are as wide at every distance. They lie nearer than their "
      "vertices by "
      "their width, so that lines on a surface are seen, and end without caps.",
-     .store = store_float, .others = "linewidth stroke-width thickness", FIELD(draw.line_width), .min = 0.01,
-     .max = 1000},
+     .store = store_float, .others = "linewidth stroke-width thickness", FIELD(draw.line_width)},
     {"point-size", 0, GROUP_PICTURE, "PIXELS", "3", "The size of the points that a model has: the sides of squares.",
      "Points of OBJ (`p`) and glTF files, and the vertices of PLY files without faces and edges, are as large at every "
      "distance.",
-     .store = store_float, .others = "pointsize point-width splat-size", FIELD(draw.point_size), .min = 0.01,
-     .max = 1000},
+     .store = store_float, .others = "pointsize point-width splat-size", FIELD(draw.point_size)},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
      "It lies wherever the model does not, in pictures of `--show` too, and behind each picture of a sheet. The sheets "
@@ -535,7 +532,7 @@ const struct option option_table[] = {
      "possible sum in a channel stays below this share of the channel's full range. The default is half a step "
      "of an 8-bit channel (0.5/255): no byte is off by more than 1. Lights that contribute exactly nothing "
      "(behind the surface, beyond their range, outside their cone) are always skipped.",
-     .store = store_cutoff, FIELD(draw.light_cutoff), .min = 0, .max = 1},
+     .store = store_cutoff, FIELD(draw.light_cutoff)},
     {"ao", 0, GROUP_LIGHTS, "HOW", "auto", "Ambient occlusion: auto, off, screen or rays.",
      "Light from all around reaches a recess less than an open face. Occlusion dims ambient, hemisphere and "
      "environment "
@@ -550,12 +547,10 @@ const struct option option_table[] = {
      cavity_words, .store = store_word, .others = "curvature ridges valleys no-cavity", FIELD(draw.cavity)},
     {"ao-radius", 0, GROUP_LIGHTS, "SHARE", "0.1",
      "How far away surfaces occlude, as a share of half the diagonal of the scene's box.", "", NULL,
-     .store = store_float, .others = "occlusion-radius ssao-radius", FIELD(draw.occlusion_radius), .min = 0.001,
-     .max = 10},
+     .store = store_float, .others = "occlusion-radius ssao-radius", FIELD(draw.occlusion_radius)},
     {"ao-samples", 0, GROUP_LIGHTS, "N", "64",
      "Rays from each lit point with `--ao rays`; more of them make its grain finer.", NULL, NULL,
-     .store = store_integer, .others = "occlusion-samples ao-rays ray-count", FIELD(draw.occlusion_samples), .min = 1,
-     .max = 1024},
+     .store = store_integer, .others = "occlusion-samples ao-rays ray-count", FIELD(draw.occlusion_samples)},
     {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1", "Multiply the brightness of all lights except `--ambient`.", NULL,
      .store = store_number, .others = "intensity light-intensity light-power", FIELD(lighting.light_scale),
      .has_field = offsetof(struct options, lighting.has_light_scale), .min = 0, .max = 1e6},
@@ -622,8 +617,7 @@ const struct option option_table[] = {
      "compare with. "
      "1024 directions are mostly within 0.5 % of it, 4096 within 0.2 %. The directions are the same at every point "
      "and on every machine. CPU only.",
-     .store = store_integer, .others = "ground-truth importance-samples", FIELD(draw.reference), .min = 0,
-     .max = 1 << 20},
+     .store = store_integer, .others = "ground-truth importance-samples", FIELD(draw.reference)},
     {"shadows", 0, GROUP_SHADING, NULL, NULL, "Let triangles take away the light of points behind them.",
      "Exact: a ray from every lit point to every light whose key `shadows` is not off. Ambient and hemisphere light "
      "and the environment cast none. A light with a `radius` has soft shadows. `docs/lighting/shadows.md` describes "
@@ -644,7 +638,7 @@ const struct option option_table[] = {
     {"shadow-samples", 0, GROUP_SHADING, "N", "16",
      "Points of a light with a radius that each lit point is tested with.",
      "Their share that is in sight is the share of the light that arrives.", .store = store_integer,
-     .others = "soft-shadow-samples light-samples", FIELD(draw.shadow_samples), .min = 1, .max = 256},
+     .others = "soft-shadow-samples light-samples", FIELD(draw.shadow_samples)},
     {"wireframe", 'w', GROUP_SHADING, NULL, NULL, "Draw the edges of all faces as lines over the picture.",
      "Edges behind surfaces are left out (`--hidden-lines`), and so are those that cut the polygons of OBJ and PLY "
      "files "
@@ -654,7 +648,7 @@ const struct option option_table[] = {
      .store = store_switch, .others = "wire mesh mesh-lines show-edges polygons topology", FIELD(draw.wireframe),
      .loads = true},
     {"wireframe-width", 0, GROUP_SHADING, "PIXELS", "1", "The width of the wireframe's lines.", NULL,
-     .store = store_float, .others = "wire-width", FIELD(draw.wireframe_width), .min = 0.01, .max = 1000},
+     .store = store_float, .others = "wire-width", FIELD(draw.wireframe_width)},
     {"wireframe-color", 0, GROUP_SHADING, "COLOR", "black", "The colour of the wireframe.",
      "With `--surfaces off` over a dark background it is white by default. An alpha below 1 lets the surfaces through.",
      .kind = VALUE_COLOR, .store = store_color, .others = "wire-color", FIELD(shading.wireframe_color)},
@@ -666,9 +660,9 @@ const struct option option_table[] = {
      edge_words, .store = store_words, .others = "edge feature-edges outline outlines contour toon lineart line-art",
      FIELD(draw.edges), .loads = true},
     {"edge-angle", 0, GROUP_SHADING, "DEGREES", "40", "Creases are edges whose faces meet at more than this.", NULL,
-     .store = store_angle, .others = "feature-angle sharp-angle", FIELD(draw.edge_angle_rad), .min = 0.001, .max = 180},
+     .store = store_angle, .others = "feature-angle sharp-angle", FIELD(draw.edge_angle_rad)},
     {"edge-width", 0, GROUP_SHADING, "PIXELS", "1.5", "The width of feature edges.", NULL, .store = store_float,
-     .others = "outline-width", FIELD(draw.edge_width), .min = 0.01, .max = 1000},
+     .others = "outline-width", FIELD(draw.edge_width)},
     {"edge-color", 0, GROUP_SHADING, "COLOR", "black", "The colour of feature edges.",
      "With `--surfaces off` over a dark background it is white by default.", .kind = VALUE_COLOR, .store = store_color,
      .others = "outline-color", FIELD(shading.edge_color)},

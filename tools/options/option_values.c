@@ -156,13 +156,13 @@ const char *read_number(const char *text, double *value)
 
 static bool number_between(const struct option *option, const char *value, bool whole, double *number, lam_error *error)
 {
+    const lam_setting *setting = option_setting(option);
+    double min = !setting ? option->min : setting->zero ? 0 : setting->min, max = setting ? setting->max : option->max;
     const char *end = read_number(value, number);
-    if (end && !*end && *number >= option->min && *number <= option->max &&
-        (!whole || *number == (double)(long)*number))
+    if (end && !*end && *number >= min && *number <= max && (!whole || *number == (double)(long)*number))
         return true;
     char expected[128];
-    int used = snprintf(expected, sizeof expected, "a %snumber from %.10g to %.10g", whole ? "whole " : "", option->min,
-                        option->max);
+    int used = snprintf(expected, sizeof expected, "a %snumber from %.10g to %.10g", whole ? "whole " : "", min, max);
     if (end && strcmp(end, "%") == 0 && !whole)
         snprintf(expected + used, sizeof expected - (size_t)used, "; %.40s is %.10g", value, *number / 100);
     return wrong(error, value, expected);

@@ -3,6 +3,8 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
+#include <lambent/settings.h>
+
 #include "option_groups.h"
 
 enum { OPTIONS_MAX = 192 };
@@ -116,7 +118,7 @@ struct option {
     // mistake without naming the option.
     bool (*store)(const struct option *option, const char *value, struct options *options, lam_error *error);
     size_t field, has_field; // has_field: a bool to set as well (words and numbers); 0: none
-    double min, max;         // for numbers
+    double min, max;         // for numbers, unless option_setting has them
     unsigned single;         // TAKES_…, if commands may accept it without its group
     const char *brief;       // for -h: a few words; NULL: not shown there
     size_t letter_field;     // a bool to set as well where the option is given by its letter; 0: none
@@ -138,6 +140,9 @@ void options_free(struct options *options);
 
 // Makes an independent copy. False: out of memory; there is nothing to free.
 bool options_copy(struct options *to, const struct options *from);
+
+// The row of the library's table of settings that the option stores, whose range is its own; NULL: none.
+const lam_setting *option_setting(const struct option *option);
 
 // The option of a long name; NULL: no such option.
 const struct option *option_find(const char *name);

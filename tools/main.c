@@ -20,10 +20,10 @@ static struct options scan_report_options(int count, char **words)
         bool output =
             strcmp(words[i], "-o") == 0 || strcmp(words[i], "--output") == 0 || strcmp(words[i], "--out") == 0;
         if (strcmp(words[i], "--json") == 0)
-            options.json = true;
+            options.report.json = true;
         if ((output && i + 1 < count && strcmp(words[i + 1], "-") == 0) || strcmp(words[i], "-o-") == 0 ||
             strcmp(words[i], "--output=-") == 0 || strcmp(words[i], "--out=-") == 0)
-            options.output = "-";
+            options.picture.output = "-";
     }
     return options;
 }
@@ -42,7 +42,7 @@ static const struct command *take_command(int *count, char **words)
 static bool check_operands(const struct command *command, int count, char **operands, const struct options *options,
                            lam_error *error)
 {
-    if (options->lists.count) // whose names are models
+    if (options->batch.lists.count) // whose names are models
         return true;
     if (count < command->min_operands && command == command_table)
         return complain(error, LAM_BAD_ARGUMENT, "no model given, expected a file, a shape's name or -");
@@ -58,21 +58,21 @@ static bool check_operands(const struct command *command, int count, char **oper
 static int execute(const struct command *command, int operands, char **words, struct options *options)
 {
     lam_error error = {0};
-    if (options->help) {
-        (options->brief_help ? print_brief_help : print_help)(command);
+    if (options->report.help) {
+        (options->report.brief_help ? print_brief_help : print_help)(command);
         return 0;
     }
-    if (options->version) {
+    if (options->report.version) {
         char sandbox[SANDBOX_TEXT_SIZE];
         struct sandbox_state offered = sandbox_offered();
         printf("lambent %s\n%s\nsandbox %s\n", lam_version(), lam_build_info(), sandbox_text(&offered, sandbox));
         return 0;
     }
-    if (options->output && strcmp(options->output, "/dev/stdout") == 0)
-        options->output = "-"; // nothing but the picture may be written there
+    if (options->picture.output && strcmp(options->picture.output, "/dev/stdout") == 0)
+        options->picture.output = "-"; // nothing but the picture may be written there
     if (!check_operands(command, operands, words, options, &error))
         return report_failure(&error, options);
-    options->files_inside |= options->sandbox == SANDBOX_REQUIRE && !options->allow_paths.count;
+    options->limits.files_inside |= options->limits.sandbox == SANDBOX_REQUIRE && !options->limits.allow_paths.count;
 #define RUN(name) run_##name,
     static command_fn *const functions[] = {COMMANDS(RUN)};
     return functions[command - command_table](operands, words, options);

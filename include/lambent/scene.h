@@ -362,9 +362,8 @@ LAM_API lam_rgb lam_scene_ambient(const lam_scene *scene);
 LAM_API bool lam_scene_set_environment(lam_scene *scene, const lam_environment *environment, double rotation_rad,
                                        lam_error *error);
 
-// The environment, NULL where there is none, and its rotation in radians.
+// The environment, NULL where there is none.
 LAM_API const lam_environment *lam_scene_environment(const lam_scene *scene);
-LAM_API double lam_scene_environment_rotation(const lam_scene *scene);
 
 // Sets the material of parts that name none, at first lam_material_default(). False: as lam_scene_add_material.
 LAM_API bool lam_scene_set_default_material(lam_scene *scene, const lam_material *material, lam_error *error);

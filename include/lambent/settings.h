@@ -38,7 +38,11 @@ typedef struct lam_setting {
     // first is written.
     const char *(*word)(int index, int *value);
     const char *summary; // one sentence
-    LAM_RESERVED(8);
+    const char *member;  // its name in lam_draw_params
+    // WHOLE, NUMBER and ANGLE: the values that an error about another one names. WORD and WORDS: the enumeration (lam_…), or the members that
+    // share an error.
+    const char *expected;
+    LAM_RESERVED(6);
 } lam_setting;
 
 // The most rows of the table: lam_picture_settings has a bit for each.

@@ -28,11 +28,6 @@ typedef enum lam_texture_values {
 LAM_API lam_texture *lam_texture_make(const struct lam_image *image, lam_texture_values values, const char *name,
                                       lam_error *error);
 
-// The same from a file of any format that lam_image_load reads. `control` may be NULL. Errors: those of lam_image_load and
-// those above.
-LAM_API lam_texture *lam_texture_load(const char *path, lam_texture_values values, const lam_control *control,
-                                      lam_error *error);
-
 // Frees a texture; scenes whose materials name it keep it. NULL is fine.
 LAM_API void lam_texture_free(lam_texture *texture);
 

@@ -351,17 +351,10 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, const lam
         frame->occlusion = LAM_OCCLUSION_OFF; // a scene without extent
 }
 
-bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
-                 int width, int height, struct call_control *call, lam_error *error)
+// The settings that a device reads as they are, with their defaults.
+static void copy_params(struct frame *frame, const lam_draw_params *params, int width, int height)
 {
-    if (!frame_camera_check(camera, error) || !frame_params_check(params, error))
-        return false;
     bool of_material = output_is_material(params->output);
-    frame->reflection =
-        of_material && !frame_is_physical(params->reflection) ? LAM_REFLECTION_AUTO : params->reflection;
-    if (!allocate_arrays(frame, scene, call, error))
-        return false;
-    frame->token = scene->token;
     frame->width = width;
     frame->height = height;
     frame->anisotropy = params->anisotropy ? params->anisotropy : 1;
@@ -375,8 +368,6 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
                    : params->stage                          ? params->stage
                    : params->shading == LAM_SHADING_GOURAUD ? LAM_STAGE_VERTEX
                                                             : LAM_STAGE_FRAGMENT;
-    frame->orthographic = camera->ortho_half_height > 0;
-    frame->distant_viewer = frame->orthographic || params->viewer == LAM_VIEWER_INFINITE;
     frame->flat_normal = params->flat_normal;
     frame->match_highlights = params->match_highlights;
     frame->gl1 = params->gl1;
@@ -385,6 +376,83 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->light_cutoff = params->light_cutoff > 0    ? params->light_cutoff
                           : params->light_cutoff == 0 ? 0.5f / 255.0f
                                                       : 0;
+}
+
+// The planes of the projection, and the distances that --show depth makes black and white.
+static void set_planes(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, double near_plane,
+                       double far_plane)
+{
+    frame->near_plane = rounded(near_plane);
+    frame->far_plane = rounded(far_plane);
+    frame->depth_near = frame->depth_far = 0;
+    double nearest, farthest;
+    if (frame->output == LAM_OUTPUT_DEPTH && view_extents_depth(scene, view, &nearest, &farthest)) {
+        frame->depth_near = rounded(nearest > near_plane ? nearest : near_plane);
+        frame->depth_far = rounded(farthest < far_plane ? farthest : far_plane);
+    }
+}
+
+// The scene's objects, as triangles that follow one another.
+static bool build_draws(struct frame *frame, const lam_scene *scene, const lam_draw_params *params,
+                        const struct stroke_view *strokes, struct call_control *call, lam_error *error)
+{
+    uint64_t next = 0;
+    for (int i = 0; i < scene->objects.count; i++) {
+        const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
+        uint64_t triangles = mesh_is_strokes(mesh) ? 2 * (uint64_t)mesh_items(mesh) : mesh->triangle_count;
+        if (!triangles || (params->no_surfaces && !mesh_is_strokes(mesh)))
+            continue;
+        if (next + triangles > TRIANGLES_MAX)
+            return fail(error, LAM_LIMIT, "the scene has more than %u triangles", TRIANGLES_MAX);
+        if (!call_check_triangles(call, "the scene", next + triangles, "triangles", error))
+            return false;
+        struct frame_draw *draw = &frame->draws[frame->draw_count];
+        build_draw(draw, mesh, scene_object(scene, i), (uint32_t)next, strokes->view, strokes->pixel);
+        draw->object = i;
+        draw->crease_rad = mesh->normals ? 0 : scene->deferred_crease_rad;
+        if (mesh_is_strokes(mesh))
+            frame_strokes_build(frame, draw, &scene_object(scene, i)->transform, strokes);
+        frame->makes_normals |= draw->crease_rad > 0;
+        build_ranges(frame, scene, frame->draw_count++);
+        next += triangles;
+    }
+    frame->triangle_count = (uint32_t)next;
+    return true;
+}
+
+static void set_tone(struct frame *frame, const lam_draw_params *params, bool physical)
+{
+    frame->tone = params->tone                                 ? params->tone
+                  : physical && params->color != LAM_COLOR_RAW ? LAM_TONE_KHRONOS_NEUTRAL
+                                                               : LAM_TONE_NONE;
+    if (!lam_output_is_light(frame->output))
+        frame->tone = LAM_TONE_NONE;
+}
+
+static void leave_normals(struct frame *frame)
+{
+    // Flat shading has the normals of the faces; coverage and overdraw need no normals.
+    if (lam_output_is_light(frame->output)
+            ? frame->shading == LAM_SHADING_FLAT && frame->flat_normal == LAM_FLAT_NORMAL_FACE
+            : frame->output == LAM_OUTPUT_COVERAGE || frame->output == LAM_OUTPUT_OVERDRAW ||
+                  output_is_material(frame->output))
+        frame->makes_normals = false;
+}
+
+bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
+                 int width, int height, struct call_control *call, lam_error *error)
+{
+    if (!frame_camera_check(camera, error) || !frame_params_check(params, error))
+        return false;
+    bool of_material = output_is_material(params->output);
+    frame->reflection =
+        of_material && !frame_is_physical(params->reflection) ? LAM_REFLECTION_AUTO : params->reflection;
+    if (!allocate_arrays(frame, scene, call, error))
+        return false;
+    frame->token = scene->token;
+    copy_params(frame, params, width, height);
+    frame->orthographic = camera->ortho_half_height > 0;
+    frame->distant_viewer = frame->orthographic || params->viewer == LAM_VIEWER_INFINITE;
     frame->draw_count = frame->range_count = frame->light_count = frame->hemisphere_count = 0;
     frame->triangle_count = 0;
     frame->translucent = frame->passes_rays = frame->tints_rays = frame->masked = frame->transmits =
@@ -406,14 +474,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
             frame_ground_planes(&frame->ground, &view, frame->orthographic, &near_plane, &far_plane);
         frame_strokes_near(scene, camera, &stroke_view, height, &near_plane);
     }
-    frame->near_plane = rounded(near_plane);
-    frame->far_plane = rounded(far_plane);
-    frame->depth_near = frame->depth_far = 0;
-    double nearest, farthest;
-    if (frame->output == LAM_OUTPUT_DEPTH && view_extents_depth(scene, &view, &nearest, &farthest)) {
-        frame->depth_near = rounded(nearest > near_plane ? nearest : near_plane);
-        frame->depth_far = rounded(farthest < far_plane ? farthest : far_plane);
-    }
+    set_planes(frame, scene, &view, near_plane, far_plane);
     lam_mat4 projection = frame->orthographic
                               ? mat4_orthographic(camera->ortho_half_height, aspect, near_plane, far_plane)
                               : mat4_perspective(camera->fovy_rad, aspect, near_plane, far_plane);
@@ -426,43 +487,16 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     stroke_view.near_plane = near_plane;
     if (!frame_strokes_reserve(frame, scene, call, error))
         return false;
-    uint64_t next = 0;
-    for (int i = 0; i < scene->objects.count; i++) {
-        const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
-        uint64_t triangles = mesh_is_strokes(mesh) ? 2 * (uint64_t)mesh_items(mesh) : mesh->triangle_count;
-        if (!triangles || (params->no_surfaces && !mesh_is_strokes(mesh)))
-            continue;
-        if (next + triangles > TRIANGLES_MAX)
-            return fail(error, LAM_LIMIT, "the scene has more than %u triangles", TRIANGLES_MAX);
-        if (!call_check_triangles(call, "the scene", next + triangles, "triangles", error))
-            return false;
-        struct frame_draw *draw = &frame->draws[frame->draw_count];
-        build_draw(draw, mesh, scene_object(scene, i), (uint32_t)next, &view, &pixel);
-        draw->object = i;
-        draw->crease_rad = mesh->normals ? 0 : scene->deferred_crease_rad;
-        if (mesh_is_strokes(mesh))
-            frame_strokes_build(frame, draw, &scene_object(scene, i)->transform, &stroke_view);
-        frame->makes_normals |= draw->crease_rad > 0;
-        build_ranges(frame, scene, frame->draw_count++);
-        next += triangles;
-    }
-    frame->triangle_count = (uint32_t)next;
+    if (!build_draws(frame, scene, params, &stroke_view, call, error))
+        return false;
     bool physical = false;
     for (int i = 0; i < frame->range_count; i++)
         physical |= frame_is_physical(frame->ranges[i].reflection);
-    if (frame->ground.kind && !add_ground(frame, params, next, physical, &view, &pixel, call, error))
+    if (frame->ground.kind && !add_ground(frame, params, frame->triangle_count, physical, &view, &pixel, call, error))
         return false;
-    frame->tone = params->tone                                 ? params->tone
-                  : physical && params->color != LAM_COLOR_RAW ? LAM_TONE_KHRONOS_NEUTRAL
-                                                               : LAM_TONE_NONE;
-    if (!lam_output_is_light(frame->output))
-        frame->tone = LAM_TONE_NONE;
+    set_tone(frame, params, physical);
     frame->environment_lights = physical && frame->environment && shows_reflection(frame->output);
-    // Flat shading has the normals of the faces; coverage and overdraw need no normals.
-    if (lam_output_is_light(frame->output)
-            ? frame->shading == LAM_SHADING_FLAT && frame->flat_normal == LAM_FLAT_NORMAL_FACE
-            : frame->output == LAM_OUTPUT_COVERAGE || frame->output == LAM_OUTPUT_OVERDRAW || of_material)
-        frame->makes_normals = false;
+    leave_normals(frame);
     // Lit by a classic model, materials that the environment would have lit have the studio's rig.
     bool by_rig = params->rig == LAM_RIG_AUTO && !scene->lights.count && !uses_physical(frame);
     if (!frame_lights_build(frame, scene, by_rig ? LAM_RIG_STUDIO : params->rig,

@@ -372,8 +372,6 @@ bool lam_scene_set_environment(lam_scene *scene, const lam_environment *environm
 
 const lam_environment *lam_scene_environment(const lam_scene *scene) { return scene ? scene->environment : NULL; }
 
-double lam_scene_environment_rotation(const lam_scene *scene) { return scene ? scene->environment_rotation_rad : 0; }
-
 const lam_material *lam_scene_default_material(const lam_scene *scene)
 {
     return scene ? &scene->default_material : NULL;

@@ -40,12 +40,61 @@ static bool check_attribute(const char *name, const float *values, uint32_t coun
     return true;
 }
 
+// The word for the items of a mesh in messages.
+static const char *items_word(const lam_mesh *mesh)
+{
+    return mesh->line_count ? "lines" : mesh->point_count ? "points" : "triangles";
+}
+
+static bool check_colors(const lam_mesh *mesh, lam_error *error)
+{
+    if (!mesh->colors)
+        return true;
+    if (mesh->colors_format < LAM_COLORS_SRGB8 || mesh->colors_format > LAM_COLORS_LINEAR_F32)
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: colors are given, but colors_format is %d", mesh->colors_format);
+    const float *as_floats = mesh->colors_format == LAM_COLORS_LINEAR_F32 ? mesh->colors : NULL;
+    if (as_floats && !finite_floats(as_floats, (size_t)mesh->color_count * 4))
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: colors contain a number that is not finite");
+    size_t corners = mesh_corners(mesh);
+    size_t needed = mesh->colors_rate == LAM_PER_TRIANGLE ? mesh_items(mesh)
+                    : mesh->indices                       ? mesh->vertex_count
+                                                          : corners;
+    bool by_index = mesh->color_indices && mesh->colors_rate == LAM_PER_VERTEX;
+    if (by_index ? !indices_below(mesh->color_indices, corners, mesh->color_count) : mesh->color_count < needed)
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: a corner's index of colors is not below their count, %u",
+                    mesh->color_count);
+    return true;
+}
+
+static bool check_parts(const struct lam_scene *scene, const lam_mesh *mesh, lam_error *error)
+{
+    if (mesh->part_count && !mesh->parts)
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: part_count is %u, but parts is NULL", mesh->part_count);
+    uint64_t next = 0;
+    for (uint32_t i = 0; i < mesh->part_count; i++) {
+        const lam_part *part = &mesh->parts[i];
+        if (!check_reserved("part", part, error))
+            return false;
+        if (part->first_triangle != next)
+            return fail(error, LAM_BAD_ARGUMENT, "mesh: part %u starts at triangle %u, expected %llu", i,
+                        part->first_triangle, (unsigned long long)next);
+        next += part->triangle_count;
+        if (part->material >= scene->materials.count)
+            return fail(error, LAM_BAD_ARGUMENT, "mesh: part %u names material %d of %d", i, part->material,
+                        scene->materials.count);
+    }
+    if (mesh->part_count && next != mesh_items(mesh))
+        return fail(error, LAM_BAD_ARGUMENT, "mesh: the parts cover %llu of %u %s", (unsigned long long)next,
+                    mesh_items(mesh), items_word(mesh));
+    return true;
+}
+
 static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_error *error)
 {
     if (!check_reserved("mesh", mesh, error))
         return false;
     size_t corners = mesh_corners(mesh);
-    const char *items = mesh->line_count ? "lines" : mesh->point_count ? "points" : "triangles";
+    const char *items = items_word(mesh);
     if ((mesh->triangle_count != 0) + (mesh->line_count != 0) + (mesh->point_count != 0) > 1)
         return fail(error, LAM_BAD_ARGUMENT, "mesh: %u triangles, %u lines and %u points, expected one kind",
                     mesh->triangle_count, mesh->line_count, mesh->point_count);
@@ -69,40 +118,7 @@ static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_
                          mesh->second_texcoord_indices, mesh, error) ||
         !check_attribute("tangents", mesh->tangents, mesh->tangent_count, 4, mesh->tangent_indices, mesh, error))
         return false;
-    if (mesh->colors) {
-        if (mesh->colors_format < LAM_COLORS_SRGB8 || mesh->colors_format > LAM_COLORS_LINEAR_F32)
-            return fail(error, LAM_BAD_ARGUMENT, "mesh: colors are given, but colors_format is %d",
-                        mesh->colors_format);
-        const float *as_floats = mesh->colors_format == LAM_COLORS_LINEAR_F32 ? mesh->colors : NULL;
-        if (as_floats && !finite_floats(as_floats, (size_t)mesh->color_count * 4))
-            return fail(error, LAM_BAD_ARGUMENT, "mesh: colors contain a number that is not finite");
-        size_t needed = mesh->colors_rate == LAM_PER_TRIANGLE ? mesh_items(mesh)
-                        : mesh->indices                       ? mesh->vertex_count
-                                                              : corners;
-        bool by_index = mesh->color_indices && mesh->colors_rate == LAM_PER_VERTEX;
-        if (by_index ? !indices_below(mesh->color_indices, corners, mesh->color_count) : mesh->color_count < needed)
-            return fail(error, LAM_BAD_ARGUMENT, "mesh: a corner's index of colors is not below their count, %u",
-                        mesh->color_count);
-    }
-    if (mesh->part_count && !mesh->parts)
-        return fail(error, LAM_BAD_ARGUMENT, "mesh: part_count is %u, but parts is NULL", mesh->part_count);
-    uint64_t next = 0;
-    for (uint32_t i = 0; i < mesh->part_count; i++) {
-        const lam_part *part = &mesh->parts[i];
-        if (!check_reserved("part", part, error))
-            return false;
-        if (part->first_triangle != next)
-            return fail(error, LAM_BAD_ARGUMENT, "mesh: part %u starts at triangle %u, expected %llu", i,
-                        part->first_triangle, (unsigned long long)next);
-        next += part->triangle_count;
-        if (part->material >= scene->materials.count)
-            return fail(error, LAM_BAD_ARGUMENT, "mesh: part %u names material %d of %d", i, part->material,
-                        scene->materials.count);
-    }
-    if (mesh->part_count && next != mesh_items(mesh))
-        return fail(error, LAM_BAD_ARGUMENT, "mesh: the parts cover %llu of %u %s", (unsigned long long)next,
-                    mesh_items(mesh), items);
-    return true;
+    return check_colors(mesh, error) && check_parts(scene, mesh, error);
 }
 
 // Replaces *pointer by a copy in the scene's arena.

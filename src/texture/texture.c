@@ -1,7 +1,6 @@
 // texture.c: textures from pictures: decoded numbers, levels, references.
 #include "codec.h"
 #include "fail.h"
-#include "file.h"
 #include "float_state.h"
 #include "pages.h"
 #include "pixels.h"
@@ -241,22 +240,6 @@ lam_texture *lam_texture_make(const lam_image *image, lam_texture_values values,
         unpremultiply(&copy);
     struct lam_texture *texture = texture_of_image(&copy, values, name, NULL, error);
     float_state_leave(state);
-    return texture;
-}
-
-lam_texture *lam_texture_load(const char *path, lam_texture_values values, const lam_control *control, lam_error *error)
-{
-    struct call_control call;
-    struct file_bytes file;
-    if (!path) {
-        fail(error, LAM_BAD_ARGUMENT, "texture: the path is NULL");
-        return NULL;
-    }
-    call_start(&call, control);
-    if (!check_values(values, error) || !file_read(path, NULL, &call, &file, error))
-        return NULL;
-    struct lam_texture *texture = texture_decode(file.data, file.size, path, values, &call, error);
-    file_release(&file);
     return texture;
 }
 

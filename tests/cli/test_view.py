@@ -160,6 +160,23 @@ class View(ViewCase):
         self.assertEqual(status, 422)
         self.assertEqual(b"lambent: " + body + b"\n", self.run_program("cube.obj", "-s", 8).stderr)
 
+    def test_kept_model(self):
+        # A setting of the drawing leaves the model loaded: the time of reading is that of the first picture. Edges need the file's polygons.
+        server = self.serve("cube.obj")
+
+        def read_ms(*words):
+            line, pixels = server.task("draw", "/cube.obj", "--size=40", *words)[2].split(b"\n", 1)
+            self.assertEqual(pixels, read_png(self.good("cube.obj", "--size=40", *words, "-o", "-").stdout)[2])
+            return json.loads(line)["read_ms"]
+
+        first = read_ms()
+        for words in (["--ao=screen"], ["--shading=flat", "--shadows"], ["--surfaces=off"], ["--hidden-lines=show", "--edge-width=2"]):
+            self.assertEqual(read_ms(*words), first, words)
+        edges = read_ms("--edges=all")
+        self.assertNotEqual(edges, first)
+        self.assertEqual(read_ms("--edges=all", "--edge-width=3", "--edge-color=red"), edges)
+        self.assertNotEqual(read_ms("--wireframe"), edges)
+
     def test_explain(self):
         server = self.serve("cube.obj")
         status, _, body = server.task("explain", "/cube.obj", "--size=64", x=32, y=30)

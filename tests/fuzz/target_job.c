@@ -40,7 +40,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         (kind == LINE_JOB) != (job != NULL) || (kind == LINE_CANCEL && !id))
         abort();
     if (job && (job->plan.count != 1 || job->plan.view_count < 1 || !job->output || !job->id || !job->options_text ||
-                !(job->options.time_limit_s > 0)))
+                !(job->options.limits.time_limit_s > 0)))
         abort();
     batch_job_free(job);
     json_decref(id);

@@ -4,6 +4,8 @@
 #include "float_state.h"
 #include "pool.h"
 
+#include <lambent/settings.h>
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -413,18 +415,58 @@ static void test_normals_when_drawn(void **state)
     }
 }
 
+// A number outside of the range of its row in the table of settings is an error that names the member.
+static void test_ranges_of_settings(void **state)
+{
+    (void)state;
+    struct demo demo = make_demo("sphere-phong");
+    lam_device *device = make_device(1);
+    lam_image image = make_image(8, 8);
+    const lam_setting *s;
+    int checked = 0;
+    for (int i = 0; (s = lam_draw_setting(i)); i++) {
+        lam_draw_params params = {0};
+        char *member = (char *)&params + s->offset;
+        switch (s->type) {
+        case LAM_SETTING_WORD:
+        case LAM_SETTING_WORDS:
+            *(int *)member = 99;
+            break;
+        case LAM_SETTING_WHOLE:
+            *(int *)member = (int)s->max + 1;
+            break;
+        case LAM_SETTING_NUMBER:
+        case LAM_SETTING_ANGLE:
+            *(float *)member = (float)(2 * s->max);
+            break;
+        case LAM_SETTING_RGB:
+        case LAM_SETTING_RGBA:
+            ((float *)member)[2] = -1;
+            break;
+        case LAM_SETTING_FLAG:
+        case LAM_SETTING_NOT_FLAG:
+            continue;
+        }
+        lam_error error = {0};
+        if (lam_draw(device, demo.scene, &demo.camera, &params, &image, NULL, &error) ||
+            error.code != LAM_BAD_ARGUMENT || !strstr(error.text, s->type == LAM_SETTING_ANGLE ? s->key : s->member))
+            fail_msg("%s: '%s'", s->key, error.text);
+        checked++;
+    }
+    assert_true(checked > 20);
+    lam_image_free(&image);
+    lam_device_free(device);
+    lam_scene_free(demo.scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_default_samples),
-        cmocka_unit_test(test_arguments),
-        cmocka_unit_test(test_cancel_and_limits),
-        cmocka_unit_test(test_progress),
-        cmocka_unit_test(test_memory_settles),
-        cmocka_unit_test(test_float_state),
-        cmocka_unit_test(test_shared_scene),
-        cmocka_unit_test(test_null_device),
-        cmocka_unit_test(test_fit),
+        cmocka_unit_test(test_default_samples),    cmocka_unit_test(test_arguments),
+        cmocka_unit_test(test_cancel_and_limits),  cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_memory_settles),     cmocka_unit_test(test_float_state),
+        cmocka_unit_test(test_shared_scene),       cmocka_unit_test(test_null_device),
+        cmocka_unit_test(test_ranges_of_settings), cmocka_unit_test(test_fit),
         cmocka_unit_test(test_normals_when_drawn),
     };
     return cmocka_run_group_tests_name("device", tests, NULL, NULL);

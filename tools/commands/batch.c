@@ -25,7 +25,7 @@ static bool check_jobs(int operands, const struct options *o, lam_error *error)
     for (int i = 0; others[i]; i++)
         if (option_given(o, others[i]))
             return complain(error, LAM_BAD_ARGUMENT, "options '--jobs' and '--%s' cannot be used together", others[i]);
-    if (o->skip_same && !o->journal)
+    if (o->batch.skip_same && !o->batch.journal)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--skip-same' goes by a journal, with --jobs expected --journal FILE");
     return job_check_options(o, error);
@@ -33,21 +33,21 @@ static bool check_jobs(int operands, const struct options *o, lam_error *error)
 
 static bool check(int operands, const struct options *o, lam_error *error)
 {
-    if (o->jobs)
+    if (o->batch.jobs)
         return check_jobs(operands, o, error);
     if (option_given(o, "ahead") || option_given(o, "line-limit"))
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' goes with --jobs",
                         option_given(o, "ahead") ? "ahead" : "line-limit");
-    if (!operands && !o->lists.count)
+    if (!operands && !o->batch.lists.count)
         return complain(error, LAM_BAD_ARGUMENT,
                         "batch: no model given, expected files, folders, @FILE with a list of names, or - for names on "
                         "standard input");
-    if (o->output && strcmp(o->output, "-") == 0)
+    if (o->picture.output && strcmp(o->picture.output, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT,
                         "batch: pictures are files; name a folder, -o pictures/, or a pattern");
-    if (o->term != TERM_AUTO && o->term != TERM_OFF)
+    if (o->picture.term != TERM_AUTO && o->picture.term != TERM_OFF)
         return complain(error, LAM_BAD_ARGUMENT, "batch: option '--term' shows one picture, and batch draws many");
-    if (o->save_scene)
+    if (o->picture.save_scene)
         return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' goes only with a single model");
     return job_check_options(o, error);
 }
@@ -60,7 +60,7 @@ static bool print_mapping(const struct batch_plan *plan, lam_error *error)
             char *output = batch_plan_output(plan, i, k);
             if (!output)
                 return complain(error, LAM_LIMIT, "out of memory");
-            if (plan->options->json) {
+            if (plan->options->report.json) {
                 struct json json = {.file = stdout};
                 json_open(&json, NULL, '{');
                 json_text(&json, "model", plan->models[i].path);
@@ -78,8 +78,8 @@ static bool print_mapping(const struct batch_plan *plan, lam_error *error)
 // The path of the journal, from malloc; *none: there is none.
 static char *journal_path(const struct batch_plan *plan, bool *none)
 {
-    const char *named = plan->options->journal;
-    *none = named ? strcmp(named, "none") == 0 : plan->options->jobs != NULL;
+    const char *named = plan->options->batch.journal;
+    *none = named ? strcmp(named, "none") == 0 : plan->options->batch.jobs != NULL;
     if (named)
         return strdup(named);
     char *folder = batch_plan_folder(plan), *path = NULL;
@@ -95,8 +95,8 @@ static bool fill(struct batch_plan *plan, int count, char **operands, lam_error 
     for (int i = 0; i < count; i++)
         if (!batch_add_operand(plan, operands[i], error))
             return false;
-    for (int i = 0; i < o->lists.count; i++)
-        if (!batch_add_list(plan, o->lists.items[i], error))
+    for (int i = 0; i < o->batch.lists.count; i++)
+        if (!batch_add_list(plan, o->batch.lists.items[i], error))
             return false;
     return batch_plan_check(plan, error);
 }
@@ -108,15 +108,15 @@ int run_batch(int operand_count, char **operands, const struct options *options)
     bool none = false;
     bool ok = check(operand_count, options, &error) && batch_plan_start(&plan, options, &error) &&
               fill(&plan, operand_count, operands, &error);
-    if (ok && options->dry_run)
+    if (ok && options->report.dry_run)
         ok = print_mapping(&plan, &error);
-    char *journal = ok && !options->dry_run ? journal_path(&plan, &none) : NULL;
-    if (ok && !options->dry_run && !journal)
+    char *journal = ok && !options->report.dry_run ? journal_path(&plan, &none) : NULL;
+    if (ok && !options->report.dry_run && !journal)
         ok = complain(&error, LAM_LIMIT, "out of memory");
     int code = 0;
     if (!ok)
         code = report_failure(&error, options);
-    else if (!options->dry_run)
+    else if (!options->report.dry_run)
         code = batch_run(&plan, none ? NULL : journal, true);
     free(journal);
     batch_plan_free(&plan);

@@ -54,7 +54,7 @@ struct compare {
 static const char *caption_of(const struct compare *c, const struct cell *cell)
 {
     int index = (int)(cell - c->sheet.cells);
-    return index < c->options->captions.count ? c->options->captions.items[index] : cell->caption;
+    return index < c->options->captions.texts.count ? c->options->captions.texts.items[index] : cell->caption;
 }
 
 // --- one picture
@@ -65,12 +65,12 @@ static bool share_rotations(const struct sheet *sheet, struct options *options)
     const char **items = malloc((size_t)CELLS_MAX * CELL_WORDS * sizeof *items);
     if (!items)
         return false;
-    free(options->sheet_rotations.items);
-    options->sheet_rotations = (struct texts){.items = items};
+    free(options->shading.sheet_rotations.items);
+    options->shading.sheet_rotations = (struct texts){.items = items};
     for (int i = 0; i < sheet->count; i++)
         for (int k = 0; k + 1 < CELL_WORDS && sheet->cells[i].words[k]; k++)
             if (strcmp(sheet->cells[i].words[k], "--rotate") == 0)
-                items[options->sheet_rotations.count++] = sheet->cells[i].words[k + 1];
+                items[options->shading.sheet_rotations.count++] = sheet->cells[i].words[k + 1];
     return true;
 }
 
@@ -102,13 +102,13 @@ static bool cell_options(const struct compare *c, const struct cell *cell, const
         words[count++] = (char *)(uintptr_t)more;
         words[count++] = (char *)(uintptr_t)value;
     }
-    if (!options->background)
-        options->background = SHEET_BACKGROUND;
+    if (!options->picture.background)
+        options->picture.background = SHEET_BACKGROUND;
     // Sheets compare methods of local lighting: what its sums leave out comes in only where it is asked for.
     if (!option_given(options, "ao"))
         options->draw.occlusion = LAM_OCCLUSION_OFF;
-    options->lecture_device = c->sheet.mistakes;
-    options->mistake = cell->mistake;
+    options->shader.lecture_device = c->sheet.mistakes;
+    options->shader.mistake = cell->mistake;
     bool ok = share_rotations(&c->sheet, options) || complain(error, LAM_LIMIT, "out of memory");
     ok = ok && options_parse(count, words, find_groups("render"), options, error) >= 0;
     if (!ok)
@@ -135,20 +135,20 @@ static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, c
     struct options options;
     if (!cell_options(c, cell, more, value, &options, error))
         return false;
-    options.width = c->page.cell_width * enlarge;
-    options.height = c->page.cell_height * enlarge;
-    options.has_size = true;
+    options.picture.width = c->page.cell_width * enlarge;
+    options.picture.height = c->page.cell_height * enlarge;
+    options.picture.has_size = true;
     if (c->exposure_fitted) {
-        options.exposure_kind = EXPOSURE_LITERAL;
-        options.exposure = c->exposure;
+        options.picture.exposure_kind = EXPOSURE_LITERAL;
+        options.picture.exposure = c->exposure;
         options.draw.light_cutoff = options.draw.light_cutoff != 0 ? options.draw.light_cutoff : -1;
     }
     struct job job = {.options = &options, .model = c->model, .device = cell_device(c, &options, error)};
     job.times.start = clock_ms();
     bool ok = job.device && job_draw(&job, LAM_RGBA8, &c->progress, error);
-    for (int i = 0; ok && c->done == 0 && !options.quiet && lam_scene_warning(job.scene, i); i++)
+    for (int i = 0; ok && c->done == 0 && !options.report.quiet && lam_scene_warning(job.scene, i); i++)
         say_warning(lam_scene_warning(job.scene, i));
-    if (ok && job.exposure_fitted && !c->exposure_fitted && !options.quiet)
+    if (ok && job.exposure_fitted && !c->exposure_fitted && !options.report.quiet)
         say_plain("exposure %.4g stops (auto)\n", job.draw.exposure);
     if (ok && job.exposure_fitted) {
         c->exposure_fitted = true;
@@ -170,9 +170,9 @@ static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, c
 
 static bool check_caption_count(const struct options *o, const struct sheet *sheet, lam_error *error)
 {
-    return o->captions.count <= sheet->count ||
+    return o->captions.texts.count <= sheet->count ||
            complain(error, LAM_BAD_ARGUMENT, "option '--caption': found %d, but the sheet has %d pictures",
-                    o->captions.count, sheet->count);
+                    o->captions.texts.count, sheet->count);
 }
 
 // Whether a mistake changes the shader of this scene. False: LAM_UNSUPPORTED, if it has nothing that the mistake spoils.
@@ -181,10 +181,10 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
     struct options options;
     if (!cell_options(c, cell, NULL, NULL, &options, error))
         return false;
-    options.style = LAM_SHADER_STYLE_LECTURE;
-    options.products = true; // as OpenGL draws
-    options.width = CELL_WIDTH;
-    options.height = CELL_HEIGHT;
+    options.shader.style = LAM_SHADER_STYLE_LECTURE;
+    options.shader.products = true; // as OpenGL draws
+    options.picture.width = CELL_WIDTH;
+    options.picture.height = CELL_HEIGHT;
     struct job job = {.options = &options, .model = c->model};
     job.times.start = clock_ms();
     lam_shader *shader = job_shader(&job, &c->progress, error);
@@ -203,7 +203,7 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
 static bool choose_mistakes(struct compare *c, lam_error *error)
 {
     struct sheet *sheet = &c->sheet;
-    if (option_given(c->options, "device") && c->options->device == DEVICE_CPU)
+    if (option_given(c->options, "device") && c->options->work.device == DEVICE_CPU)
         return complain(
             error, LAM_BAD_ARGUMENT,
             "options '--device cpu' and '--across mistake': mistakes are edits of shaders, which OpenGL draws; see "
@@ -228,7 +228,7 @@ static bool choose_mistakes(struct compare *c, lam_error *error)
     sheet->count = kept;
     int rows = (kept + 5) / 6;
     sheet->columns = (kept + rows - 1) / rows;
-    if (*left_out && !c->options->quiet)
+    if (*left_out && !c->options->report.quiet)
         say_plain("left out, since the scene has nothing that they spoil: %s\n", left_out);
     return check_caption_count(c->options, sheet, error);
 }
@@ -327,12 +327,12 @@ static bool lay_out(struct compare *c, const char *path, lam_error *error)
 {
     const struct options *o = c->options;
     struct page *p = &c->page;
-    p->cell_width = o->has_size ? o->width : CELL_WIDTH;
-    p->cell_height = o->has_size ? o->height : CELL_HEIGHT;
+    p->cell_width = o->picture.has_size ? o->picture.width : CELL_WIDTH;
+    p->cell_height = o->picture.has_size ? o->picture.height : CELL_HEIGHT;
     p->unit = p->cell_width / (double)CELL_WIDTH;
     p->gap = (int)(24 * p->unit) + 1;
-    p->head = o->no_captions ? 0 : (int)((c->default_count ? 100 : 60) * p->unit);
-    p->foot = o->no_captions ? 0 : (int)(82 * p->unit);
+    p->head = o->captions.no_captions ? 0 : (int)((c->default_count ? 100 : 60) * p->unit);
+    p->foot = o->captions.no_captions ? 0 : (int)(82 * p->unit);
     p->rows = (c->sheet.count + c->sheet.columns - 1) / c->sheet.columns;
     p->inset = c->sheet.inset ? p->cell_height / (2 * ENLARGED) * ENLARGED + p->gap / 2 : 0;
     int64_t width = (int64_t)c->sheet.columns * (p->cell_width + p->gap) + p->gap;
@@ -343,11 +343,12 @@ static bool lay_out(struct compare *c, const char *path, lam_error *error)
         return complain(error, LAM_LIMIT,
                         "the sheet would have %lldx%lld pixels, more than 65535; choose smaller pictures with -s",
                         (long long)width, (long long)height);
-    if (!drawing_open(&c->drawing, (int)width, (int)height, drawing_is_svg(path), !o->no_captions, o->font, error))
+    if (!drawing_open(&c->drawing, (int)width, (int)height, drawing_is_svg(path), !o->captions.no_captions,
+                      o->captions.font, error))
         return false;
-    c->drawing.compress = (lam_compress)o->compress;
-    c->drawing.quality = o->quality;
-    c->drawing.durable = o->durable;
+    c->drawing.compress = (lam_compress)o->picture.compress;
+    c->drawing.quality = o->picture.quality;
+    c->drawing.durable = o->picture.durable;
     return true;
 }
 
@@ -395,7 +396,7 @@ static bool draw_sheet(struct compare *c, lam_error *error)
             return false;
     }
     char own_title[256];
-    const char *title = c->options->title ? c->options->title : title_of(c, own_title);
+    const char *title = c->options->captions.title ? c->options->captions.title : title_of(c, own_title);
     if (!describe(c, title, error))
         return false;
     double middle = c->drawing.width / 2.0, width = c->drawing.width - 2.0 * p->gap;
@@ -455,7 +456,7 @@ static void print_json(const struct compare *c, const char *path)
             json_text(&json, NULL, c->defaults[k]);
         for (int k = 0; k < count; k++)
             json_text(&json, NULL, words[k]);
-        const char *own[] = {"--background", c->options->background ? NULL : SHEET_BACKGROUND, "--ao",
+        const char *own[] = {"--background", c->options->picture.background ? NULL : SHEET_BACKGROUND, "--ao",
                              option_given(c->options, "ao") ? NULL : "off"};
         for (size_t k = 0; k < sizeof own / sizeof *own; k += 2)
             if (own[k + 1] && !has_word(words, count, own[k])) {
@@ -480,7 +481,7 @@ static char *path_of(const struct options *o, const char *model, const char *she
 {
     char ending[64];
     snprintf(ending, sizeof ending, "-%s.png", sheet);
-    return output_path(o->output, model, ending);
+    return output_path(o->picture.output, model, ending);
 }
 
 // Decides which of the sheet's defaults hold for this command line and model.
@@ -507,11 +508,11 @@ static bool find_defaults(struct compare *c, lam_error *error)
 // The user's words in a picture that is not an SVG.
 static bool check_words(const struct options *o, lam_error *error)
 {
-    bool has_font = o->font != NULL;
-    if (o->title && !drawing_check_text("title", o->title, has_font, error))
+    bool has_font = o->captions.font != NULL;
+    if (o->captions.title && !drawing_check_text("title", o->captions.title, has_font, error))
         return false;
-    for (int i = 0; i < o->captions.count; i++)
-        if (!drawing_check_text("caption", o->captions.items[i], has_font, error))
+    for (int i = 0; i < o->captions.texts.count; i++)
+        if (!drawing_check_text("caption", o->captions.texts.items[i], has_font, error))
             return false;
     return true;
 }
@@ -522,7 +523,7 @@ static bool check(const struct options *o, const struct sheet *sheet, const char
     lam_pixel_format format;
     if (!check_caption_count(o, sheet, error))
         return false;
-    if (!drawing_is_svg(path) && !o->no_captions && !check_words(o, error))
+    if (!drawing_is_svg(path) && !o->captions.no_captions && !check_words(o, error))
         return false;
     if (strcmp(model, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT,
@@ -532,12 +533,12 @@ static bool check(const struct options *o, const struct sheet *sheet, const char
     if (strcmp(path, "-") == 0)
         return !isatty(STDOUT_FILENO) || terminal_shows() || terminal_refuse("compare MODEL", error);
     if (drawing_is_svg(path))
-        return output_check(path, model, output_given(o->output), error);
+        return output_check(path, model, output_given(o->picture.output), error);
     if (!output_format(path, &format, error))
         return false;
     if (format != LAM_RGBA8)
         return complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .svg, .png, .jpg, .webp or .ppm", path);
-    return output_check(path, model, output_is_named(o->output), error);
+    return output_check(path, model, output_is_named(o->picture.output), error);
 }
 
 // Lets the pictures of a sheet reach the files that their own options name: --across look=my.look, --across environment=a.png,b.png.
@@ -567,22 +568,22 @@ int run_compare(int operand_count, char **operands, const struct options *option
     if (ok) {
         struct sandbox_paths paths = {0};
         sandbox_add_input(&paths, c.model);
-        sandbox_add_output(&paths, path, !output_is_named(options->output));
+        sandbox_add_output(&paths, path, !output_is_named(options->picture.output));
         struct options drawn = *options;
-        if (c.sheet.mistakes && drawn.device == DEVICE_AUTO)
-            drawn.device = DEVICE_GL;
+        if (c.sheet.mistakes && drawn.work.device == DEVICE_AUTO)
+            drawn.work.device = DEVICE_GL;
         ok = reach_cells(&c, &paths, &error) && sandbox_start(&drawn, &paths, &error);
     }
     if (ok) {
         c.device = device_option_make(options, &error);
-        progress_start(&c.progress, c.model, console_is_terminal() && !options->quiet);
+        progress_start(&c.progress, c.model, console_is_terminal() && !options->report.quiet);
         ok = c.device && find_defaults(&c, &error) && (!c.sheet.mistakes || choose_mistakes(&c, &error)) &&
              lay_out(&c, path, &error) && draw_sheet(&c, &error);
         progress_end(&c.progress);
         ok = ok && drawing_write(&c.drawing, path, &error);
-        if (ok && options->json)
+        if (ok && options->report.json)
             print_json(&c, path);
-        else if (ok && !options->quiet)
+        else if (ok && !options->report.quiet)
             say_plain("%s  %dx%d  %d pictures\n", strcmp(path, "-") == 0 ? "standard output" : path, c.drawing.width,
                       c.drawing.height, c.sheet.count);
         lam_device_free(c.device);

@@ -56,7 +56,7 @@ int run_devices(int operand_count, char **operands, const struct options *option
         return report_failure(&error, options);
     static lam_gl_device list[DEVICES_MOST];
     int count = lam_gl_devices(NULL, list, DEVICES_MOST, &error);
-    if (options->json)
+    if (options->report.json)
         print_json(lam_device_name(device), list, count, &error);
     else
         print_text(lam_device_name(device), list, count, &error);

@@ -67,7 +67,7 @@ static bool write_picture(struct pair *pair, const struct options *o, lam_error 
     if (format == LAM_RGBA32F && pair->image[0].format == LAM_RGBA8)
         return complain(error, LAM_BAD_ARGUMENT, "%s holds floats, and the pictures hold bytes; write .png or .ppm",
                         pair->output);
-    if (!lam_image_difference(&pair->image[0], &pair->image[1], (float)o->gain, &pair->where, error) ||
+    if (!lam_image_difference(&pair->image[0], &pair->image[1], (float)o->diff.gain, &pair->where, error) ||
         (pair->where.format != format && !to_bytes(&pair->where, error)))
         return false;
     lam_save_params params = {.raw = true};
@@ -90,7 +90,7 @@ static void print_json(FILE *file, const struct pair *pair, const struct options
     json_number(&json, "psnr_db", d->psnr_db);
     json_number(&json, "share_over_1", d->share_over_1);
     json_number(&json, "share_over_2", d->share_over_2);
-    json_number(&json, "tolerance", o->tolerance);
+    json_number(&json, "tolerance", o->diff.tolerance);
     json_count(&json, "differ", differ);
     json_text(&json, "picture", pair->output);
     json_close(&json, '}');
@@ -111,42 +111,43 @@ static void print_text(FILE *file, const struct pair *pair, const struct options
             pair->image[0].height);
     fprintf(file, "over 2/255   %.4g %%\n", d->share_over_2 * 100);
     fprintf(file, "%s\n",
-            d->maximum == 0 ? "equal"
-            : !differ       ? "within the tolerance"
-            : o->tolerance  ? "beyond the tolerance"
-                            : "different");
+            d->maximum == 0     ? "equal"
+            : !differ           ? "within the tolerance"
+            : o->diff.tolerance ? "beyond the tolerance"
+                                : "different");
 }
 
 int run_diff(int operand_count, char **operands, const struct options *options)
 {
     (void)operand_count;
     struct pair pair = {.name = {operands[0], operands[1]}};
-    bool to_stdout = options->output && strcmp(options->output, "-") == 0;
+    bool to_stdout = options->picture.output && strcmp(options->picture.output, "-") == 0;
     lam_error error = {0};
     bool ok = true;
     if (to_stdout && isatty(STDOUT_FILENO))
         ok = complain(&error, LAM_BAD_ARGUMENT,
                       "standard output is a terminal, and the picture is not text; redirect it: lambent diff "
                       "A B -o - > FILE");
-    else if (options->output && !(pair.output = output_path(options->output, pair.name[0], "-difference.png")))
+    else if (options->picture.output &&
+             !(pair.output = output_path(options->picture.output, pair.name[0], "-difference.png")))
         ok = complain(&error, LAM_LIMIT, "out of memory");
-    else if (options->output && !to_stdout)
-        ok = output_check(pair.output, pair.name[0], output_is_named(options->output), &error);
+    else if (options->picture.output && !to_stdout)
+        ok = output_check(pair.output, pair.name[0], output_is_named(options->picture.output), &error);
     if (ok) {
         struct sandbox_paths paths = {0};
         for (int i = 0; i < 2; i++)
             sandbox_add_file(&paths, operands[i]);
         if (pair.output)
-            sandbox_add_output(&paths, pair.output, !output_is_named(options->output));
+            sandbox_add_output(&paths, pair.output, !output_is_named(options->picture.output));
         ok = sandbox_start(options, &paths, &error) && load_pair(&pair, options, &error) &&
-             (!options->output || write_picture(&pair, options, &error));
+             (!options->picture.output || write_picture(&pair, options, &error));
     }
-    bool differ = ok && pair.difference.maximum > options->tolerance / 255.0;
+    bool differ = ok && pair.difference.maximum > options->diff.tolerance / 255.0;
     if (ok) {
         FILE *file = to_stdout ? stderr : stdout;
-        if (options->json)
+        if (options->report.json)
             print_json(file, &pair, options, differ);
-        else if (!options->quiet)
+        else if (!options->report.quiet)
             print_text(file, &pair, options, differ);
     }
     for (int i = 0; i < 2; i++)

@@ -264,7 +264,7 @@ static enum writer_right right_of(void *user, const char *path)
 
 static bool enter_sandbox(const struct options *o, lam_error *error)
 {
-    struct sandbox_paths paths = {.may_write = right_of, .user = (void *)(uintptr_t)o->report_page};
+    struct sandbox_paths paths = {.may_write = right_of, .user = (void *)(uintptr_t)o->batch.report_page};
     sandbox_add(&paths, "/", SANDBOX_READ);
     return sandbox_start(o, &paths, error);
 }
@@ -288,16 +288,17 @@ int run_journal(int operand_count, char **operands, const struct options *o)
     struct journal_sum sum = {0};
     struct batch_tally tally = {0};
     struct times times = {0};
-    bool merges = o->output, to_standard = merges && strcmp(o->output, "-") == 0;
-    bool ok = !(to_standard && o->json) ||
+    bool merges = o->picture.output, to_standard = merges && strcmp(o->picture.output, "-") == 0;
+    bool ok = !(to_standard && o->report.json) ||
               complain(&error, LAM_BAD_ARGUMENT, "options '--json' and '-o -' both write to standard output");
     ok = ok && add_all(&sum, operand_count, operands, &error) && sum_classes(&sum, &tally, &error) &&
          sum_times(&sum, &times, &error);
-    ok = ok && (!merges || write_merged(&sum, tally.total, o->output, &error));
-    ok = ok && (!o->report_page || (enter_sandbox(o, &error) && write_page(&sum, &tally, o->report_page, &error)));
-    if (ok && o->json) {
+    ok = ok && (!merges || write_merged(&sum, tally.total, o->picture.output, &error));
+    ok = ok && (!o->batch.report_page ||
+                (enter_sandbox(o, &error) && write_page(&sum, &tally, o->batch.report_page, &error)));
+    if (ok && o->report.json) {
         print_json(&sum, &tally, &times);
-    } else if (ok && !o->quiet && !to_standard) {
+    } else if (ok && !o->report.quiet && !to_standard) {
         print_parts(&sum);
         print_failures(&sum);
         print_sum(&sum, &tally, &times);

@@ -113,10 +113,10 @@ static void print_json(lam_color_mode color)
 
 static void print_list(const struct options *options)
 {
-    if (options->json)
-        print_json((lam_color_mode)options->color_mode);
+    if (options->report.json)
+        print_json((lam_color_mode)options->picture.color_mode);
     else
-        print_table((lam_color_mode)options->color_mode);
+        print_table((lam_color_mode)options->picture.color_mode);
 }
 
 // One mesh, and an object for each material: rows of COLUMNS in the order of the list, from the top left. The light is
@@ -152,7 +152,7 @@ static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z *
 static bool draw_captions(const lam_scene *scene, const struct options *o, const lam_camera *camera, lam_image *image,
                           lam_error *error)
 {
-    lam_font *font = lam_font_open(o->font, error);
+    lam_font *font = lam_font_open(o->captions.font, error);
     if (!font) {
         if (error->code == LAM_UNSUPPORTED) {
             lam_error reason = *error;
@@ -186,12 +186,12 @@ static bool draw_captions(const lam_scene *scene, const struct options *o, const
 static bool draw_sheet(const lam_scene *scene, const struct options *o, lam_image *image, lam_error *error)
 {
     lam_rgba background;
-    if (!lam_color_parse(o->background ? o->background : SHEET_BACKGROUND, (lam_color_mode)o->color_mode, &background,
-                         error))
+    if (!lam_color_parse(o->picture.background ? o->picture.background : SHEET_BACKGROUND,
+                         (lam_color_mode)o->picture.color_mode, &background, error))
         return false;
     lam_draw_params params = {.samples = o->draw.samples,
                               .background = background,
-                              .color = (lam_color_mode)o->color_mode,
+                              .color = (lam_color_mode)o->picture.color_mode,
                               .viewer = LAM_VIEWER_INFINITE};
     lam_view view = {.from_angles = true, .orthographic = true, .elevation_rad = 0.2, .fill = 0.97};
     lam_camera camera = lam_camera_fit(scene, image->width, image->height, &view);
@@ -199,20 +199,20 @@ static bool draw_sheet(const lam_scene *scene, const struct options *o, lam_imag
     lam_control control = {.cancel = interrupt_flag()};
     bool ok = device && lam_draw(device, scene, &camera, &params, image, &control, error);
     lam_device_free(device);
-    return ok && (o->no_captions || draw_captions(scene, o, &camera, image, error));
+    return ok && (o->captions.no_captions || draw_captions(scene, o, &camera, image, error));
 }
 
 static bool write_sheet(const struct options *o, const lam_image *image, const char *path, lam_error *error)
 {
     lam_rgba under;
-    if (!lam_color_parse(o->background ? o->background : SHEET_BACKGROUND, (lam_color_mode)o->color_mode, &under,
-                         error))
+    if (!lam_color_parse(o->picture.background ? o->picture.background : SHEET_BACKGROUND,
+                         (lam_color_mode)o->picture.color_mode, &under, error))
         return false;
     lam_save_params params = {.background = {under.r, under.g, under.b},
-                              .raw = o->color_mode == LAM_COLOR_RAW,
-                              .compress = (lam_compress)o->compress,
-                              .quality = o->quality,
-                              .durable = o->durable};
+                              .raw = o->picture.color_mode == LAM_COLOR_RAW,
+                              .compress = (lam_compress)o->picture.compress,
+                              .quality = o->picture.quality,
+                              .durable = o->picture.durable};
     uint64_t size;
     return output_save(image, path, &params, &size, error);
 }
@@ -221,14 +221,14 @@ static bool make_sheet(const struct options *o, const char *path, lam_error *err
 {
     lam_pixel_format format;
     if (!output_format(path, &format, error) ||
-        !(output_is_stream(path) || output_check(path, "", output_is_named(o->output), error)))
+        !(output_is_stream(path) || output_check(path, "", output_is_named(o->picture.output), error)))
         return false;
     lam_scene *scene = lam_scene_make(error);
     lam_image image = {0};
     // The default size is square, but the sheet is wider than high.
-    int height = o->width == o->height ? o->height * 58 / 100 : o->height;
-    bool ok = scene && build_scene(scene, (lam_color_mode)o->color_mode, error) &&
-              lam_image_make(&image, o->width, height > 0 ? height : 1, format, error) &&
+    int height = o->picture.width == o->picture.height ? o->picture.height * 58 / 100 : o->picture.height;
+    bool ok = scene && build_scene(scene, (lam_color_mode)o->picture.color_mode, error) &&
+              lam_image_make(&image, o->picture.width, height > 0 ? height : 1, format, error) &&
               draw_sheet(scene, o, &image, error) && write_sheet(o, &image, path, error);
     lam_image_free(&image);
     lam_scene_free(scene);
@@ -239,14 +239,15 @@ int run_materials(int operand_count, char **operands, const struct options *opti
 {
     (void)operand_count, (void)operands;
     lam_error error = {0};
-    if (!options->output && (options->term == TERM_AUTO || options->term == TERM_OFF)) {
+    if (!options->picture.output && (options->picture.term == TERM_AUTO || options->picture.term == TERM_OFF)) {
         print_list(options);
         return 0;
     }
     interrupt_start();
-    const char *output = options->output ? options->output : "-"; // --term alone shows the sheet and writes no file
+    const char *output =
+        options->picture.output ? options->picture.output : "-"; // --term alone shows the sheet and writes no file
     bool ok = terminal_start(options, true, &error);
-    if (ok && !options->output && !isatty(STDOUT_FILENO) && !terminal_shows()) {
+    if (ok && !options->picture.output && !isatty(STDOUT_FILENO) && !terminal_shows()) {
         print_list(options);
         return 0;
     }

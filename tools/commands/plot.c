@@ -306,13 +306,13 @@ static bool fill(struct plot *plot, const struct kind *kind, int count, char **w
                  lam_error *error)
 {
     *plot = (struct plot){.kind = kind->name,
-                          .title = o->title ? o->title : kind->title,
+                          .title = o->captions.title ? o->captions.title : kind->title,
                           .x_label = kind->x_label,
                           .y_label = kind->y_label,
                           .y_max = 1,
                           .level = kind->add == add_attenuation ? 1.0 / 255.0 : 0,
                           .level_label = "1/255",
-                          .files_inside = o->files_inside,
+                          .files_inside = o->limits.files_inside,
                           .control = limits_control(o)};
     for (int i = 0; i < count; i++)
         if (!kind->add(plot, words[i], error))
@@ -325,7 +325,7 @@ static bool fill(struct plot *plot, const struct kind *kind, int count, char **w
         curve->color = palette[(size_t)(i / kind->per_color) % (sizeof palette / sizeof *palette)];
         curve->below = find_below(curve, 1.0 / 255, kind->farthest);
     }
-    plot->x_max = o->to > 0 ? o->to : kind->x_max > 0 ? kind->x_max : length_of(plot, kind->farthest);
+    plot->x_max = o->plot.to > 0 ? o->plot.to : kind->x_max > 0 ? kind->x_max : length_of(plot, kind->farthest);
     // Attenuations may start above 1; values above 2 are cut off.
     for (int i = 0; i < plot->count; i++)
         for (int k = 0; k <= TABLE_STEPS; k++)
@@ -392,14 +392,15 @@ static bool draw_to(const struct plot *plot, const char *path, const struct opti
         return false;
     if (!svg && format != LAM_RGBA8)
         return complain(error, LAM_UNSUPPORTED, "%s: a plot is written as .svg, .png or .ppm", path);
-    if (!to_stdout && !output_check(path, "", output_is_named(o->output), error))
+    if (!to_stdout && !output_check(path, "", output_is_named(o->picture.output), error))
         return false;
-    if (!svg && o->title && !o->no_captions && !drawing_check_text("title", o->title, o->font != NULL, error))
+    if (!svg && o->captions.title && !o->captions.no_captions &&
+        !drawing_check_text("title", o->captions.title, o->captions.font != NULL, error))
         return false;
     struct drawing drawing;
-    bool sized = o->has_size;
-    if (!drawing_open(&drawing, sized ? o->width : 1600, sized ? o->height : 1000, svg, !o->no_captions, o->font,
-                      error))
+    bool sized = o->picture.has_size;
+    if (!drawing_open(&drawing, sized ? o->picture.width : 1600, sized ? o->picture.height : 1000, svg,
+                      !o->captions.no_captions, o->captions.font, error))
         return false;
     char text[300];
     snprintf(text, sizeof text, "%d curves over the %s: %.200s%s", plot->count, plot->x_label, plot->curves[0].label,
@@ -416,15 +417,15 @@ int run_plot(int operand_count, char **operands, const struct options *options)
     const struct kind *kind = find_kind(operands[0], &error);
     struct plot *plot = kind ? malloc(sizeof *plot) : NULL;
     bool ok = kind && (plot || complain(&error, LAM_LIMIT, "out of memory"));
-    char *path = ok ? output_path(options->output, kind->name, ".png") : NULL;
+    char *path = ok ? output_path(options->picture.output, kind->name, ".png") : NULL;
     ok = ok && (path || complain(&error, LAM_LIMIT, "out of memory"));
     ok = ok && fill(plot, kind, operand_count - 1, operands + 1, options, &error) &&
          draw_to(plot, path, options, &error);
     if (ok) {
         FILE *file = strcmp(path, "-") == 0 ? stderr : stdout;
-        if (options->json)
+        if (options->report.json)
             print_json(file, plot, path);
-        else if (!options->quiet)
+        else if (!options->report.quiet)
             print_text(file, plot);
     }
     free(path);

@@ -17,28 +17,28 @@ static bool check_together(int count, char **models, const struct options *o, la
 {
     if (!job_check_options(o, error))
         return false;
-    if (!output_name_is_pattern(o->output) && output_is_named(o->output) && count > 1)
+    if (!output_name_is_pattern(o->picture.output) && output_is_named(o->picture.output) && count > 1)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--output' names one picture, but there are %d models ('%.60s', '%.60s'%s); "
                         "name a folder, -o pictures/, or a pattern, -o '{stem}-{view}.png'",
                         count, models[0], models[1], count > 2 ? " ..." : "");
-    if (o->jobs || o->ahead || o->line_limit_bytes)
+    if (o->batch.jobs || o->batch.ahead || o->batch.line_limit_bytes)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--%s' does not apply to this command; it belongs to batch: lambent batch --jobs -",
-                        o->jobs    ? "jobs"
-                        : o->ahead ? "ahead"
-                                   : "line-limit");
-    if (o->save_scene && (count > 1 || o->lists.count))
+                        o->batch.jobs    ? "jobs"
+                        : o->batch.ahead ? "ahead"
+                                         : "line-limit");
+    if (o->picture.save_scene && (count > 1 || o->batch.lists.count))
         return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' goes only with a single model, found %s",
-                        o->lists.count ? "a list of models" : "several");
-    if (o->save_scene && strcmp(models[0], "-") == 0)
+                        o->batch.lists.count ? "a list of models" : "several");
+    if (o->picture.save_scene && strcmp(models[0], "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--save-scene' needs a model with a name; standard input has none");
-    if (o->save_scene && strcmp(o->save_scene, "-") == 0)
+    if (o->picture.save_scene && strcmp(o->picture.save_scene, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' writes a file, expected its name");
-    if ((o->resume || o->skip_same) && !o->journal)
+    if ((o->batch.resume || o->batch.skip_same) && !o->batch.journal)
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' goes by a journal, expected --journal FILE",
-                        o->resume ? "resume" : "skip-same");
+                        o->batch.resume ? "resume" : "skip-same");
     for (int i = 0; i < count; i++) {
         if (!*models[i])
             return complain(error, LAM_BAD_ARGUMENT, "a model's name is empty");
@@ -48,10 +48,11 @@ static bool check_together(int count, char **models, const struct options *o, la
             return complain(error, LAM_BAD_ARGUMENT,
                             "standard input is a terminal, expected a model: lambent - < FILE");
     }
-    bool alone = count == 1 && !o->lists.count && o->view_count <= 1 && o->size_count <= 1 && !animation_wanted(o);
+    bool alone = count == 1 && !o->batch.lists.count && o->batch.view_count <= 1 && o->batch.size_count <= 1 &&
+                 !animation_wanted(o);
     if (!terminal_start(o, alone, error))
         return false;
-    if (o->output && strcmp(o->output, "-") == 0 && isatty(STDOUT_FILENO) && !terminal_shows())
+    if (o->picture.output && strcmp(o->picture.output, "-") == 0 && isatty(STDOUT_FILENO) && !terminal_shows())
         return terminal_refuse("MODEL", error);
     return true;
 }
@@ -59,7 +60,7 @@ static bool check_together(int count, char **models, const struct options *o, la
 // Whether --journal asks for one; --dry-run does nothing that it could record.
 static bool journal_named(const struct options *o)
 {
-    return o->journal && strcmp(o->journal, "none") != 0 && !o->dry_run;
+    return o->batch.journal && strcmp(o->batch.journal, "none") != 0 && !o->report.dry_run;
 }
 
 int run_render(int operand_count, char **operands, const struct options *options)
@@ -71,10 +72,10 @@ int run_render(int operand_count, char **operands, const struct options *options
         return report_failure(&error, options);
     for (int i = 0; ok && i < operand_count; i++)
         ok = batch_plan_add(&plan, operands[i], NULL, &error);
-    for (int i = 0; ok && i < options->lists.count; i++)
-        ok = batch_add_list(&plan, options->lists.items[i], &error);
+    for (int i = 0; ok && i < options->batch.lists.count; i++)
+        ok = batch_add_list(&plan, options->batch.lists.items[i], &error);
     ok = ok && batch_plan_check(&plan, &error);
-    int code = ok ? batch_run(&plan, journal_named(options) ? options->journal : NULL, false)
+    int code = ok ? batch_run(&plan, journal_named(options) ? options->batch.journal : NULL, false)
                   : report_failure(&error, options);
     batch_plan_free(&plan);
     return code;

@@ -108,8 +108,8 @@ static const char *const endings[] = {".vert", ".frag", ".application.c", ".c"};
 
 static void add_files(struct sandbox_paths *paths, const struct options *o, const char *model)
 {
-    char *base = base_of(o->output, model), *path = NULL;
-    size_t count = sizeof endings / sizeof *endings - !o->host;
+    char *base = base_of(o->picture.output, model), *path = NULL;
+    size_t count = sizeof endings / sizeof *endings - !o->shader.host;
     paths->failed |= !base;
     for (size_t i = 0; base && i < count; i++) {
         if (asprintf(&path, "%s%s", base, endings[i]) < 0)
@@ -124,28 +124,28 @@ static void add_files(struct sandbox_paths *paths, const struct options *o, cons
 
 static bool write_files(const struct options *o, const lam_shader *shader, const char *model, lam_error *error)
 {
-    char *base = base_of(o->output, model), *host = NULL;
+    char *base = base_of(o->picture.output, model), *host = NULL;
     size_t host_size = 0;
     if (!base)
         return complain(error, LAM_LIMIT, "out of memory");
-    bool ok = write_file(o->output, base, endings[0], shader->vertex, strlen(shader->vertex), error) &&
-              write_file(o->output, base, endings[1], shader->fragment, strlen(shader->fragment), error);
+    bool ok = write_file(o->picture.output, base, endings[0], shader->vertex, strlen(shader->vertex), error) &&
+              write_file(o->picture.output, base, endings[1], shader->fragment, strlen(shader->fragment), error);
     if (ok && shader->application)
-        ok = write_file(o->output, base, endings[2], shader->application, strlen(shader->application), error);
-    if (ok && o->host) {
+        ok = write_file(o->picture.output, base, endings[2], shader->application, strlen(shader->application), error);
+    if (ok && o->shader.host) {
         FILE *file = open_memstream(&host, &host_size);
         const char *name = strrchr(base, '/');
         if (file)
             shader_host(file, shader, name ? name + 1 : base, model);
         ok = (file && fclose(file) == 0) || complain(error, LAM_LIMIT, "out of memory");
-        ok = ok && write_file(o->output, base, endings[3], host, host_size, error);
+        ok = ok && write_file(o->picture.output, base, endings[3], host, host_size, error);
         free(host);
     }
-    if (ok && !o->quiet)
+    if (ok && !o->report.quiet)
         say_plain("%s.vert, %s.frag%s%s%s%s%s%s: GLSL %s%s\n", base, base, shader->application ? ", " : "",
-                  shader->application ? base : "", shader->application ? ".application.c" : "", o->host ? ", " : "",
-                  o->host ? base : "", o->host ? ".c" : "", lam_glsl_name(shader->glsl),
-                  shader->application ? ", C99" : "");
+                  shader->application ? base : "", shader->application ? ".application.c" : "",
+                  o->shader.host ? ", " : "", o->shader.host ? base : "", o->shader.host ? ".c" : "",
+                  lam_glsl_name(shader->glsl), shader->application ? ", C99" : "");
     free(base);
     return ok;
 }
@@ -160,7 +160,7 @@ static void print(const struct options *o, const lam_shader *shader, const char 
     }
     printf("// ===== inputs =====\n");
     shader_contract(stdout, shader);
-    if (o->host && sources) {
+    if (o->shader.host && sources) {
         printf("\n// ===== host code =====\n");
         shader_host(stdout, shader, "shader", model);
     }
@@ -217,28 +217,28 @@ static void list_mistakes(bool as_json)
 int run_shader(int operand_count, char **operands, const struct options *given)
 {
     struct options options = *given;
-    bool to_files = options.output && strcmp(options.output, "-") != 0;
+    bool to_files = options.picture.output && strcmp(options.picture.output, "-") != 0;
     struct job job = {.options = &options, .model = operand_count ? operands[0] : "sphere"};
     lam_error error = {0};
-    if (options.mistake && strcmp(options.mistake, "list") == 0) {
-        list_mistakes(options.json);
+    if (options.shader.mistake && strcmp(options.shader.mistake, "list") == 0) {
+        list_mistakes(options.report.json);
         return 0;
     }
-    if (options.mistake && option_given(&options, "style") && options.style == LAM_SHADER_STYLE_FULL)
+    if (options.shader.mistake && option_given(&options, "style") && options.shader.style == LAM_SHADER_STYLE_FULL)
         complain(&error, LAM_BAD_ARGUMENT,
                  "options '--mistake' and '--style full': a mistake is an edit of the lecture style");
-    else if (options.mistake && !shader_mistake_is_known(options.mistake, &error))
+    else if (options.shader.mistake && !shader_mistake_is_known(options.shader.mistake, &error))
         ; // the error says it
     else if (!*job.model)
         complain(&error, LAM_BAD_ARGUMENT, "a model's name is empty");
-    else if (options.dry_run)
+    else if (options.report.dry_run)
         complain(&error, LAM_BAD_ARGUMENT, "option '--dry-run' applies to pictures, not to shaders");
     if (error.code)
         return report_failure(&error, given);
     interrupt_start();
     job.times.start = clock_ms();
     struct progress progress;
-    progress_start(&progress, job.model, console_is_terminal() && !options.quiet);
+    progress_start(&progress, job.model, console_is_terminal() && !options.report.quiet);
     struct sandbox_paths paths = {0};
     sandbox_add_input(&paths, job.model);
     if (to_files)
@@ -246,9 +246,9 @@ int run_shader(int operand_count, char **operands, const struct options *given)
     lam_shader *shader = sandbox_start(&options, &paths, &error) ? job_shader(&job, &progress, &error) : NULL;
     progress_end(&progress);
     bool ok = shader && (!to_files || write_files(given, shader, job.model, &error));
-    if (ok && options.json)
+    if (ok && options.report.json)
         shader_json(stdout, shader, job.model);
-    else if (ok && !(to_files && options.quiet))
+    else if (ok && !(to_files && options.report.quiet))
         print(given, shader, job.model, !to_files);
     lam_shader_free(shader);
     lam_scene_free(job.scene);

@@ -51,7 +51,7 @@ static bool check_options(const struct options *o, lam_error *error)
             fits |= strcmp(option_table[i].name, others[k]) == 0;
         if (o->given[i] && !fits)
             return complain(error, LAM_BAD_ARGUMENT, "shape: option '--%s' changes nothing in a model file, %s",
-                            option_table[i].name, o->output);
+                            option_table[i].name, o->picture.output);
     }
     return true;
 }
@@ -63,9 +63,9 @@ static bool save(const char *model, const struct options *o, lam_error *error)
     job.times.start = clock_ms();
     bool ok = check_options(o, error) && job_load(&job, &progress, error);
     const lam_mesh *mesh = ok ? lam_scene_mesh(job.scene, 0) : NULL;
-    ok = ok && lam_mesh_save(mesh, o->output, lam_scene_up(job.scene), error);
-    if (ok && !o->quiet)
-        fprintf(stderr, "%s: %u triangles, %u vertices\n", o->output, (unsigned)mesh->triangle_count,
+    ok = ok && lam_mesh_save(mesh, o->picture.output, lam_scene_up(job.scene), error);
+    if (ok && !o->report.quiet)
+        fprintf(stderr, "%s: %u triangles, %u vertices\n", o->picture.output, (unsigned)mesh->triangle_count,
                 (unsigned)mesh->vertex_count);
     job_free(&job);
     return ok;
@@ -75,9 +75,9 @@ int run_shape(int operand_count, char **operands, const struct options *options)
 {
     lam_error error = {0};
     char parametric[] = "parametric", implicit[] = "implicit";
-    char *formula[] = {options->implicit ? implicit : options->parametric ? parametric : NULL};
+    char *formula[] = {options->shape.implicit ? implicit : options->shape.parametric ? parametric : NULL};
     bool ok = true;
-    if (options->parametric && options->implicit)
+    if (options->shape.parametric && options->shape.implicit)
         ok = complain(&error, LAM_BAD_ARGUMENT, "shape: found --parametric and --implicit, expected one of them");
     else if (operand_count && *formula)
         ok = complain(&error, LAM_BAD_ARGUMENT, "shape: found '%s' and --%s, expected one of them", operands[0],
@@ -90,9 +90,9 @@ int run_shape(int operand_count, char **operands, const struct options *options)
         ok = complain(&error, LAM_BAD_ARGUMENT,
                       "shape: no built-in shape has the name '%s'; `lambent shapes` lists them", operands[0]);
     ok = ok && job_check_formula(*formula ? *formula : operands[0], options, &error) &&
-         check_ending(options->output, &error);
+         check_ending(options->picture.output, &error);
     char **models = *formula ? formula : operands;
-    if (ok && !is_model_file(options->output))
+    if (ok && !is_model_file(options->picture.output))
         return run_render(1, models, options);
     if (ok && save(models[0], options, &error))
         return 0;

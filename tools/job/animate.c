@@ -33,13 +33,13 @@ static bool not_with(const struct options *o, const char *option, lam_error *err
 
 static bool check_sweeps(const struct options *o, lam_error *error)
 {
-    for (int i = 0; i < o->sweeps.count; i++) {
+    for (int i = 0; i < o->animation.sweeps.count; i++) {
         struct sweep sweep;
         lam_error reason;
-        if (!sweep_parse(o->sweeps.items[i], &sweep, &reason))
+        if (!sweep_parse(o->animation.sweeps.items[i], &sweep, &reason))
             return complain(error, LAM_BAD_ARGUMENT, "option '--sweep': %.400s", reason.text);
         // A sweep of the view's angles or its zoom moves the camera that is fitted.
-        if (o->camera && sweep.kind == SWEEP_OPTION && sweep.option->group == GROUP_VIEW)
+        if (o->view.camera && sweep.kind == SWEEP_OPTION && sweep.option->group == GROUP_VIEW)
             return complain(error, LAM_BAD_ARGUMENT, "options '--camera' and '--sweep %s' cannot be used together",
                             sweep.option->name);
     }
@@ -51,14 +51,14 @@ bool animation_check(const struct options *o, lam_error *error)
     if (!animation_wanted(o))
         return only_with(o, "frames", "--sweep", error) && only_with(o, "fps", "--turntable or --sweep", error) &&
                only_with(o, "turntable-light", "--turntable", error);
-    if (o->turntable && o->frames)
+    if (o->animation.turntable && o->animation.frames)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--frames' is for --sweep alone: --turntable has its own number");
-    if (o->view_count > 1 || o->size_count > 1)
+    if (o->batch.view_count > 1 || o->batch.size_count > 1)
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs one %s; found several", animation_option(o),
-                        o->view_count > 1 ? "--view" : "--size");
+                        o->batch.view_count > 1 ? "--view" : "--size");
     return not_with(o, "repeat", error) && not_with(o, "save-scene", error) && check_sweeps(o, error) &&
-           (o->turntable || only_with(o, "turntable-light", "--turntable", error));
+           (o->animation.turntable || only_with(o, "turntable-light", "--turntable", error));
 }
 
 static bool check_format(const struct job *job, const struct options *o, lam_error *error)
@@ -75,7 +75,7 @@ static bool check_format(const struct job *job, const struct options *o, lam_err
 
 static bool has_frame_names(const struct options *o)
 {
-    return output_name_is_pattern(o->output) && output_name_has(o->output, "frame");
+    return output_name_is_pattern(o->picture.output) && output_name_has(o->picture.output, "frame");
 }
 
 static const char word[] = "{frame}";
@@ -90,7 +90,7 @@ static int digits_of(int count)
 
 int animation_count(const struct options *o)
 {
-    return o->turntable ? o->turntable : o->frames ? o->frames : FRAMES_DEFAULT;
+    return o->animation.turntable ? o->animation.turntable : o->animation.frames ? o->animation.frames : FRAMES_DEFAULT;
 }
 
 bool animation_is_frame(const struct options *o, const char *pattern, const char *path)
@@ -150,17 +150,17 @@ static char up_letter(lam_up up)
 static bool add_turns(struct animation *a, struct options *o, lam_error *error)
 {
     static const char *const all[] = {"x:0", "y:0", "z:0"};
-    bool model = a->given->turntable && a->given->turntable_light == TURNTABLE_LIGHT_MODEL;
+    bool model = a->given->animation.turntable && a->given->animation.turntable_light == TURNTABLE_LIGHT_MODEL;
     bool about_up = model || animation_sweeps(a, "azimuth"), any = animation_sweeps(a, "elevation");
     const char **items = calloc(2, sizeof *items);
-    free(o->sheet_rotations.items);
-    o->sheet_rotations = (struct texts){.items = items};
+    free(o->shading.sheet_rotations.items);
+    o->shading.sheet_rotations = (struct texts){.items = items};
     if (!items)
         return complain(error, LAM_LIMIT, "out of memory");
     if (about_up || any)
-        items[o->sheet_rotations.count++] = all[up_letter(a->up) - 'x'];
+        items[o->shading.sheet_rotations.count++] = all[up_letter(a->up) - 'x'];
     if (any) // two axes: any turn
-        items[o->sheet_rotations.count++] = all[(up_letter(a->up) - 'x' + 1) % 3];
+        items[o->shading.sheet_rotations.count++] = all[(up_letter(a->up) - 'x' + 1) % 3];
     return true;
 }
 
@@ -183,9 +183,9 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
             words[count++] = a->words[i].option;
             words[count++] = a->words[i].value;
         }
-        o->place_lights |= sweep->kind == SWEEP_LIGHT;
+        o->animation.place_lights |= sweep->kind == SWEEP_LIGHT;
     }
-    if (o->turntable && o->turntable_light == TURNTABLE_LIGHT_CAMERA) {
+    if (o->animation.turntable && o->animation.turntable_light == TURNTABLE_LIGHT_CAMERA) {
         struct sweep_words *turn = &a->words[a->sweep_count];
         double angle_deg = animation_turn(a, frame);
         snprintf(turn->option, sizeof turn->option, "--rotate");
@@ -194,9 +194,9 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
         words[count++] = turn->option;
         words[count++] = turn->value;
     }
-    o->place_lights |= o->turntable != 0;
+    o->animation.place_lights |= o->animation.turntable != 0;
     if (a->environment && !a->loads)
-        o->environment = NULL; // the scene keeps it
+        o->shading.environment = NULL; // the scene keeps it
     return options_parse(count, words, find_groups("render"), o, error) >= 0 && add_turns(a, o, error);
 }
 
@@ -205,8 +205,8 @@ static void keep_exposure(const struct job *job, struct options *o)
 {
     if (!job->exposure_fitted)
         return;
-    o->exposure_kind = EXPOSURE_LITERAL;
-    o->exposure = job->draw.exposure;
+    o->picture.exposure_kind = EXPOSURE_LITERAL;
+    o->picture.exposure = job->draw.exposure;
     o->draw.light_cutoff = o->draw.light_cutoff != 0 ? o->draw.light_cutoff : -1;
 }
 
@@ -263,7 +263,7 @@ static bool prepare(struct job *job, int frame, lam_error *error)
 static bool find_length(const struct job *job, double *length_s, lam_error *error)
 {
     const lam_file_info *file = lam_scene_file_info(job->scene);
-    const char *name = job->options->animation ? job->options->animation : "0";
+    const char *name = job->options->model.animation ? job->options->model.animation : "0";
     for (int i = 0; i < file->animation_count; i++) {
         char number[16];
         snprintf(number, sizeof number, "%d", i);
@@ -291,7 +291,7 @@ static bool set_length(struct job *job, lam_error *error)
         sweep->stop_count = 2;
         sweep->closed = true;
         double frames = length_s * job->frames.frames_per_second + 0.5;
-        if (!a->given->turntable && !a->given->frames)
+        if (!a->given->animation.turntable && !a->given->animation.frames)
             a->count = frames < 2 ? 2 : frames > FRAMES_MAX ? FRAMES_MAX : (int)frames;
     }
     job->frames.count = a->count;
@@ -359,7 +359,7 @@ static bool fit_poses(struct job *job, lam_error *error)
         return !any;
     lam_scene_sphere(box, -1, &a->sphere.centre, &a->sphere.radius);
     a->has_sphere = a->sphere.radius > 0;
-    if (!job->options->camera && !scene_settings_has_camera(job)) {
+    if (!job->options->view.camera && !scene_settings_has_camera(job)) {
         a->camera = job_fit_camera(box, a->sphere.centre, job->options, job->rig);
         a->has_camera = true;
     }
@@ -372,21 +372,21 @@ static bool fit_poses(struct job *job, lam_error *error)
 static bool begin(struct job *job, const struct options *o, lam_error *error)
 {
     struct animation *a = job->animation;
-    a->sweeps = calloc((size_t)o->sweeps.count + 1, sizeof *a->sweeps);
-    a->words = calloc((size_t)o->sweeps.count + 1, sizeof *a->words);
+    a->sweeps = calloc((size_t)o->animation.sweeps.count + 1, sizeof *a->sweeps);
+    a->words = calloc((size_t)o->animation.sweeps.count + 1, sizeof *a->words);
     if (!a->sweeps || !a->words)
         return complain(error, LAM_LIMIT, "out of memory");
-    if (o->sweeps.count > OPTIONS_MAX)
+    if (o->animation.sweeps.count > OPTIONS_MAX)
         return complain(error, LAM_BAD_ARGUMENT, "option '--sweep': given %d times, expected at most %d",
-                        o->sweeps.count, OPTIONS_MAX);
-    for (int i = 0; i < o->sweeps.count; i++) {
-        sweep_parse(o->sweeps.items[i], &a->sweeps[i], error); // cannot fail: animation_check has parsed it
+                        o->animation.sweeps.count, OPTIONS_MAX);
+    for (int i = 0; i < o->animation.sweeps.count; i++) {
+        sweep_parse(o->animation.sweeps.items[i], &a->sweeps[i], error); // cannot fail: animation_check has parsed it
         a->loads |= a->sweeps[i].option && a->sweeps[i].option->loads;
     }
-    a->sweep_count = o->sweeps.count;
+    a->sweep_count = o->animation.sweeps.count;
     a->count = animation_count(o);
     job->frames.count = a->count;
-    job->frames.frames_per_second = o->fps > 0 ? o->fps : 24;
+    job->frames.frames_per_second = o->animation.fps > 0 ? o->animation.fps : 24;
     if (has_frame_names(o) &&
         (!name_frames(job, a, error) || !output_check(job->output, job->model, OUTPUT_PATTERN, error)))
         return false;
@@ -397,7 +397,8 @@ static lam_animation *start_file(const struct job *job, lam_error *error)
 {
     lam_save_params params = job_save_params(job, NULL);
     lam_animation_params animation = {.frames_per_second = job->frames.frames_per_second, .frames = &params};
-    return lam_animation_make(job->format, job->options->width, job->options->height, &animation, error);
+    return lam_animation_make(job->format, job->options->picture.width, job->options->picture.height, &animation,
+                              error);
 }
 
 // Encodes the frame into the file of all frames, or writes it as a picture of its own.
@@ -428,7 +429,7 @@ static bool write_file(struct job *job, lam_animation *file, lam_error *error)
         *job->picture_bytes = bytes;
         job->bytes = bytes.size;
     } else {
-        ok = ok && output_save_bytes(&bytes, job->output, job->options->durable, &job->bytes, error);
+        ok = ok && output_save_bytes(&bytes, job->output, job->options->picture.durable, &job->bytes, error);
         lam_bytes_free(&bytes);
     }
     job->times.encode += clock_ms() - start;
@@ -470,7 +471,7 @@ static bool run(struct job *job, lam_pixel_format format, struct progress *progr
     scene_settings_apply(job);
     if ((a->loads && !fit_poses(job, error)) || !mark(job, error))
         return false;
-    if (job->options->dry_run) {
+    if (job->options->report.dry_run) {
         job->planned = prepare(job, 0, error) && job_arrange(job, progress, error);
         return job->planned;
     }

@@ -5,9 +5,9 @@
 
 #include "light_place.h"
 
-bool animation_wanted(const struct options *o) { return o->turntable || o->sweeps.count; }
+bool animation_wanted(const struct options *o) { return o->animation.turntable || o->animation.sweeps.count; }
 
-const char *animation_option(const struct options *o) { return o->turntable ? "turntable" : "sweep"; }
+const char *animation_option(const struct options *o) { return o->animation.turntable ? "turntable" : "sweep"; }
 
 bool animation_sweeps(const struct animation *a, const char *option)
 {
@@ -70,11 +70,12 @@ static void move_camera(struct job *job)
     lam_vec3 up, front;
     scene_axes(job->scene, &up, &front);
     double higher = swept(a, "elevation"), around = swept(a, "azimuth");
-    if (job->options->turntable && job->options->turntable_light == TURNTABLE_LIGHT_MODEL)
+    if (job->options->animation.turntable && job->options->animation.turntable_light == TURNTABLE_LIGHT_MODEL)
         around -= animation_turn(a, a->index);
     if (higher != 0) {
-        lam_view view = lam_view_of_side((lam_side)job->options->view);
-        double azimuth_rad = job->options->has_azimuth ? radians(job->options->azimuth_deg) : view.azimuth_rad;
+        lam_view view = lam_view_of_side((lam_side)job->options->view.side);
+        double azimuth_rad =
+            job->options->view.has_azimuth ? radians(job->options->view.azimuth_deg) : view.azimuth_rad;
         lam_vec3 side = {up.y * front.z - up.z * front.y, up.z * front.x - up.x * front.z,
                          up.x * front.y - up.y * front.x};
         lam_mat4 turn = lam_mat4_rotation(up, azimuth_rad);
@@ -97,7 +98,7 @@ bool animation_arrange(struct job *job, lam_error *error)
         if (a->sweeps[i].kind == SWEEP_LIGHT &&
             !light_sweep(job, &a->sweeps[i], sweep_value(&a->sweeps[i], a->index, a->count), a->sphere.centre, error))
             return false;
-    if (job->options->turntable && job->options->turntable_light == TURNTABLE_LIGHT_MODEL &&
+    if (job->options->animation.turntable && job->options->animation.turntable_light == TURNTABLE_LIGHT_MODEL &&
         !lights_fix_to_world(job, error))
         return false;
     move_camera(job);

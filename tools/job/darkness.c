@@ -9,7 +9,7 @@ bool job_note_darkness(struct job *job, const lam_draw_params *draw, int width, 
                        lam_error *error)
 {
     const struct options *o = job->options;
-    if (!job->file_lights || o->exposure_kind != EXPOSURE_BY_FILE || draw->output != LAM_OUTPUT_PICTURE)
+    if (!job->file_lights || o->picture.exposure_kind != EXPOSURE_BY_FILE || draw->output != LAM_OUTPUT_PICTURE)
         return true;
     enum { SIDE_MAX = 96 };
     const double black = 0.002, dark = 0.02; // luminances

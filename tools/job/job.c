@@ -44,7 +44,8 @@ bool job_control(const struct job *job, struct progress *progress, lam_control *
         return complain(error, LAM_CANCELLED, "%s: interrupted", job->model);
     double whole = control->time_limit_s;
     if (whole > 0) {
-        double start = job->times.frame_start > 0 && !(o->time_limit_s > 0) ? job->times.frame_start : job->times.start;
+        double start =
+            job->times.frame_start > 0 && !(o->limits.time_limit_s > 0) ? job->times.frame_start : job->times.start;
         control->time_limit_s = whole - (clock_ms() - start) / 1e3;
         if (!(control->time_limit_s > 0))
             return complain(error, LAM_LIMIT, "%s: the time limit of %.10g s was reached (--time-limit)", job->model,
@@ -57,7 +58,9 @@ bool job_control(const struct job *job, struct progress *progress, lam_control *
 // every edge.
 static double crease_of(const struct options *o)
 {
-    return o->crease_angle_deg < 0 ? 0 : o->crease_angle_deg > 0 ? radians(o->crease_angle_deg) : 1e-6;
+    return o->shading.crease_angle_deg < 0   ? 0
+           : o->shading.crease_angle_deg > 0 ? radians(o->shading.crease_angle_deg)
+                                             : 1e-6;
 }
 
 // Names the option that an error about a formula or a range of it is about.
@@ -80,21 +83,21 @@ static void name_formula_option(const char *model, lam_error *error)
 // The formula of the options; its text is NULL if there is none.
 static lam_formula formula_of(const struct options *o)
 {
-    if (o->implicit)
-        return (lam_formula){.text = o->implicit,
+    if (o->shape.implicit)
+        return (lam_formula){.text = o->shape.implicit,
                              .implicit = true,
-                             .x = o->x_range,
-                             .y = o->y_range,
-                             .z = o->z_range,
-                             .u_segments = o->slices,
-                             .v_segments = o->stacks,
-                             .flip = o->flip};
-    return (lam_formula){.text = o->parametric,
-                         .u = o->u_range,
-                         .v = o->v_range,
-                         .u_segments = o->slices,
-                         .v_segments = o->stacks ? o->stacks : o->slices,
-                         .flip = o->flip};
+                             .x = o->shape.x_range,
+                             .y = o->shape.y_range,
+                             .z = o->shape.z_range,
+                             .u_segments = o->shading.slices,
+                             .v_segments = o->shading.stacks,
+                             .flip = o->shading.flip};
+    return (lam_formula){.text = o->shape.parametric,
+                         .u = o->shape.u_range,
+                         .v = o->shape.v_range,
+                         .u_segments = o->shading.slices,
+                         .v_segments = o->shading.stacks ? o->shading.stacks : o->shading.slices,
+                         .flip = o->shading.flip};
 }
 
 static lam_scene *make_shape(const char *name, const struct options *o, const lam_control *control, lam_error *error)
@@ -104,16 +107,17 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
         return NULL;
     lam_object object = lam_object_default();
     object.name = name;
-    lam_shape_params params = {.slices = o->slices, .stacks = o->stacks, .control = control};
+    lam_shape_params params = {.slices = o->shading.slices, .stacks = o->shading.stacks, .control = control};
     const lam_formula formula = formula_of(o);
     object.mesh = formula.text ? lam_scene_add_formula(scene, &formula, control, error)
                                : lam_scene_add_shape(scene, name, &params, error);
     bool ok = object.mesh >= 0 && lam_scene_add_object(scene, &object, error) >= 0;
-    if (ok && (o->normals != LAM_NORMALS_FILE || o->crease_angle_deg >= 0))
-        ok = lam_scene_make_normals(scene, (lam_normals)o->normals, crease_of(o), o->threads, control, error);
+    if (ok && (o->shading.normals != LAM_NORMALS_FILE || o->shading.crease_angle_deg >= 0))
+        ok = lam_scene_make_normals(scene, (lam_normals)o->shading.normals, crease_of(o), o->work.threads, control,
+                                    error);
     if (ok) {
         // Formulas are written for books' axes, where z is up.
-        lam_scene_set_up(scene, formula.text && o->up == LAM_UP_AUTO ? LAM_UP_Z : (lam_up)o->up);
+        lam_scene_set_up(scene, formula.text && o->view.up == LAM_UP_AUTO ? LAM_UP_Z : (lam_up)o->view.up);
         return scene;
     }
     if (formula.text)
@@ -129,7 +133,7 @@ static bool draws_once(const struct job *job)
     if (job->device && lam_device_isa(job->device) == LAM_ISA_AUTO) // an OpenGL device
         return false;
     bool tangents = lam_reflection_describe(o->draw.reflection)->tangents;
-    return o->repeat == 1 && !job->keeps_scene && !show_is_all(o) && !tangents && job->view_count <= 1 &&
+    return o->work.repeat == 1 && !job->keeps_scene && !show_is_all(o) && !tangents && job->view_count <= 1 &&
            !job->animation;
 }
 
@@ -158,8 +162,8 @@ static void warn_maps(struct job *job)
 static bool find_background(struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
-    if (o->background)
-        return lam_color_parse(o->background, (lam_color_mode)o->color_mode, &job->background, error);
+    if (o->picture.background)
+        return lam_color_parse(o->picture.background, (lam_color_mode)o->picture.color_mode, &job->background, error);
     job->background = job->settings.draw.background;
     return true;
 }
@@ -176,22 +180,22 @@ static bool make_scene(struct job *job, struct progress *progress, lam_error *er
         job->scene = make_shape(job->model, o, &control, error);
         job->times.prepare = clock_ms() - job->times.start;
     } else {
-        lam_load_params params = {.up = (lam_up)o->up,
-                                  .color = (lam_color_mode)o->color_mode,
+        lam_load_params params = {.up = (lam_up)o->view.up,
+                                  .color = (lam_color_mode)o->picture.color_mode,
                                   .override_color = option_given(o, "color-mode"),
-                                  .models_anywhere = !o->files_inside,
-                                  .allowed_paths = o->allow_paths.items,
-                                  .allowed_path_count = o->allow_paths.count,
-                                  .normals = (lam_normals)o->normals,
+                                  .models_anywhere = !o->limits.files_inside,
+                                  .allowed_paths = o->limits.allow_paths.items,
+                                  .allowed_path_count = o->limits.allow_paths.count,
+                                  .normals = (lam_normals)o->shading.normals,
                                   .crease_angle_rad = crease_of(o),
-                                  .threads = o->threads,
-                                  .scene = o->model_scene,
-                                  .variant = o->variant,
-                                  .lenient = o->lenient,
-                                  .animation = o->animation  ? o->animation
-                                               : o->has_time ? "0"
-                                                             : NULL,
-                                  .time_s = o->time_s,
+                                  .threads = o->work.threads,
+                                  .scene = o->model.scene,
+                                  .variant = o->model.variant,
+                                  .lenient = o->model.lenient,
+                                  .animation = o->model.animation  ? o->model.animation
+                                               : o->model.has_time ? "0"
+                                                                   : NULL,
+                                  .time_s = o->model.time_s,
                                   .polygon_edges = o->draw.wireframe || o->draw.edges,
                                   .normals_when_drawn = draws_once(job)};
         const lam_bytes *bytes = job->model_bytes;
@@ -225,13 +229,13 @@ static void warn_color(lam_scene *scene, const char *option, const char *value, 
 static void warn_colors(struct job *job)
 {
     const struct options *o = job->options;
-    lam_color_mode mode = (lam_color_mode)o->color_mode;
+    lam_color_mode mode = (lam_color_mode)o->picture.color_mode;
     for (int i = 0; option_table[i].name; i++)
         if (option_table[i].kind == VALUE_COLOR && o->given[i])
             warn_color(job->scene, option_table[i].name, o->values[i], strcmp(option_table[i].name, "color") == 0,
                        mode);
-    for (int i = 0; i < o->lights.count; i++) {
-        const char *text = o->lights.items[i], *color = strstr(text, "color=");
+    for (int i = 0; i < o->lighting.lights.count; i++) {
+        const char *text = o->lighting.lights.items[i], *color = strstr(text, "color=");
         char value[40];
         if (!color || strstr(text, "attenuation=") || strstr(text, "intensity=") || strstr(text, "range="))
             continue;
@@ -258,9 +262,9 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
         return false;
     warn_maps(job);
     warn_colors(job);
-    if (o->slices && !formula_of(o).text && lam_shape_find(job->model) < 0)
+    if (o->shading.slices && !formula_of(o).text && lam_shape_find(job->model) < 0)
         lam_scene_add_warning(job->scene, "option '--segments' changes nothing: the model is a file");
-    if ((o->model_scene || o->variant || o->animation || o->has_time || o->lenient) &&
+    if ((o->model.scene || o->model.variant || o->model.animation || o->model.has_time || o->model.lenient) &&
         strcmp(lam_scene_format(job->scene), "gltf") != 0)
         lam_scene_add_warning(job->scene,
                               "options '--scene', '--variant', '--animation', '--time' and '--lenient' count "
@@ -273,7 +277,8 @@ static bool fit_exposure(struct job *job, lam_draw_params *draw, int width, int 
 {
     const struct options *o = job->options;
     lam_control control;
-    bool wanted = o->exposure_kind == EXPOSURE_AUTO || (o->exposure_kind == EXPOSURE_BY_FILE && job->file_lights);
+    bool wanted =
+        o->picture.exposure_kind == EXPOSURE_AUTO || (o->picture.exposure_kind == EXPOSURE_BY_FILE && job->file_lights);
     if (!wanted || !lam_output_is_light(draw->output))
         return true;
     if (draw->light_cutoff == 0)
@@ -296,9 +301,10 @@ bool job_draw_frames(struct job *job, double from, double span, int count, lam_f
     lam_control small; // of the small pictures that tell whether this one is dark
     job->draw = draw_params_of(o, job->rig);
     job->draw.background = job->background;
-    if (!show_option_apply(o->show, job->scene, &job->draw, error) ||
-        !fit_exposure(job, &job->draw, o->width, o->height, error) || !job_control(job, NULL, &small, error) ||
-        !job_note_darkness(job, &job->draw, o->width, o->height, &small, error))
+    if (!show_option_apply(o->picture.show, job->scene, &job->draw, error) ||
+        !fit_exposure(job, &job->draw, o->picture.width, o->picture.height, error) ||
+        !job_control(job, NULL, &small, error) ||
+        !job_note_darkness(job, &job->draw, o->picture.width, o->picture.height, &small, error))
         return false;
     bool ok = true;
     for (int i = 0; ok && i < count; i++) {
@@ -325,7 +331,7 @@ void job_time_frames(struct job *job, lam_frame_report *reports, int count)
 // Draws --repeat frames.
 static bool draw(struct job *job, struct progress *progress, lam_error *error)
 {
-    const int count = job->options->repeat;
+    const int count = job->options->work.repeat;
     lam_frame_report *reports = calloc((size_t)count, sizeof *reports);
     if (!reports)
         return complain(error, LAM_LIMIT, "out of memory");
@@ -343,12 +349,13 @@ lam_save_params job_save_params(const struct job *job, const lam_control *contro
 {
     const struct options *o = job->options;
     return (lam_save_params){.background = {job->background.r, job->background.g, job->background.b},
-                             .threads = o->threads,
+                             .threads = o->work.threads,
                              .control = control,
-                             .compress = (lam_compress)o->compress,
-                             .quality = o->quality,
-                             .durable = o->durable,
-                             .raw = o->color_mode == LAM_COLOR_RAW || !is_color(show_option_what(o->show))};
+                             .compress = (lam_compress)o->picture.compress,
+                             .quality = o->picture.quality,
+                             .durable = o->picture.durable,
+                             .raw = o->picture.color_mode == LAM_COLOR_RAW ||
+                                    !is_color(show_option_what(o->picture.show))};
 }
 
 bool job_write(struct job *job, lam_error *error)
@@ -380,27 +387,27 @@ bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
     if (!job_control(job, progress, &control, error) || !job_apply_options(job, &control, &job->sphere, error) ||
         !environment_apply(job->options, job->environments, job->scene, &control, error))
         return false;
-    if (job->options->save_scene && option_given(job->options, "show"))
+    if (job->options->picture.save_scene && option_given(job->options, "show"))
         lam_scene_add_warning(job->scene, "the saved scene file describes the picture without --show");
-    if (job->options->save_scene && job->options->files_inside && !scene_settings_are_beside(job))
+    if (job->options->picture.save_scene && job->options->limits.files_inside && !scene_settings_are_beside(job))
         lam_scene_add_warning(job->scene, "the saved scene file names files outside of its folder");
     animation_sphere(job, &job->sphere);
     return job_place_camera(job, error) &&
            (job->lights ? job_light_again(job, error) : job_light(job, &job->sphere, error)) &&
-           animation_arrange(job, error) && (!job->options->show_lights || light_markers_add(job, error));
+           animation_arrange(job, error) && (!job->options->shading.show_lights || light_markers_add(job, error));
 }
 
 bool job_make_image(struct job *job, lam_pixel_format format, lam_error *error)
 {
     const struct options *o = job->options; // includes the scene file's settings
-    uint64_t bytes = (uint64_t)o->width * (uint64_t)o->height * (format == LAM_RGBA8 ? 4 : 16);
+    uint64_t bytes = (uint64_t)o->picture.width * (uint64_t)o->picture.height * (format == LAM_RGBA8 ? 4 : 16);
     uint64_t limit = limits_memory(o);
     if (limit && bytes > limit)
         return complain(error, LAM_LIMIT,
                         "the picture of %dx%d pixels needs %.1f MB, more than the memory limit of %.1f MB "
                         "(--memory-limit)",
-                        o->width, o->height, (double)bytes / 1e6, (double)limit / 1e6);
-    return lam_image_make(&job->image, o->width, o->height, format, error);
+                        o->picture.width, o->picture.height, (double)bytes / 1e6, (double)limit / 1e6);
+    return lam_image_make(&job->image, o->picture.width, o->picture.height, format, error);
 }
 
 bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error)
@@ -416,7 +423,7 @@ bool job_check_output(struct job *job, lam_error *error)
                            : !output_format(job->output, &job->pixels, error))
         return false;
     job->format = stream ? "png" : strrchr(job->output, '.') + 1;
-    enum output_given given = output_given(job->options->output);
+    enum output_given given = output_given(job->options->picture.output);
     given = given == OUTPUT_NAMED && job->makes_folder ? OUTPUT_PATTERN : given;
     if (strcmp(job->output, "-") != 0 && !job->picture_bytes && !output_check(job->output, job->model, given, error))
         return false;
@@ -427,14 +434,14 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error)
 {
     if (!job_check_output(job, error))
         return false;
-    if (job->options->dry_run) {
+    if (job->options->report.dry_run) {
         job->planned = job_load(job, progress, error) && job_arrange(job, progress, error);
         return job->planned;
     }
     bool ok = job_draw(job, job->pixels, progress, error);
     if (ok && progress)
         progress_end(progress); // the picture may go to the terminal
-    return ok && job_write(job, error) && (!job->options->save_scene || scene_settings_save(job, error));
+    return ok && job_write(job, error) && (!job->options->picture.save_scene || scene_settings_save(job, error));
 }
 
 bool job_run_view(struct job *job, int view, struct progress *progress, lam_error *error)
@@ -444,9 +451,10 @@ bool job_run_view(struct job *job, int view, struct progress *progress, lam_erro
     job->written = false;
     if (!job_check_output(job, error) || (view > 0 && !job_light_again(job, error)))
         return false;
-    job->planned = job->options->dry_run;
-    return job->planned || (job_make_image(job, job->pixels, error) && draw(job, progress, error) &&
-                            job_write(job, error) && (!job->options->save_scene || scene_settings_save(job, error)));
+    job->planned = job->options->report.dry_run;
+    return job->planned ||
+           (job_make_image(job, job->pixels, error) && draw(job, progress, error) && job_write(job, error) &&
+            (!job->options->picture.save_scene || scene_settings_save(job, error)));
 }
 
 void job_free(struct job *job)
@@ -474,10 +482,10 @@ lam_explanation *job_explain(struct job *job, int x, int y, struct progress *pro
     const struct options *o = job->options; // now includes the scene file's settings
     lam_draw_params params = draw_params_of(o, job->rig);
     params.background = job->background;
-    if (!fit_exposure(job, &params, o->width, o->height, error))
+    if (!fit_exposure(job, &params, o->picture.width, o->picture.height, error))
         return NULL;
-    return lam_explain(job->device, job->scene, &job->camera, &params, o->width, o->height, LAM_RGBA8, x, y, &control,
-                       error);
+    return lam_explain(job->device, job->scene, &job->camera, &params, o->picture.width, o->picture.height, LAM_RGBA8,
+                       x, y, &control, error);
 }
 
 lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *error)
@@ -486,15 +494,16 @@ lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *er
         return NULL;
     const struct options *o = job->options; // now includes the scene file's settings
     lam_draw_params draw = draw_params_of(o, job->rig);
-    lam_shader_params params = {.glsl = (lam_glsl)o->glsl,
-                                .lights = (lam_shader_lights)o->lights_in,
-                                .products = o->products,
-                                .style = o->mistake ? LAM_SHADER_STYLE_LECTURE : (lam_shader_style)o->style,
-                                .mistake = o->mistake,
-                                .hardware_filter = o->texture_filter == TEXTURE_FILTER_HARDWARE};
-    if (!show_option_apply(o->show, job->scene, &draw, error) ||
-        (job->device && !fit_exposure(job, &draw, o->width, o->height, error)))
+    lam_shader_params params = {.glsl = (lam_glsl)o->shader.glsl,
+                                .lights = (lam_shader_lights)o->shader.lights_in,
+                                .products = o->shader.products,
+                                .style =
+                                    o->shader.mistake ? LAM_SHADER_STYLE_LECTURE : (lam_shader_style)o->shader.style,
+                                .mistake = o->shader.mistake,
+                                .hardware_filter = o->work.texture_filter == TEXTURE_FILTER_HARDWARE};
+    if (!show_option_apply(o->picture.show, job->scene, &draw, error) ||
+        (job->device && !fit_exposure(job, &draw, o->picture.width, o->picture.height, error)))
         return NULL;
-    return lam_shader_make(job->scene, &job->camera, &draw, o->width, o->height, o->has_object ? o->object : -1,
-                           &params, error);
+    return lam_shader_make(job->scene, &job->camera, &draw, o->picture.width, o->picture.height,
+                           o->shader.has_object ? o->shader.object : -1, &params, error);
 }

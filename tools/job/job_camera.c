@@ -12,21 +12,22 @@
 
 static lam_view view_of(const struct options *o)
 {
-    lam_view view = lam_view_of_side((lam_side)o->view);
-    if (o->has_azimuth)
-        view.azimuth_rad = radians(o->azimuth_deg);
-    if (o->has_elevation)
-        view.elevation_rad = radians(o->elevation_deg);
-    view.orthographic = o->projection == 1;
-    view.zoom = o->zoom;
-    view.fovy_rad = radians(o->fov_deg);
+    lam_view view = lam_view_of_side((lam_side)o->view.side);
+    if (o->view.has_azimuth)
+        view.azimuth_rad = radians(o->view.azimuth_deg);
+    if (o->view.has_elevation)
+        view.elevation_rad = radians(o->view.elevation_deg);
+    view.orthographic = o->view.projection == 1;
+    view.zoom = o->view.zoom;
+    view.fovy_rad = radians(o->view.fov_deg);
     return view;
 }
 
 // The camera of the file that `--camera` names.
 static bool find_camera(struct job *job, lam_error *error)
 {
-    int count = lam_scene_camera_count(job->scene), index = lam_scene_find_camera(job->scene, job->options->camera);
+    int count = lam_scene_camera_count(job->scene),
+        index = lam_scene_find_camera(job->scene, job->options->view.camera);
     char known[300] = "";
     if (lam_scene_camera(job->scene, index, &job->camera))
         return true;
@@ -39,15 +40,16 @@ static bool find_camera(struct job *job, lam_error *error)
     return complain(
         error, LAM_BAD_ARGUMENT,
         "option '--camera': found '%.60s', expected keys such as eye=2/1/4, or a camera of the file, which has %s%s",
-        job->options->camera, count ? known : "none", count > 1 && strlen(known) >= sizeof known - 60 ? ", ..." : "");
+        job->options->view.camera, count ? known : "none",
+        count > 1 && strlen(known) >= sizeof known - 60 ? ", ..." : "");
 }
 
 void job_choose_view(struct job *job, const struct job_view *view)
 {
-    job->own.width = view->width;
-    job->own.height = view->height;
+    job->own.picture.width = view->width;
+    job->own.picture.height = view->height;
     if (view->side >= 0)
-        job->own.view = view->side;
+        job->own.view.side = view->side;
 }
 
 lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct options *o, lam_rig rig)
@@ -56,14 +58,15 @@ lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct 
     lam_vec3 axis;
     bool turns = job_turn_axis(o, &axis);
     lam_draw_params draw = draw_params_of(o, rig);
-    return lam_camera_fit_ground(scene, &draw, o->width, o->height, &view, centre, turns ? &axis : NULL);
+    return lam_camera_fit_ground(scene, &draw, o->picture.width, o->picture.height, &view, centre,
+                                 turns ? &axis : NULL);
 }
 
 // Keeps the lights as they are before those of the options come, where these come again: for each view's camera, and where a
 // camera is fitted to their shadows.
 static bool keep_lights(struct job *job, lam_error *error)
 {
-    if ((job->view_count <= 1 && !job->options->draw.ground) || !job->options->lights.count)
+    if ((job->view_count <= 1 && !job->options->draw.ground) || !job->options->lighting.lights.count)
         return true;
     job->light_count = lam_scene_light_count(job->scene);
     free(job->lights);
@@ -92,7 +95,7 @@ static void fit_camera(struct job *job, const struct model_sphere *sphere, bool 
         return;
     if (scene_settings_has_camera(job) && !side_is_given)
         job->camera = job->settings.camera;
-    else if (!o->camera) {
+    else if (!o->view.camera) {
         job->camera = job_fit_camera(job->scene, sphere->centre, o, job->rig);
         lam_error unused; // of a light's text, which job_light meets again
         if (job->lights && o->draw.ground && job_light_again(job, &unused))
@@ -122,11 +125,11 @@ bool job_place_camera(struct job *job, lam_error *error)
         return false;
     if (animation_camera(job, &same))
         return true;
-    if (o->camera && !strchr(o->camera, '=') && !find_camera(job, error))
+    if (o->view.camera && !strchr(o->view.camera, '=') && !find_camera(job, error))
         return false;
-    if (o->camera && strchr(o->camera, '='))
-        lam_camera_parse(o->camera, job->scene, &job->camera, NULL); // cannot fail: store_camera has parsed it
-    for (int i = 0; o->camera && i < job->view_count; i++)
+    if (o->view.camera && strchr(o->view.camera, '='))
+        lam_camera_parse(o->view.camera, job->scene, &job->camera, NULL); // cannot fail: store_camera has parsed it
+    for (int i = 0; o->view.camera && i < job->view_count; i++)
         job->cameras[i] = job->camera;
     return true;
 }

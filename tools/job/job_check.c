@@ -9,7 +9,7 @@
 // Phong shading runs in the fragment stage, Gouraud shading in the vertex stage or the application, flat in any.
 static bool check_stage(const struct options *o, lam_error *error)
 {
-    if (!o->has_shading || !o->draw.stage)
+    if (!o->shading.has_shading || !o->draw.stage)
         return true;
     if (o->draw.shading == LAM_SHADING_PHONG && o->draw.stage != LAM_STAGE_FRAGMENT)
         return complain(error, LAM_BAD_ARGUMENT,
@@ -25,24 +25,24 @@ static bool check_stage(const struct options *o, lam_error *error)
 
 bool job_check_options(const struct options *o, lam_error *error)
 {
-    const char *view = o->view            ? "view"
-                       : o->has_azimuth   ? "azimuth"
-                       : o->has_elevation ? "elevation"
-                       : o->zoom > 0      ? "zoom"
-                       : o->fov_deg > 0   ? "fov"
-                       : o->projection    ? "projection"
-                                          : NULL;
-    if (o->camera && view)
+    const char *view = o->view.side            ? "view"
+                       : o->view.has_azimuth   ? "azimuth"
+                       : o->view.has_elevation ? "elevation"
+                       : o->view.zoom > 0      ? "zoom"
+                       : o->view.fov_deg > 0   ? "fov"
+                       : o->view.projection    ? "projection"
+                                               : NULL;
+    if (o->view.camera && view)
         return complain(error, LAM_BAD_ARGUMENT, "options '--camera' and '--%s' cannot be used together", view);
-    if (o->fov_deg > 0 && o->projection)
+    if (o->view.fov_deg > 0 && o->view.projection)
         return complain(
             error, LAM_BAD_ARGUMENT,
             "options '--fov' and '--projection orthographic' cannot be used together: parallel rays span no angle");
-    if (o->two_sided && o->one_sided)
+    if (o->shading.two_sided && o->shading.one_sided)
         return complain(error, LAM_BAD_ARGUMENT, "options '--two-sided' and '--one-sided' cannot be used together");
     if (!check_stage(o, error) || !animation_check(o, error))
         return false;
-    if (o->quiet && o->verbose)
+    if (o->report.quiet && o->report.verbose)
         return complain(error, LAM_BAD_ARGUMENT, "options '--quiet' and '--verbose' cannot be used together");
     return true;
 }
@@ -58,14 +58,14 @@ bool job_check_formula(const char *model, const struct options *o, lam_error *er
     const struct {
         const char *name, *kind;
         bool stray;
-    } rows[] = {{"parametric", "the model 'parametric'", o->parametric && !parametric},
-                {"implicit", "the model 'implicit'", o->implicit && !implicit},
-                {"u", "--parametric", o->u_range && !parametric},
-                {"v", "--parametric", o->v_range && !parametric},
-                {"x", "--implicit", o->x_range && !implicit},
-                {"y", "--implicit", o->y_range && !implicit},
-                {"z", "--implicit", o->z_range && !implicit},
-                {"flip", "--parametric and --implicit", o->flip && !parametric && !implicit}};
+    } rows[] = {{"parametric", "the model 'parametric'", o->shape.parametric && !parametric},
+                {"implicit", "the model 'implicit'", o->shape.implicit && !implicit},
+                {"u", "--parametric", o->shape.u_range && !parametric},
+                {"v", "--parametric", o->shape.v_range && !parametric},
+                {"x", "--implicit", o->shape.x_range && !implicit},
+                {"y", "--implicit", o->shape.y_range && !implicit},
+                {"z", "--implicit", o->shape.z_range && !implicit},
+                {"flip", "--parametric and --implicit", o->shading.flip && !parametric && !implicit}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (rows[i].stray)
             return complain(error, LAM_BAD_ARGUMENT, "option '--%s' belongs to %s", rows[i].name, rows[i].kind);

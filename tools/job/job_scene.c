@@ -17,9 +17,9 @@
 static bool metals_mirror(const struct options *o, const lam_scene *scene)
 {
     const lam_draw_params *draw = &o->draw;
-    bool changed = o->model_color || o->has_shininess || o->materials.count > 1;
-    return !o->has_rig && !o->lights.count && lam_scene_light_count(scene) == 0 && !changed && !draw->reflection &&
-           !draw->shading && !draw->stage && !draw->gl1 && o->color_mode == LAM_COLOR_SRGB;
+    bool changed = o->material.model_color || o->material.has_shininess || o->material.materials.count > 1;
+    return !o->lighting.has_rig && !o->lighting.lights.count && lam_scene_light_count(scene) == 0 && !changed &&
+           !draw->reflection && !draw->shading && !draw->stage && !draw->gl1 && o->picture.color_mode == LAM_COLOR_SRGB;
 }
 
 static bool set_materials(const struct texts *texts, bool back, const char *name, const struct options *o,
@@ -27,7 +27,7 @@ static bool set_materials(const struct texts *texts, bool back, const char *name
 {
     for (int i = 0; i < texts->count; i++) {
         struct material_option option;
-        if (!material_option_parse(texts->items[i], (lam_color_mode)o->color_mode, &option, error))
+        if (!material_option_parse(texts->items[i], (lam_color_mode)o->picture.color_mode, &option, error))
             return false;
         if (!back && metals_mirror(o, scene))
             material_option_mirror(&option);
@@ -52,9 +52,9 @@ static bool set_color(const struct options *o, lam_scene *scene, lam_error *erro
 {
     char *text;
     struct material_option color;
-    if (asprintf(&text, "color=%s", o->model_color) < 0)
+    if (asprintf(&text, "color=%s", o->material.model_color) < 0)
         return complain(error, LAM_LIMIT, "out of memory");
-    bool ok = material_option_parse(text, (lam_color_mode)o->color_mode, &color, error) &&
+    bool ok = material_option_parse(text, (lam_color_mode)o->picture.color_mode, &color, error) &&
               material_option_set(&color, false, "color", scene, error);
     free(text);
     warn_of_own_colors(scene);
@@ -64,34 +64,34 @@ static bool set_color(const struct options *o, lam_scene *scene, lam_error *erro
 // Colour, shininess and opacity are set before the back materials, so that back faces derived from the front share them.
 static bool apply_materials(const struct options *o, lam_scene *scene, lam_error *error)
 {
-    if (!set_materials(&o->materials, false, "material", o, scene, error) ||
-        (o->model_color && !set_color(o, scene, error)))
+    if (!set_materials(&o->material.materials, false, "material", o, scene, error) ||
+        (o->material.model_color && !set_color(o, scene, error)))
         return false;
     char text[100] = "", *at = text;
-    if (o->has_shininess)
-        at += sprintf(at, "shininess=%.17g,", o->shininess);
-    if (o->has_opacity)
-        at += sprintf(at, "opacity=%.17g,", o->opacity);
+    if (o->material.has_shininess)
+        at += sprintf(at, "shininess=%.17g,", o->material.shininess);
+    if (o->material.has_opacity)
+        at += sprintf(at, "opacity=%.17g,", o->material.opacity);
     if (at > text) {
         at[-1] = 0;
         struct material_option plain;
-        if (!material_option_parse(text, (lam_color_mode)o->color_mode, &plain, error) ||
+        if (!material_option_parse(text, (lam_color_mode)o->picture.color_mode, &plain, error) ||
             !material_option_set(&plain, false, "shininess", scene, error))
             return false;
     }
-    return set_materials(&o->back_materials, true, "back-material", o, scene, error);
+    return set_materials(&o->material.back_materials, true, "back-material", o, scene, error);
 }
 
 static bool apply_sides(const struct options *o, lam_scene *scene, lam_error *error)
 {
-    if (!o->two_sided && !o->one_sided && !o->has_cull)
+    if (!o->shading.two_sided && !o->shading.one_sided && !o->shading.has_cull)
         return true;
     for (int i = 0; i < lam_scene_object_count(scene); i++) {
         lam_object object = *lam_scene_object(scene, i);
-        if (o->two_sided || o->one_sided)
-            object.one_sided = o->one_sided;
-        if (o->has_cull)
-            object.cull = (lam_cull)o->cull;
+        if (o->shading.two_sided || o->shading.one_sided)
+            object.one_sided = o->shading.one_sided;
+        if (o->shading.has_cull)
+            object.cull = (lam_cull)o->shading.cull;
         if (!lam_scene_set_object(scene, i, &object, error))
             return false;
     }
@@ -130,13 +130,14 @@ static bool apply_rig(struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
     bool replaces = false;
-    for (int i = 0; i < o->lights.count; i++)
-        replaces |= o->lights.items[i][0] != '+';
-    job->rig = o->has_rig && o->rig != RIG_DARK ? (lam_rig)o->rig : LAM_RIG_AUTO;
-    if (o->has_rig && o->rig == (int)LAM_RIG_NONE && lam_scene_light_count(job->scene) == 0 && o->lights.count == 0)
+    for (int i = 0; i < o->lighting.lights.count; i++)
+        replaces |= o->lighting.lights.items[i][0] != '+';
+    job->rig = o->lighting.has_rig && o->lighting.rig != RIG_DARK ? (lam_rig)o->lighting.rig : LAM_RIG_AUTO;
+    if (o->lighting.has_rig && o->lighting.rig == (int)LAM_RIG_NONE && lam_scene_light_count(job->scene) == 0 &&
+        o->lighting.lights.count == 0)
         lam_scene_add_warning(job->scene, "option '--rig file': the model has no lights");
-    bool dark = o->rig == RIG_DARK || (replaces && !o->has_rig);
-    bool named = o->has_rig && job->rig != LAM_RIG_AUTO && job->rig != LAM_RIG_NONE;
+    bool dark = o->lighting.rig == RIG_DARK || (replaces && !o->lighting.has_rig);
+    bool named = o->lighting.has_rig && job->rig != LAM_RIG_AUTO && job->rig != LAM_RIG_NONE;
     if (dark || named)
         lam_scene_clear_lights(job->scene);
     if (dark)
@@ -150,7 +151,8 @@ static bool apply_rig(struct job *job, lam_error *error)
                        (strcmp(format, "gltf") == 0 ||
                         (strcmp(format, "scene") == 0 && !(job->settings.present & LAM_SETTING_LIGHTS)));
     job->studio = lit_by_environment(job);
-    bool as_it_is = !o->lights.count && !o->has_light_scale && !o->rotations.count && !o->place_lights;
+    bool as_it_is = !o->lighting.lights.count && !o->lighting.has_light_scale && !o->shading.rotations.count &&
+                    !o->animation.place_lights;
     if (job->rig == LAM_RIG_NONE || as_it_is)
         return true;
     bool ok = (!job->studio || set_studio(job, error)) && add_rig(job->scene, job->rig, error);
@@ -160,11 +162,12 @@ static bool apply_rig(struct job *job, lam_error *error)
 
 bool job_turn_axis(const struct options *o, lam_vec3 *axis)
 {
-    int own = o->rotations.count, count = own + o->sheet_rotations.count;
+    int own = o->shading.rotations.count, count = own + o->shading.sheet_rotations.count;
     for (int i = 0; i < count; i++) {
         lam_vec3 one;
         double angle_deg;
-        rotation_parse(i < own ? o->rotations.items[i] : o->sheet_rotations.items[i - own], &one, &angle_deg);
+        rotation_parse(i < own ? o->shading.rotations.items[i] : o->shading.sheet_rotations.items[i - own], &one,
+                       &angle_deg);
         if (i == 0)
             *axis = one;
         else if (one.x != axis->x || one.y != axis->y || one.z != axis->z)
@@ -176,10 +179,10 @@ bool job_turn_axis(const struct options *o, lam_vec3 *axis)
 bool job_turn(struct job *job, const struct model_sphere *sphere, lam_error *error)
 {
     const struct options *o = job->options;
-    for (int i = 0; i < o->rotations.count; i++) {
+    for (int i = 0; i < o->shading.rotations.count; i++) {
         lam_vec3 axis;
         double angle_deg;
-        rotation_parse(o->rotations.items[i], &axis, &angle_deg); // cannot fail: store_rotation has parsed it
+        rotation_parse(o->shading.rotations.items[i], &axis, &angle_deg); // cannot fail: store_rotation has parsed it
         if (!lam_scene_rotate(job->scene, sphere->centre, axis, radians(angle_deg), error))
             return false;
     }
@@ -192,7 +195,7 @@ bool job_apply_options(struct job *job, const lam_control *control, struct model
     lam_scene *scene = job->scene;
     *sphere = (struct model_sphere){.radius = 1};
     lam_vec3 axis;
-    if (o->lights.count || job_turn_axis(o, &axis))
+    if (o->lighting.lights.count || job_turn_axis(o, &axis))
         lam_scene_sphere(scene, -1, &sphere->centre, &sphere->radius);
     if (!(sphere->radius > 0))
         sphere->radius = 1;
@@ -217,24 +220,24 @@ static bool scale_lights(lam_scene *scene, double factor, lam_error *error)
 bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *error)
 {
     const struct options *o = job->options;
-    lam_light_text_params params = {.color = (lam_color_mode)o->color_mode,
+    lam_light_text_params params = {.color = (lam_color_mode)o->picture.color_mode,
                                     .camera = &job->camera,
                                     .centre = sphere->centre,
                                     .radius = sphere->radius};
-    for (int i = 0; i < o->lights.count; i++) {
-        const char *text = o->lights.items[i];
+    for (int i = 0; i < o->lighting.lights.count; i++) {
+        const char *text = o->lighting.lights.items[i];
         lam_error reason;
         if (strcmp(text, "none") != 0 &&
             lam_scene_add_light_text(job->scene, text + (*text == '+'), &params, &reason) < 0)
             return complain(error, reason.code, "option '--light': %s", reason.text);
     }
-    if (o->ambient) {
+    if (o->lighting.ambient) {
         lam_rgba color;
-        if (!lam_color_parse(o->ambient, (lam_color_mode)o->color_mode, &color, error))
+        if (!lam_color_parse(o->lighting.ambient, (lam_color_mode)o->picture.color_mode, &color, error))
             return false;
         lam_scene_set_ambient(job->scene, (lam_rgb){color.r, color.g, color.b});
     }
-    return !o->has_light_scale || scale_lights(job->scene, o->light_scale, error);
+    return !o->lighting.has_light_scale || scale_lights(job->scene, o->lighting.light_scale, error);
 }
 
 // --- drawing
@@ -251,16 +254,17 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
 {
     lam_draw_params draw = o->draw;
     bool by_vertex = draw.stage == LAM_STAGE_APPLICATION || draw.stage == LAM_STAGE_VERTEX;
-    if (!o->has_shading)
+    if (!o->shading.has_shading)
         draw.shading = by_vertex ? LAM_SHADING_GOURAUD : LAM_SHADING_PHONG;
-    draw.color = (lam_color_mode)o->color_mode;
-    draw.exposure = o->exposure_kind == EXPOSURE_LITERAL ? o->exposure : 0;
+    draw.color = (lam_color_mode)o->picture.color_mode;
+    draw.exposure = o->picture.exposure_kind == EXPOSURE_LITERAL ? o->picture.exposure : 0;
     draw.rig = rig;
-    draw.edge_color = color_or(o->edge_color, o->color_mode, draw.edge_color);
-    draw.wireframe_color = color_or(o->wireframe_color, o->color_mode, draw.wireframe_color);
+    draw.edge_color = color_or(o->shading.edge_color, o->picture.color_mode, draw.edge_color);
+    draw.wireframe_color = color_or(o->shading.wireframe_color, o->picture.color_mode, draw.wireframe_color);
     lam_rgba ground;
     lam_error unused; // the colour was checked with the command line
-    if (o->ground_color && lam_color_parse(o->ground_color, (lam_color_mode)o->color_mode, &ground, &unused))
+    if (o->shading.ground_color &&
+        lam_color_parse(o->shading.ground_color, (lam_color_mode)o->picture.color_mode, &ground, &unused))
         draw.ground_color = (lam_rgb){ground.r, ground.g, ground.b};
     return draw;
 }

@@ -14,22 +14,19 @@ void kept_model_forget(struct kept_model *model)
     *model = (struct kept_model){0};
 }
 
-// Whether a scene that is loaded serves other values of the option: those of the picture, the view, lights and materials.
-// An option that is not listed here is taken for one that changes the scene.
+// Whether a scene that is loaded serves other values of the option: those of the picture, the view, lights, materials and
+// drawing. An option of another kind is taken for one that changes the scene.
 static bool changes_drawing_only(const struct option *option)
 {
-    static const char *const shading[] = {"shading", "stage",  "viewer",           "single-scattering", "reflectivity",
-                                          "shadows", "ground", "shadow-samples",   "shadow-terminator", "cull",
-                                          "tone",    "gl1",    "match-highlights", "flat-normal",       "reflection"};
     static const char *const except[] = {"up", "color-mode", "look"};
     for (size_t i = 0; i < sizeof except / sizeof *except; i++)
         if (strcmp(option->name, except[i]) == 0)
             return false;
-    for (size_t i = 0; i < sizeof shading / sizeof *shading; i++)
-        if (strcmp(option->name, shading[i]) == 0)
-            return true;
+    if (option->loads)
+        return false;
     return option->group == GROUP_PICTURE || option->group == GROUP_VIEW || option->group == GROUP_LIGHTS ||
-           option->group == GROUP_MATERIALS;
+           option->group == GROUP_MATERIALS || option_setting(option) || strcmp(option->name, "cull") == 0 ||
+           strcmp(option->name, "reflectivity") == 0;
 }
 
 // The model and the options that it is loaded by, from malloc.

@@ -53,7 +53,7 @@ static bool is_outside(const struct job *job, lam_vec3 centre, double radius)
     const lam_camera *camera = &job->camera;
     lam_mat4 view = lam_camera_view_matrix(camera);
     lam_vec3 e = matrix_apply(&view, centre, 1);
-    double depth = -e.z, aspect = (double)job->options->width / job->options->height;
+    double depth = -e.z, aspect = (double)job->options->picture.width / job->options->picture.height;
     if (camera->far_plane > camera->near_plane &&
         (depth + radius < camera->near_plane || depth - radius > camera->far_plane))
         return true;

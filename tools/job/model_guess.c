@@ -63,7 +63,7 @@ void model_guess(const char *model, const struct options *options, lam_error *er
     struct stat found;
     lam_pixel_format format;
     size_t used = strlen(error->text);
-    if (!options->output && lam_image_format_for(model, &format, NULL))
+    if (!options->picture.output && lam_image_format_for(model, &format, NULL))
         snprintf(advice, sizeof advice, "; the name of the picture to write follows -o");
     else if (error->code == LAM_CANNOT_READ && stat(model, &found) == 0 && S_ISDIR(found.st_mode))
         snprintf(advice, sizeof advice, "; lambent batch %.200s draws all models in it, lambent view %.200s shows them",

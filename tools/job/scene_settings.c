@@ -35,17 +35,17 @@ void scene_settings_apply(struct job *job)
         return;
     struct options *own = &job->own;
     const lam_picture_settings *s = &job->settings;
-    if (takes_setting(job, LAM_SETTING_SIZE, "size") && !own->has_size) { // a sheet decides its pictures' size
-        own->width = s->width;
-        own->height = s->height;
+    if (takes_setting(job, LAM_SETTING_SIZE, "size") && !own->picture.has_size) { // a sheet decides its pictures' size
+        own->picture.width = s->width;
+        own->picture.height = s->height;
     }
     if (takes_setting(job, LAM_SETTING_SAMPLES, "samples"))
         own->draw.samples = s->draw.samples;
     if (takes_setting(job, LAM_SETTING_COLOR, "color-mode"))
-        own->color_mode = (int)s->draw.color;
-    if (takes_setting(job, LAM_SETTING_EXPOSURE, "exposure") && own->exposure_kind == EXPOSURE_BY_FILE) {
-        own->exposure = s->draw.exposure;
-        own->exposure_kind = EXPOSURE_LITERAL;
+        own->picture.color_mode = (int)s->draw.color;
+    if (takes_setting(job, LAM_SETTING_EXPOSURE, "exposure") && own->picture.exposure_kind == EXPOSURE_BY_FILE) {
+        own->picture.exposure = s->draw.exposure;
+        own->picture.exposure_kind = EXPOSURE_LITERAL;
     }
     if (takes_setting(job, LAM_SETTING_TONE, "tone"))
         own->draw.tone = s->draw.tone;
@@ -57,12 +57,12 @@ void scene_settings_apply(struct job *job)
         if ((s->draw_present >> i & 1) && !setting_given(own, setting) && !(stage && shading_given))
             lam_setting_copy(setting, &s->draw, &own->draw);
         if (setting->offset == offsetof(lam_draw_params, shading) && (s->draw_present >> i & 1) && !shading_given)
-            own->has_shading = !option_given(own, "stage");
+            own->shading.has_shading = !option_given(own, "stage");
     }
     // A list of lights, even an empty one, replaces the studio.
     if (takes_setting(job, LAM_SETTING_LIGHTS, "rig")) {
-        own->rig = (int)LAM_RIG_NONE;
-        own->has_rig = true;
+        own->lighting.rig = (int)LAM_RIG_NONE;
+        own->lighting.has_rig = true;
     }
 }
 
@@ -79,9 +79,9 @@ bool scene_settings_has_camera(const struct job *job)
 // stores the six file names.
 static bool take_environment(const struct options *o, lam_picture_settings *s, char **names, lam_error *error)
 {
-    const char *text = o->environment;
+    const char *text = o->shading.environment;
     if (text || option_given(o, "environment-rotation"))
-        s->environment_rotation_rad = radians(o->environment_rotation_deg);
+        s->environment_rotation_rad = radians(o->shading.environment_rotation_deg);
     if (!text)
         return true;
     memset(s->environment_faces, 0, sizeof s->environment_faces);
@@ -105,8 +105,9 @@ static bool is_below(const char *path, const char *folder)
 bool scene_settings_are_beside(const struct job *job)
 {
     const struct options *o = job->options;
-    const char *slash = strrchr(o->save_scene, '/');
-    char *given = strndup(o->save_scene, slash ? (size_t)(slash - o->save_scene) + 1 : 0), *names = NULL;
+    const char *slash = strrchr(o->picture.save_scene, '/');
+    char *given = strndup(o->picture.save_scene, slash ? (size_t)(slash - o->picture.save_scene) + 1 : 0),
+         *names = NULL;
     char *folder = given ? realpath(*given ? given : ".", NULL) : NULL;
     lam_picture_settings s = {0};
     lam_error error;
@@ -151,8 +152,8 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     lam_bytes bytes = {0};
     uint64_t size;
     bool ok = take_environment(job->options, &s, &names, error) &&
-              lam_scene_encode(job->scene, &s, job->options->save_scene, &bytes, error) &&
-              output_save_bytes(&bytes, job->options->save_scene, false, &size, error);
+              lam_scene_encode(job->scene, &s, job->options->picture.save_scene, &bytes, error) &&
+              output_save_bytes(&bytes, job->options->picture.save_scene, false, &size, error);
     lam_bytes_free(&bytes);
     free(names);
     return ok;

@@ -8,7 +8,10 @@
 #include "console.h"
 #include "output.h"
 
-bool show_is_all(const struct options *options) { return options->show && strcmp(options->show, "all") == 0; }
+bool show_is_all(const struct options *options)
+{
+    return options->picture.show && strcmp(options->picture.show, "all") == 0;
+}
 
 bool show_all_check(const struct job *job, lam_error *error)
 {
@@ -71,7 +74,7 @@ static bool save_layers(const struct layers *layers, const struct job *job, lam_
     if (job->picture_bytes)
         return lam_image_encode_layers(layers->list, layers->count, job->picture_bytes, error);
     bool ok = lam_image_encode_layers(layers->list, layers->count, &bytes, error) &&
-              output_save_bytes(&bytes, job->output, job->options->durable, &size, error);
+              output_save_bytes(&bytes, job->output, job->options->picture.durable, &size, error);
     lam_bytes_free(&bytes);
     return ok;
 }

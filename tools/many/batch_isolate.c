@@ -65,8 +65,8 @@ static bool enter(const struct batch *b, const struct batch_task *task, lam_erro
 static void draw_here(struct batch *b, struct batch_unit *u)
 {
     struct options options = *u->task.plan->options;
-    options.threads = b->threads;
-    options.in_flight = b->workers;
+    options.work.threads = b->threads;
+    options.limits.in_flight = b->workers;
     lam_error error = {0};
     lam_device *device = enter(b, &u->task, &error) ? device_option_make(&options, &error) : NULL;
     if (device)

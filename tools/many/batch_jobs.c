@@ -91,8 +91,9 @@ struct batch_jobs *batch_jobs_open(struct batch *b, lam_error *error)
         return NULL;
     }
     jobs->batch = b;
-    jobs->stream = (struct job_stream){.file = -1, .limit = o->line_limit_bytes ? o->line_limit_bytes : LINE_LIMIT};
-    jobs->ahead = o->ahead ? (size_t)o->ahead : 2 * (size_t)b->workers;
+    jobs->stream =
+        (struct job_stream){.file = -1, .limit = o->batch.line_limit_bytes ? o->batch.line_limit_bytes : LINE_LIMIT};
+    jobs->ahead = o->batch.ahead ? (size_t)o->batch.ahead : 2 * (size_t)b->workers;
     jobs->rules = (struct batch_job_rules){.options = o,
                                            .threads = b->threads,
                                            .in_flight = b->workers,
@@ -107,7 +108,7 @@ struct batch_jobs *batch_jobs_open(struct batch *b, lam_error *error)
     pthread_cond_init(&jobs->changed, &monotonic);
     pthread_condattr_destroy(&monotonic);
     job_answers_start(&jobs->out);
-    if (job_roots_start(&jobs->roots, o, error) && open_stream(jobs, o->jobs, error))
+    if (job_roots_start(&jobs->roots, o, error) && open_stream(jobs, o->batch.jobs, error))
         return jobs;
     batch_jobs_close(jobs);
     return NULL;

@@ -115,16 +115,17 @@ static bool has_picture(const struct batch_picture *picture)
 
 void batch_page_thumbnails(const struct batch *b, const struct batch_unit *u)
 {
-    for (int i = 0; b->options->report_page && i < u->task.plan->view_count; i++)
+    for (int i = 0; b->options->batch.report_page && i < u->task.plan->view_count; i++)
         if (has_picture(&u->pictures[i]))
-            batch_page_thumbnail(b->options->report_page, u->outputs[i], u->pictures[i].outcome == PICTURE_WRITTEN);
+            batch_page_thumbnail(b->options->batch.report_page, u->outputs[i],
+                                 u->pictures[i].outcome == PICTURE_WRITTEN);
 }
 
 bool batch_page_lacks(const struct batch *b, const struct batch_unit *u)
 {
     bool lacks = false;
-    for (int i = 0; b->options->report_page && !lacks && i < u->task.plan->view_count; i++) {
-        char *thumbnail = thumbnail_path(b->options->report_page, u->outputs[i]);
+    for (int i = 0; b->options->batch.report_page && !lacks && i < u->task.plan->view_count; i++) {
+        char *thumbnail = thumbnail_path(b->options->batch.report_page, u->outputs[i]);
         lacks = has_picture(&u->pictures[i]) && !is_there(thumbnail, u->outputs[i]);
         free(thumbnail);
     }

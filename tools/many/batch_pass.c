@@ -22,7 +22,7 @@ static bool reopen(struct batch *b, size_t model)
     bool open = false;
     for (int i = 0; i < b->plan->view_count; i++) {
         struct batch_picture *picture = &batch_pictures_of(b, model)[i];
-        if (picture->outcome == PICTURE_FAILED && picture->attempts <= b->options->retry_failed) {
+        if (picture->outcome == PICTURE_FAILED && picture->attempts <= b->options->batch.retry_failed) {
             picture->outcome = PICTURE_OPEN;
             b->tally.failed--;
             b->tally.retried--;
@@ -156,7 +156,7 @@ static void count(struct batch *b, const struct batch_unit *u, int view)
         break;
     case PICTURE_FAILED:
         t->failed++;
-        t->retried += picture->attempts <= b->options->retry_failed;
+        t->retried += picture->attempts <= b->options->batch.retry_failed;
         picture->class = (uint8_t)batch_count_class(t, class ? class : "failed");
         break;
     case PICTURE_FAILED_BEFORE:
@@ -198,7 +198,7 @@ void batch_deliver(struct batch *b, struct batch_unit *u)
     }
     b->tally.warnings += (size_t)u->warnings;
     if (job) { // errors are in the job's answer
-        if (b->options->verbose && u->err)
+        if (b->options->report.verbose && u->err)
             fputs(u->err, stderr);
     } else {
         b->code = u->code > b->code ? u->code : b->code;

@@ -20,7 +20,7 @@ enum { SINGLE = 64 };
 // Whether the pictures' folder as a whole may be read: the journal and the page need pictures again.
 static bool takes_folder(const struct batch *b)
 {
-    return !b->options->jobs && (b->options_text || b->plan->count * (size_t)b->plan->view_count > SINGLE);
+    return !b->options->batch.jobs && (b->options_text || b->plan->count * (size_t)b->plan->view_count > SINGLE);
 }
 
 // The folder of a path, from malloc: "." where it names none.
@@ -42,7 +42,7 @@ static bool make_folder(char *folder, lam_error *error)
 
 bool batch_reach_make(const struct batch *b, const char *journal, lam_error *error)
 {
-    const char *page = b->options->report_page;
+    const char *page = b->options->batch.report_page;
     return (!takes_folder(b) || make_folder(batch_plan_folder(b->plan), error)) &&
            (!journal || make_folder(folder_of(journal), error)) && (!page || make_folder(folder_of(page), error));
 }
@@ -126,19 +126,19 @@ static enum writer_right right_of(void *user, const char *path)
     lam_pixel_format format;
     if (w->whole && b->journal && strcmp(path, journal_running_path(b->journal)) == 0)
         return WRITER_REMOVES;
-    if ((w->whole && o->report_page && strcmp(path, o->report_page) == 0) ||
-        (o->save_scene && strcmp(path, o->save_scene) == 0))
+    if ((w->whole && o->batch.report_page && strcmp(path, o->batch.report_page) == 0) ||
+        (o->picture.save_scene && strcmp(path, o->picture.save_scene) == 0))
         return WRITER_ANY;
-    if (o->report_page && batch_page_is_thumbnail(o->report_page, path))
+    if (o->batch.report_page && batch_page_is_thumbnail(o->batch.report_page, path))
         return WRITER_NEW_OR_OURS;
     if (b->jobs && w->whole) {
         bool named = lam_image_format_for(path, &format, NULL) || page_is_named(path);
         return named && job_roots_have(batch_jobs_roots(b->jobs), path, true, &error) ? WRITER_NEW_OR_OURS
                                                                                       : WRITER_NONE;
     }
-    return !is_picture(w, path)                                        ? WRITER_NONE
-           : output_given(w->plan->options->output) == OUTPUT_BY_MODEL ? WRITER_NEW_OR_OURS
-                                                                       : WRITER_ANY;
+    return !is_picture(w, path)                                                ? WRITER_NONE
+           : output_given(w->plan->options->picture.output) == OUTPUT_BY_MODEL ? WRITER_NEW_OR_OURS
+                                                                               : WRITER_ANY;
 }
 
 bool batch_reach_write(const struct batch *b, const struct batch_task *task, lam_error *error)
@@ -169,7 +169,7 @@ bool batch_reach_enter(const struct batch *b, size_t first, size_t count, lam_er
     }
     if (takes_folder(b))
         add_folder(&paths, batch_plan_folder(b->plan));
-    if (b->options->jobs || page_is_named(b->options->output)) // a job may ask for one
+    if (b->options->batch.jobs || page_is_named(b->options->picture.output)) // a job may ask for one
         add_page(&paths);
     return sandbox_start(b->options, &paths, error);
 }

@@ -193,8 +193,8 @@ static bool make_workers(struct batch *b, struct worker *workers, lam_error *err
 {
     for (int i = 0; i < b->workers; i++) {
         workers[i] = (struct worker){.batch = b, .slot = i, .options = *b->options};
-        workers[i].options.threads = b->threads;
-        workers[i].options.in_flight = b->workers;
+        workers[i].options.work.threads = b->threads;
+        workers[i].options.limits.in_flight = b->workers;
         workers[i].device = device_option_make(&workers[i].options, error);
         if (!workers[i].device)
             return false;
@@ -219,8 +219,8 @@ static void draw_suspects(struct batch *b)
 
 static bool run_passes(struct batch *b, lam_error *error)
 {
-    struct worker *workers = b->options->isolate ? NULL : calloc((size_t)b->workers, sizeof *workers);
-    if (!workers && !b->options->isolate)
+    struct worker *workers = b->options->batch.isolate ? NULL : calloc((size_t)b->workers, sizeof *workers);
+    if (!workers && !b->options->batch.isolate)
         return complain(error, LAM_LIMIT, "out of memory");
     draw_suspects(b);
     bool ok = !workers || (batch_reach_enter(b, 0, b->plan->count, error) && make_workers(b, workers, error));
@@ -230,7 +230,7 @@ static bool run_passes(struct batch *b, lam_error *error)
         else
             batch_isolate(b);
     }
-    if (!b->journal && !b->options->report_page)
+    if (!b->journal && !b->options->batch.report_page)
         writer_finish();
     if (workers)
         free_workers(b, workers);
@@ -242,18 +242,19 @@ static bool run_passes(struct batch *b, lam_error *error)
 
 static bool draws_with_gl(const struct options *o)
 {
-    return o->device == DEVICE_GL || o->device == DEVICE_GLES || (o->device == DEVICE_AUTO && o->gl_device);
+    return o->work.device == DEVICE_GL || o->work.device == DEVICE_GLES ||
+           (o->work.device == DEVICE_AUTO && o->work.gl_device);
 }
 
 // One worker for each processor, with the threads that are left where there are fewer models than that.
 static void share_threads(struct batch *b)
 {
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    int threads = b->options->threads ? b->options->threads : processors > 0 ? (int)processors : 1;
+    int threads = b->options->work.threads ? b->options->work.threads : processors > 0 ? (int)processors : 1;
     int most = draws_with_gl(b->options) ? 1 : threads < WORKERS_MAX ? threads : WORKERS_MAX;
-    size_t models = b->options->jobs ? (size_t)most : b->plan->count;
+    size_t models = b->options->batch.jobs ? (size_t)most : b->plan->count;
     b->workers = (size_t)most < models ? most : models ? (int)models : 1;
-    b->threads = b->workers == 1 ? b->options->threads : threads / b->workers;
+    b->threads = b->workers == 1 ? b->options->work.threads : threads / b->workers;
 }
 
 // The options that the journal's pictures have in common, and which pictures a model has. From malloc; NULL: out of memory.
@@ -266,14 +267,14 @@ static char *pictures_text(const struct batch *b)
     if (!out)
         return NULL;
     fprintf(out, "%soutput=%s\n", b->options_text,
-            plan->pattern        ? plan->pattern
-            : b->options->output ? b->options->output
-                                 : "");
+            plan->pattern                ? plan->pattern
+            : b->options->picture.output ? b->options->picture.output
+                                         : "");
     if (plan->by_list) // in a list of another size, models are in other shards
         fprintf(out, "shard-by=list of %" PRIu64 " bytes\n", plan->list_bytes);
     for (int i = 0; i < plan->view_count; i++) {
         const struct job_view *v = &plan->views[i];
-        fprintf(out, "picture=%s %dx%d\n", lam_side_name((lam_side)(v->side >= 0 ? v->side : b->options->view)),
+        fprintf(out, "picture=%s %dx%d\n", lam_side_name((lam_side)(v->side >= 0 ? v->side : b->options->view.side)),
                 v->width, v->height);
     }
     if (fclose(out) == 0)
@@ -287,20 +288,20 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     const struct options *o = b->options;
     size_t models = b->plan->count, pictures = models * (size_t)b->plan->view_count;
     share_threads(b);
-    b->environments = o->isolate ? NULL : environment_cache_make();
+    b->environments = o->batch.isolate ? NULL : environment_cache_make();
     b->pictures = calloc(pictures + 1, sizeof *b->pictures);
     b->taken = calloc(models + 1, sizeof *b->taken);
     b->texts = (struct batch_texts){.list = calloc(models + 1, sizeof *b->texts.list), .count = models};
-    b->records = o->report_page ? calloc(pictures + 1, sizeof *b->records) : NULL;
-    if (!b->pictures || !b->taken || !b->texts.list || (o->report_page && !b->records))
+    b->records = o->batch.report_page ? calloc(pictures + 1, sizeof *b->records) : NULL;
+    if (!b->pictures || !b->taken || !b->texts.list || (o->batch.report_page && !b->records))
         return complain(error, LAM_LIMIT, "out of memory");
     b->tally = (struct batch_tally){.shard = b->plan->shard,
                                     .total = pictures,
                                     .start_ms = clock_ms(),
-                                    .has_progress = console_is_terminal() && !o->quiet && models > 1};
-    if ((journal || o->report_page) && !(b->options_text = batch_options_text(o, error)))
+                                    .has_progress = console_is_terminal() && !o->report.quiet && models > 1};
+    if ((journal || o->batch.report_page) && !(b->options_text = batch_options_text(o, error)))
         return false;
-    b->way = o->skip_same ? JOURNAL_SAME : o->resume ? JOURNAL_RESUME : JOURNAL_START;
+    b->way = o->batch.skip_same ? JOURNAL_SAME : o->batch.resume ? JOURNAL_RESUME : JOURNAL_START;
     if (!batch_reach_make(b, journal, error))
         return false;
     char *all = journal ? pictures_text(b) : NULL;
@@ -314,7 +315,7 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     ok = ok && (!journal || (b->journal = journal_open(journal, b->way, &run, b->workers, error)));
     free(folder);
     free(all);
-    return ok && (!o->jobs || (b->jobs = batch_jobs_open(b, error)));
+    return ok && (!o->batch.jobs || (b->jobs = batch_jobs_open(b, error)));
 }
 
 // False: a picture was neither drawn nor recorded, for want of memory.
@@ -351,7 +352,7 @@ static void finish(struct batch *b)
 {
     batch_print_rest(&b->texts, &b->tally);
     lam_error error;
-    struct batch_page page = {.path = b->options->report_page,
+    struct batch_page page = {.path = b->options->batch.report_page,
                               .tally = &b->tally,
                               .record = record_of,
                               .user = b,
@@ -361,7 +362,7 @@ static void finish(struct batch *b)
     if (!interrupted())
         name_poison(b);
     bool several = b->is_batch || b->plan->count > 1;
-    if (several && !b->options->quiet && !b->options->json)
+    if (several && !b->options->report.quiet && !b->options->report.json)
         batch_say_summary(&b->tally, interrupted());
 }
 
@@ -406,7 +407,7 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     pthread_condattr_destroy(&monotonic);
     interrupt_start();
     keep_memory();
-    if (b.options->jobs)
+    if (b.options->batch.jobs)
         signal(SIGPIPE, SIG_IGN); // that nobody reads the answers is an error of writing them
     bool started = start(&b, journal, &error), ok = started && run_passes(&b, &error);
     if (started && ok)
@@ -414,7 +415,7 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     journal_close(b.journal, ok && !interrupted() && !b.failed, interrupted());
     int code = ok ? b.code : report_failure(&error, plan->options);
     bool some_failed = ok && !b.failed && b.tally.failed + b.tally.failed_before;
-    if (some_failed && b.options->failures_ok && has_every_outcome(&b))
+    if (some_failed && b.options->batch.failures_ok && has_every_outcome(&b))
         code = 0;
     else if (some_failed && is_batch)
         code = EXIT_SOME_FAILED;
@@ -441,13 +442,13 @@ int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch)
     // The files that a batch has besides its pictures are each shard's own.
     struct options options = *plan->options;
     struct batch_plan part = *plan;
-    const char *page = options.report_page;
+    const char *page = options.batch.report_page;
     char *own_journal = journal ? batch_shard_path(journal, shard) : NULL;
     char *own_page = page ? batch_shard_path(page, shard) : NULL;
     lam_error error = {0};
     bool ok = ((own_journal || !journal) && (own_page || !page)) || complain(&error, LAM_LIMIT, "out of memory");
     ok = ok && (!journal || batch_shard_check_folder(journal, shard, &error));
-    options.report_page = own_page;
+    options.batch.report_page = own_page;
     part.options = &options;
     int code = ok ? run(&part, own_journal, is_batch) : report_failure(&error, plan->options);
     free(own_journal);

@@ -5,30 +5,30 @@
 
 lam_device *device_option_make(const struct options *o, lam_error *error)
 {
-    bool gl = o->lecture_device || o->device == DEVICE_GL || o->device == DEVICE_GLES ||
-              (o->device == DEVICE_AUTO && o->gl_device);
-    if (o->gl_device && !gl) {
+    bool gl = o->shader.lecture_device || o->work.device == DEVICE_GL || o->work.device == DEVICE_GLES ||
+              (o->work.device == DEVICE_AUTO && o->work.gl_device);
+    if (o->work.gl_device && !gl) {
         complain(error, LAM_BAD_ARGUMENT, "options '--device cpu' and '--gl-device' cannot be used together");
         return NULL;
     }
-    if (gl && o->isa) {
+    if (gl && o->work.isa) {
         complain(error, LAM_BAD_ARGUMENT, "option '--isa' applies to the CPU device, not to OpenGL");
         return NULL;
     }
-    bool hardware_filter = o->texture_filter == TEXTURE_FILTER_HARDWARE;
+    bool hardware_filter = o->work.texture_filter == TEXTURE_FILTER_HARDWARE;
     if (hardware_filter && !gl) {
         complain(error, LAM_BAD_ARGUMENT,
                  "option '--texture-filter hardware' applies to OpenGL ('--device gl'), not to the CPU device");
         return NULL;
     }
     if (gl) {
-        lam_gl_params params = {.api = o->device == DEVICE_GLES ? LAM_GL_ES : LAM_GL_CORE,
-                                .device = o->gl_device,
-                                .lecture = o->lecture_device,
-                                .mistake = o->lecture_device ? o->mistake : NULL,
+        lam_gl_params params = {.api = o->work.device == DEVICE_GLES ? LAM_GL_ES : LAM_GL_CORE,
+                                .device = o->work.gl_device,
+                                .lecture = o->shader.lecture_device,
+                                .mistake = o->shader.lecture_device ? o->shader.mistake : NULL,
                                 .hardware_filter = hardware_filter};
         return lam_device_gl(&params, error);
     }
-    lam_cpu_params params = {.threads = o->threads, .isa = (lam_isa)o->isa};
+    lam_cpu_params params = {.threads = o->work.threads, .isa = (lam_isa)o->work.isa};
     return lam_device_cpu(&params, error);
 }

@@ -78,16 +78,17 @@ static void warn_unseen(const struct options *options, lam_scene *scene)
 bool environment_apply(const struct options *options, struct environment_cache *cache, lam_scene *scene,
                        const lam_control *control, lam_error *error)
 {
-    if (options->has_reflectivity &&
-        (options->reflectivity.r > 1 || options->reflectivity.g > 1 || options->reflectivity.b > 1))
+    if (options->material.has_reflectivity &&
+        (options->material.reflectivity.r > 1 || options->material.reflectivity.g > 1 ||
+         options->material.reflectivity.b > 1))
         lam_scene_add_warning(scene, "option '--reflectivity': reflects more light than it receives (above 1)");
-    if (options->has_reflectivity && !set_reflectivity(scene, options->reflectivity, error))
+    if (options->material.has_reflectivity && !set_reflectivity(scene, options->material.reflectivity, error))
         return false;
-    double rotation_rad = radians(options->environment_rotation_deg);
+    double rotation_rad = radians(options->shading.environment_rotation_deg);
     bool ok = true;
-    if (options->environment) {
-        ok = environment_cache_set(cache, options->environment, (lam_color_mode)options->color_mode, scene,
-                                   rotation_rad, control, error);
+    if (options->shading.environment) {
+        ok = environment_cache_set(cache, options->shading.environment, (lam_color_mode)options->picture.color_mode,
+                                   scene, rotation_rad, control, error);
     } else if (option_given(options, "environment-rotation") && lam_scene_environment(scene)) {
         ok = lam_scene_set_environment(scene, lam_scene_environment(scene), rotation_rad, error);
     }

@@ -8,8 +8,8 @@ enum { SHARE = 4, DEFAULT_SECONDS = 600 };
 uint64_t limits_memory(const struct options *options)
 {
     static uint64_t kept; // 0: not asked yet. What the system allows changes seldom.
-    if (options->memory_limit_bytes)
-        return options->memory_limit_bytes == UINT64_MAX ? 0 : options->memory_limit_bytes;
+    if (options->limits.memory_limit_bytes)
+        return options->limits.memory_limit_bytes == UINT64_MAX ? 0 : options->limits.memory_limit_bytes;
     uint64_t available = __atomic_load_n(&kept, __ATOMIC_RELAXED);
     if (!available) {
         available = lam_memory_available();
@@ -17,24 +17,25 @@ uint64_t limits_memory(const struct options *options)
     }
     if (available == UINT64_MAX)
         return 0;
-    uint64_t share = available / SHARE / (uint64_t)(options->in_flight > 1 ? options->in_flight : 1);
+    uint64_t share = available / SHARE / (uint64_t)(options->limits.in_flight > 1 ? options->limits.in_flight : 1);
     return share ? share : 1;
 }
 
 double limits_time(const struct options *options)
 {
-    return options->time_limit_s > 0 ? (isinf(options->time_limit_s) ? 0 : options->time_limit_s) : DEFAULT_SECONDS;
+    return options->limits.time_limit_s > 0 ? (isinf(options->limits.time_limit_s) ? 0 : options->limits.time_limit_s)
+                                            : DEFAULT_SECONDS;
 }
 
 lam_control limits_control(const struct options *options)
 {
     return (lam_control){.time_limit_s = limits_time(options),
                          .memory_limit_bytes = limits_memory(options),
-                         .triangle_limit = options->triangle_limit,
-                         .pixel_limit = options->pixel_limit,
-                         .file_limit_bytes = options->file_limit_bytes,
-                         .json_depth_limit = (uint64_t)options->json_depth_limit,
-                         .expansion_limit = options->expansion_limit,
-                         .object_limit = options->object_limit,
-                         .layer_limit = options->layer_limit};
+                         .triangle_limit = options->limits.triangle_limit,
+                         .pixel_limit = options->limits.pixel_limit,
+                         .file_limit_bytes = options->limits.file_limit_bytes,
+                         .json_depth_limit = (uint64_t)options->limits.json_depth_limit,
+                         .expansion_limit = options->limits.expansion_limit,
+                         .object_limit = options->limits.object_limit,
+                         .layer_limit = options->limits.layer_limit};
 }

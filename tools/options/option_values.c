@@ -85,14 +85,14 @@ bool store_word_flag(const struct option *option, const char *value, struct opti
 bool store_ground(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     lam_rgba color;
-    options->ground_color = NULL;
+    options->shading.ground_color = NULL;
     for (const struct word *w = option->words; w->name; w++)
         if (strcmp(w->name, value) == 0)
             return store_word(option, value, options, error);
     if (!lam_color_parse(value, LAM_COLOR_SRGB, &color, error) || color.a != 1)
         return wrong(error, value, "off, shadow, checker or a colour without alpha");
     options->draw.ground = LAM_GROUND_COLOR;
-    options->ground_color = value;
+    options->shading.ground_color = value;
     return true;
 }
 
@@ -156,13 +156,13 @@ const char *read_number(const char *text, double *value)
 
 static bool number_between(const struct option *option, const char *value, bool whole, double *number, lam_error *error)
 {
+    const lam_setting *setting = option_setting(option);
+    double min = !setting ? option->min : setting->zero ? 0 : setting->min, max = setting ? setting->max : option->max;
     const char *end = read_number(value, number);
-    if (end && !*end && *number >= option->min && *number <= option->max &&
-        (!whole || *number == (double)(long)*number))
+    if (end && !*end && *number >= min && *number <= max && (!whole || *number == (double)(long)*number))
         return true;
     char expected[128];
-    int used = snprintf(expected, sizeof expected, "a %snumber from %.10g to %.10g", whole ? "whole " : "", option->min,
-                        option->max);
+    int used = snprintf(expected, sizeof expected, "a %snumber from %.10g to %.10g", whole ? "whole " : "", min, max);
     if (end && strcmp(end, "%") == 0 && !whole)
         snprintf(expected + used, sizeof expected - (size_t)used, "; %.40s is %.10g", value, *number / 100);
     return wrong(error, value, expected);
@@ -224,9 +224,9 @@ bool store_exposure(const struct option *option, const char *value, struct optio
     double stops;
     if (!fitted && !read_number(value, &stops))
         return wrong(error, value, "auto, or stops from -100 to 100");
-    if (!fitted && !number_between(option, value, false, &options->exposure, error))
+    if (!fitted && !number_between(option, value, false, &options->picture.exposure, error))
         return false;
-    options->exposure_kind = fitted ? EXPOSURE_AUTO : EXPOSURE_LITERAL;
+    options->picture.exposure_kind = fitted ? EXPOSURE_AUTO : EXPOSURE_LITERAL;
     return true;
 }
 
@@ -250,25 +250,26 @@ bool store_size(const struct option *option, const char *value, struct options *
     char *end;
     if (!read_size(value, (long)option->max, size, &end) || *end)
         return wrong(error, value, "W or WxH from 1 to 65535 pixels, such as 800 or 1920x1080");
-    options->has_size = true;
-    options->width = size[0];
-    options->height = size[1];
+    options->picture.has_size = true;
+    options->picture.width = size[0];
+    options->picture.height = size[1];
     return true;
 }
 
 // "1024,256x128".
 bool store_sizes(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
-    options->size_count = 0;
+    options->batch.size_count = 0;
     for (const char *at = value;;) {
         char *end;
-        int *size = options->sizes[options->size_count];
-        if (options->size_count == VIEWS_MAX || !read_size(at, (long)option->max, size, &end) || (*end && *end != ','))
+        int *size = options->batch.sizes[options->batch.size_count];
+        if (options->batch.size_count == VIEWS_MAX || !read_size(at, (long)option->max, size, &end) ||
+            (*end && *end != ','))
             return wrong(error, value, "at most 16 sizes, W or WxH from 1 to 65535 pixels, such as 1024,256x128");
-        for (int i = 0; i < options->size_count; i++)
-            if (options->sizes[i][0] == size[0] && options->sizes[i][1] == size[1])
+        for (int i = 0; i < options->batch.size_count; i++)
+            if (options->batch.sizes[i][0] == size[0] && options->batch.sizes[i][1] == size[1])
                 return complain(error, LAM_BAD_ARGUMENT, "'%.100s' has a size twice", value);
-        options->size_count++;
+        options->batch.size_count++;
         if (!*end)
             return true;
         at = end + 1;
@@ -278,20 +279,20 @@ bool store_sizes(const struct option *option, const char *value, struct options 
 // "front,left,iso".
 bool store_views(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
-    options->view_count = 0;
+    options->batch.view_count = 0;
     for (const char *at = value; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
         struct option one = *option;
         char word[32];
         snprintf(word, sizeof word, "%.*s", (int)(strcspn(at, ",") < 31 ? strcspn(at, ",") : 31), at);
-        if (options->view_count == VIEWS_MAX)
+        if (options->batch.view_count == VIEWS_MAX)
             return complain(error, LAM_BAD_ARGUMENT, "names more than %d sides", VIEWS_MAX);
-        one.field = (size_t)((char *)&options->views[options->view_count] - (char *)options);
+        one.field = (size_t)((char *)&options->batch.views[options->batch.view_count] - (char *)options);
         if (!store_word(&one, word, options, error))
             return false;
-        for (int i = 0; i < options->view_count; i++)
-            if (options->views[i] == options->views[options->view_count])
+        for (int i = 0; i < options->batch.view_count; i++)
+            if (options->batch.views[i] == options->batch.views[options->batch.view_count])
                 return complain(error, LAM_BAD_ARGUMENT, "'%.100s' has a side twice", value);
-        options->view_count++;
+        options->batch.view_count++;
     }
     return true;
 }
@@ -306,8 +307,8 @@ bool store_segments(const struct option *option, const char *value, struct optio
         stacks = strtol(end + 1, &end, 10);
     if (*end || slices < 3 || slices > (long)option->max || (both && (stacks < 1 || stacks > (long)option->max)))
         return wrong(error, value, "N or NxM, slices from 3 and stacks from 1 to 16384, such as 64x32");
-    options->slices = (int)slices;
-    options->stacks = (int)stacks;
+    options->shading.slices = (int)slices;
+    options->shading.stacks = (int)stacks;
     return true;
 }
 
@@ -403,8 +404,8 @@ bool store_camera(const struct option *option, const char *value, struct options
 {
     lam_camera camera;
     if (strncmp(value, "fovy=", 5) == 0 && !strchr(value, ',')) { // of the fitted camera
-        options->camera = NULL;
-        return number_between(option, value + 5, false, &options->fov_deg, error);
+        options->view.camera = NULL;
+        return number_between(option, value + 5, false, &options->view.fov_deg, error);
     }
     // A text without '=' names a camera of a file that is not read yet.
     if (strchr(value, '=') && !lam_camera_parse(value, NULL, &camera, error))
@@ -485,7 +486,7 @@ bool store_texts(const struct option *option, const char *value, struct options 
 
 bool store_across(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
-    if (options->across.count == ACROSS_MAX)
+    if (options->sheet.across.count == ACROSS_MAX)
         return complain(error, LAM_BAD_ARGUMENT, "given a third time: a grid has only rows and columns");
     return append(option, value, options, error);
 }

@@ -14,29 +14,29 @@
 
 struct options option_defaults(void)
 {
-    return (struct options){.width = LAM_RENDER_SIZE,
-                            .height = LAM_RENDER_SIZE,
-                            .crease_angle_deg = -1,
-                            .light_scale = 1,
-                            .repeat = 1,
-                            .gain = 16,
-                            .stop_after_s = 10,
-                            .search_limit = 10000};
+    return (struct options){.picture.width = LAM_RENDER_SIZE,
+                            .picture.height = LAM_RENDER_SIZE,
+                            .shading.crease_angle_deg = -1,
+                            .lighting.light_scale = 1,
+                            .work.repeat = 1,
+                            .diff.gain = 16,
+                            .check.stop_after_s = 10,
+                            .check.search_limit = 10000};
 }
 
 void options_free(struct options *options)
 {
-    free(options->lights.items);
-    free(options->materials.items);
-    free(options->back_materials.items);
-    free(options->rotations.items);
-    free(options->sheet_rotations.items);
-    free(options->across.items);
-    free(options->allow_paths.items);
-    free(options->lists.items);
-    free(options->sweeps.items);
-    free(options->captions.items);
-    free(options->look_text);
+    free(options->lighting.lights.items);
+    free(options->material.materials.items);
+    free(options->material.back_materials.items);
+    free(options->shading.rotations.items);
+    free(options->shading.sheet_rotations.items);
+    free(options->sheet.across.items);
+    free(options->limits.allow_paths.items);
+    free(options->batch.lists.items);
+    free(options->animation.sweeps.items);
+    free(options->captions.texts.items);
+    free(options->lighting.look_text);
 }
 
 static bool texts_copy(struct texts *texts)
@@ -51,17 +51,17 @@ static bool texts_copy(struct texts *texts)
 bool options_copy(struct options *to, const struct options *from)
 {
     *to = *from;
-    to->look_text = NULL; // a copy ends before what it was made of
-    bool ok = texts_copy(&to->lights);
-    ok = texts_copy(&to->materials) && ok;
-    ok = texts_copy(&to->back_materials) && ok;
-    ok = texts_copy(&to->rotations) && ok;
-    ok = texts_copy(&to->sheet_rotations) && ok;
-    ok = texts_copy(&to->across) && ok;
-    ok = texts_copy(&to->allow_paths) && ok;
-    ok = texts_copy(&to->lists) && ok;
-    ok = texts_copy(&to->sweeps) && ok;
-    ok = texts_copy(&to->captions) && ok;
+    to->lighting.look_text = NULL; // a copy ends before what it was made of
+    bool ok = texts_copy(&to->lighting.lights);
+    ok = texts_copy(&to->material.materials) && ok;
+    ok = texts_copy(&to->material.back_materials) && ok;
+    ok = texts_copy(&to->shading.rotations) && ok;
+    ok = texts_copy(&to->shading.sheet_rotations) && ok;
+    ok = texts_copy(&to->sheet.across) && ok;
+    ok = texts_copy(&to->limits.allow_paths) && ok;
+    ok = texts_copy(&to->batch.lists) && ok;
+    ok = texts_copy(&to->animation.sweeps) && ok;
+    ok = texts_copy(&to->captions.texts) && ok;
     if (!ok)
         options_free(to);
     return ok;
@@ -182,8 +182,8 @@ static bool is_light(const struct option *option)
 static bool own_lights(const struct options *options)
 {
     bool own = option_given(options, "rig");
-    for (int i = 0; i < options->lights.count; i++)
-        own |= options->lights.items[i][0] != '+';
+    for (int i = 0; i < options->lighting.lights.count; i++)
+        own |= options->lighting.lights.items[i][0] != '+';
     return own;
 }
 
@@ -211,20 +211,20 @@ static bool take_look_line(void *user, int line, char *name, char *value, lam_er
     const struct option *option = option_find(name);
     if (!option || !fits(option))
         return complain(error, LAM_BAD_ARGUMENT,
-                        "%.100s:%d: found '%.60s', expected an option of the picture, such as --ao", options->look,
-                        line, name);
+                        "%.100s:%d: found '%.60s', expected an option of the picture, such as --ao",
+                        options->lighting.look, line, name);
     const char *given = *value ? value : option->alone;
     if (!option->value != !given)
-        return complain(error, LAM_BAD_ARGUMENT, "%.100s:%d: --%s %s", options->look, line, option->name,
+        return complain(error, LAM_BAD_ARGUMENT, "%.100s:%d: --%s %s", options->lighting.look, line, option->name,
                         option->value ? "needs a value" : "takes no value");
     if (is_light(option) ? lines->lights : option_given(lines->before, option->name))
         return true;
     lam_error reason = {0};
-    int count = options->lights.count;
+    int count = options->lighting.lights.count;
     if (!option->store(option, given, options, &reason))
-        return complain(error, LAM_BAD_ARGUMENT, "%.100s:%d: --%s: %.300s", options->look, line, option->name,
+        return complain(error, LAM_BAD_ARGUMENT, "%.100s:%d: --%s: %.300s", options->lighting.look, line, option->name,
                         reason.text);
-    options->look_lights += options->lights.count - count;
+    options->lighting.look_lights += options->lighting.lights.count - count;
     option_mark(options, option, given, true);
     return true;
 }
@@ -233,22 +233,22 @@ static bool apply_look(const char *name, struct options *options, lam_error *err
 {
     struct options before = *options; // shares its lists, of which only the flags are read
     struct look_lines lines = {options, &before, own_lights(options)};
-    options->look = name;
-    options->look_first = options->lights.count;
-    return look_read(name, &options->look_text, take_look_line, &lines, error);
+    options->lighting.look = name;
+    options->lighting.look_first = options->lighting.lights.count;
+    return look_read(name, &options->lighting.look_text, take_look_line, &lines, error);
 }
 
 static void look_drop_lights(struct options *options)
 {
-    struct texts *lights = &options->lights;
-    int first = options->look_first, count = options->look_lights;
+    struct texts *lights = &options->lighting.lights;
+    int first = options->lighting.look_first, count = options->lighting.look_lights;
     for (int i = first; i + count < lights->count; i++)
         lights->items[i] = lights->items[i + count];
     lights->count -= count;
-    options->look_lights = 0;
+    options->lighting.look_lights = 0;
     const struct option *rig = option_find("rig");
     if (options->by_look[rig - option_table]) {
-        options->has_rig = false;
+        options->lighting.has_rig = false;
         option_mark(options, rig, NULL, false);
         options->given[rig - option_table] = false;
     }
@@ -279,12 +279,12 @@ static bool apply(const struct option *option, const char *value, unsigned group
                         option->name, value, option->name, value);
     lam_error reason = {0};
     bool replaces = option->store == store_light ? value[0] != '+' : strcmp(option->name, "rig") == 0;
-    if (replaces && options->look)
+    if (replaces && options->lighting.look)
         look_drop_lights(options);
     bool look = strcmp(option->name, "look") == 0;
-    if (look && options->look)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--look': given twice: '%.60s' and '%.60s'", options->look,
-                        value);
+    if (look && options->lighting.look)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--look': given twice: '%.60s' and '%.60s'",
+                        options->lighting.look, value);
     if (look ? apply_look(value, options, &reason) : option->store(option, value, options, &reason)) {
         option_mark(options, option, value, false);
         return true;

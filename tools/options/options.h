@@ -3,180 +3,36 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
-#include <lambent/lambent.h>
+#include <lambent/settings.h>
 
-enum { OPTIONS_MAX = 192, ACROSS_MAX = 2, VIEWS_MAX = 16 };
+#include "option_groups.h"
 
-// The values of an option that may be repeated, in order.
-struct texts {
-    const char **items;
-    int count;
-};
+enum { OPTIONS_MAX = 192 };
 
 // The options of a command line; option_defaults() returns their defaults.
 struct options {
     // Stored by the options of lam_draw_setting, and by --samples and --tone. draw_params_of adds the others.
     lam_draw_params draw;
 
-    // Picture
-    const char *output;     // NULL: <model's name>.png; "-": standard output
-    int width, height;      // pixels
-    bool has_size;          // the size was given
-    const char *background; // as written; NULL: clear
-    int color_mode;         // lam_color_mode
-    int compress;           // lam_compress
-    int quality;            // 0: the format's own
-    bool durable;
-    int term;          // enum term_kind
-    double exposure;   // stops, where the next is literal
-    int exposure_kind; // enum exposure_kind
-    const char *show;  // as written (show_option.h); NULL: the picture
-
-    const char *save_scene; // the scene file to write; NULL: none
-
-    // Model files
-    const char *model_scene, *variant, *animation; // as written; NULL: the file's own choice
-    double time_s;                                 // valid if the flag below is set
-    bool has_time, lenient;
-
-    // View
-    int view;                          // lam_side
-    double azimuth_deg, elevation_deg; // valid if the flag below is set
-    bool has_azimuth, has_elevation;
-    double zoom;        // 0: 1
-    double fov_deg;     // of the fitted camera, vertical; 0: 30
-    int projection;     // 1: orthographic
-    int up;             // lam_up
-    const char *camera; // as written; NULL: fitted
-
-    // Lights
-    struct texts lights;         // as written, checked
-    const char *look;            // as written; NULL: none
-    char *look_text;             // its file, which values point into; from malloc; of the options that read it
-    int look_first, look_lights; // the lights above that are the look's
-    int rig;                     // lam_rig, or RIG_DARK
-    bool has_rig;
-    const char *ambient; // as written; NULL: none
-    double light_scale;
-    bool has_light_scale;
-
-    // Materials
-    struct texts materials; // as written, checked
-    struct texts back_materials;
-    const char *model_color;   // of all materials, as written; NULL: their own
-    double shininess, opacity; // valid if the flag below is set
-    bool has_shininess, has_opacity;
-
-    // Shading
-    bool has_shading;
-    const char *ground_color;                 // of LAM_GROUND_COLOR, as written; NULL: draw.ground_color
-    const char *edge_color, *wireframe_color; // as written; NULL: those of `draw`
-    bool two_sided, one_sided, show_lights;
-    int cull; // lam_cull
-    bool has_cull;
-    struct texts rotations; // as written, checked
-    // Set by `compare`, not by an option: the turns of any picture on its sheet, which all have one camera.
-    struct texts sheet_rotations;
-    int slices, stacks; // of a built-in shape or a formula; 0: its own
-    // Of the command `shape`, as written: a surface over u and v or an implicit one (the model then has the name of the
-    // option), and the ranges of u and v or of x, y and z. NULL: none.
-    const char *parametric, *u_range, *v_range, *implicit, *x_range, *y_range, *z_range;
-    bool flip;
-    int normals;             // lam_normals
-    double crease_angle_deg; // < 0: the library's default
-    const char *environment; // as written; NULL: none
-    double environment_rotation_deg;
-    lam_rgb reflectivity; // valid if the flag below is set
-    bool has_reflectivity;
-
-    // Animations
-    int turntable;       // frames of a full turn; 0: none
-    int turntable_light; // enum turntable_light
-    struct texts sweeps; // as written
-    int frames;          // of sweeps; 0: the default
-    double fps;          // frames a second; 0: the library's default
-    // Set by animations, not by an option: the rig's lights become lights of the scene.
-    bool place_lights;
-
-    // Work
-    int threads;           // 0: one for each processor
-    int isa;               // lam_isa
-    int device;            // enum device_name
-    const char *gl_device; // a number or a part of a name; NULL: the first
-    int texture_filter;    // enum texture_filter
-    int repeat;
-
-    // Limits (limit_options.h)
-    double time_limit_s;         // 0: the default; infinity: none
-    uint64_t memory_limit_bytes; // 0: the default; UINT64_MAX: none
-    uint64_t triangle_limit;     // 0: the library's default, as in the next ones
-    uint64_t pixel_limit;
-    uint64_t file_limit_bytes;
-    uint64_t expansion_limit, object_limit, layer_limit; // 0: by the size of the files
-    int json_depth_limit;
-    bool files_inside; // that a scene file names
-    int sandbox;       // enum sandbox_mode
-    struct texts allow_paths;
-    // Models that are worked on at the same time, which share the default memory; set by the loop over them. 0: one.
-    int in_flight;
-
-    // Many models
-    struct texts lists;               // files of names
-    int views[VIEWS_MAX], view_count; // lam_side; 0: that of --view
-    int sizes[VIEWS_MAX][2], size_count;
-    const char *journal;     // NULL: the command's default; "none"
-    const char *shard;       // as written (batch_shard.h); NULL: all models
-    int shard_by;            // enum shard_by
-    const char *report_page; // NULL: none
-    int retry_failed;
-    bool resume, skip_same, isolate, failures_ok;
-    const char *jobs;          // "-" or a file; NULL: none come
-    int ahead;                 // 0: the default
-    uint64_t line_limit_bytes; // 0: the default
-
-    // Viewer
-    int port;            // 0: any that is free
-    double idle_minutes; // valid if the flag below is set
-    bool has_idle, no_open;
-
-    // Comparison of pictures
-    double tolerance, gain;
-
-    // Plots and sheets
-    const char *font; // NULL: the system's
-    bool no_captions;
-    const char *title;     // of the page; NULL: its own
-    struct texts captions; // of a sheet's pictures, in their order; those that are missing are the sheet's
-    int sheet;             // enum sheet_name
-    struct texts across;   // as written, at most ACROSS_MAX
-    double to;             // right end of a plot's axis; 0: fitted
-
-    // Checks of shaders
-    const char *vertex;   // file; NULL: none
-    const char *scenes;   // as written; NULL: all
-    const char *contract; // as written; NULL: recognised
-    int light_frame;      // lam_light_frame; WORLD: the contract's
-    int highlight;        // lam_reflection; AUTO: the contract's
-    int terms;            // bits of lam_check_term; 0: as the shaders declare
-    double stop_after_s;
-    int search_limit;               // lam_check_params.max_pictures
-    const char *class_folder, *csv; // NULL: none
-    bool list;
-
-    // Shaders
-    int glsl;      // lam_glsl
-    int lights_in; // lam_shader_lights
-    int host;      // 1: C code as well
-    bool products;
-    int style;           // lam_shader_style
-    const char *mistake; // the id of one, or "list"; NULL: none
-    bool lecture_device; // OpenGL draws in the lecture style, with that mistake: the cells of a sheet
-    int object;          // valid if the flag below is set
-    bool has_object;
-
-    // Reports
-    bool json, quiet, verbose, dry_run, version, help;
-    bool brief_help; // -h, not --help
+    struct picture_options picture;
+    struct model_options model;
+    struct view_options view;
+    struct lighting_options lighting;
+    struct material_options material;
+    struct shading_options shading;
+    struct shape_options shape;
+    struct animation_options animation;
+    struct work_options work;
+    struct limits_options limits;
+    struct batch_options batch;
+    struct viewer_options viewer;
+    struct diff_options diff;
+    struct captions_options captions;
+    struct sheet_options sheet;
+    struct plot_options plot;
+    struct check_options check;
+    struct shader_options shader;
+    struct report_options report;
 
     bool given[OPTIONS_MAX];         // for each row of the table: the option is on the command line
     bool by_look[OPTIONS_MAX];       // and it is there by --look
@@ -202,33 +58,6 @@ enum {
 
 // The background of the sheets of `compare` and `materials`, unless the command line names another.
 #define SHEET_BACKGROUND "white"
-
-// Whether the exposure is found for the picture: where the light is that of a file in candela and lux, always, never.
-enum exposure_kind { EXPOSURE_BY_FILE, EXPOSURE_AUTO, EXPOSURE_LITERAL };
-
-// --rig none: only the ambient light. A value besides those of lam_rig.
-enum { RIG_DARK = 100 };
-
-// What the lights of a turntable are fixed to.
-enum turntable_light { TURNTABLE_LIGHT_CAMERA, TURNTABLE_LIGHT_MODEL };
-
-// --term: the protocol of pictures in a terminal.
-enum term_kind { TERM_AUTO, TERM_KITTY, TERM_ITERM2, TERM_SIXEL, TERM_BLOCKS, TERM_OFF };
-
-enum sandbox_mode { SANDBOX_AUTO, SANDBOX_REQUIRE, SANDBOX_OFF };
-enum texture_filter { TEXTURE_FILTER_EXACT, TEXTURE_FILTER_HARDWARE };
-enum shard_by { SHARD_BY_NAME, SHARD_BY_LIST };
-enum device_name { DEVICE_AUTO, DEVICE_CPU, DEVICE_GL, DEVICE_GLES };
-
-enum sheet_name {
-    SHEET_SUMMARY,
-    SHEET_TERMS,
-    SHEET_STAGES,
-    SHEET_LIGHT,
-    SHEET_AMBIENT,
-    SHEET_FRAMES,
-    SHEET_SURFACES,
-};
 
 enum option_group {
     GROUP_PICTURE,
@@ -289,7 +118,7 @@ struct option {
     // mistake without naming the option.
     bool (*store)(const struct option *option, const char *value, struct options *options, lam_error *error);
     size_t field, has_field; // has_field: a bool to set as well (words and numbers); 0: none
-    double min, max;         // for numbers
+    double min, max;         // for numbers, unless option_setting has them
     unsigned single;         // TAKES_…, if commands may accept it without its group
     const char *brief;       // for -h: a few words; NULL: not shown there
     size_t letter_field;     // a bool to set as well where the option is given by its letter; 0: none
@@ -311,6 +140,9 @@ void options_free(struct options *options);
 
 // Makes an independent copy. False: out of memory; there is nothing to free.
 bool options_copy(struct options *to, const struct options *from);
+
+// The row of the library's table of settings that the option stores, whose range is its own; NULL: none.
+const lam_setting *option_setting(const struct option *option);
 
 // The option of a long name; NULL: no such option.
 const struct option *option_find(const char *name);

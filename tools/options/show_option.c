@@ -40,7 +40,7 @@ bool store_show(const struct option *option, const char *value, struct options *
         return complain(error, LAM_BAD_ARGUMENT,
                         "found '%.100s', expected a light's name or its number behind the colon", value);
     if (show < LAM_OUTPUT_COUNT || strcmp(value, "all") == 0) {
-        options->show = value;
+        options->picture.show = value;
         return true;
     }
     char known[400] = "";

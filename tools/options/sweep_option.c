@@ -18,7 +18,7 @@ bool sweep_takes_option(const struct option *o)
                   o->store == store_color || o->store == store_opaque_color || o->store == store_reflectivity;
     bool picture = o->group == GROUP_PICTURE || o->group == GROUP_MODEL || o->group == GROUP_VIEW ||
                    o->group == GROUP_LIGHTS || o->group == GROUP_MATERIALS || o->group == GROUP_SHADING;
-    return number && picture && o->field != offsetof(struct options, quality);
+    return number && picture && o->field != offsetof(struct options, picture.quality);
 }
 
 static bool is_material_key(const char *key)

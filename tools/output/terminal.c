@@ -39,47 +39,48 @@ static const char *word_of(enum term_kind kind)
 // The requirements of --term KIND on the command line and the terminal.
 static bool check_asked(const struct options *o, bool alone, lam_error *error)
 {
-    const char *word = word_of((enum term_kind)o->term);
+    const char *word = word_of((enum term_kind)o->picture.term);
     lam_pixel_format format = LAM_RGBA8;
     if (!alone)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--term %s' shows one picture, expected one model and no animation", word);
-    if (o->json)
+    if (o->report.json)
         return complain(error, LAM_BAD_ARGUMENT, "options '--term %s' and '--json' both write to standard output",
                         word);
-    if (output_is_named(o->output) && strcmp(o->output, "-") != 0 &&
-        (!lam_image_format_for(o->output, &format, NULL) || format != LAM_RGBA8))
+    if (output_is_named(o->picture.output) && strcmp(o->picture.output, "-") != 0 &&
+        (!lam_image_format_for(o->picture.output, &format, NULL) || format != LAM_RGBA8))
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--term %s' shows pictures of 8 bits, found -o %.200s, expected .png, .jpg, .webp or "
                         ".ppm",
-                        word, o->output);
+                        word, o->picture.output);
     return true;
 }
 
 bool terminal_start(const struct options *o, bool alone, lam_error *error)
 {
-    bool asked = o->term != TERM_AUTO && o->term != TERM_OFF;
-    if (o->term == TERM_OFF || o->dry_run)
+    bool asked = o->picture.term != TERM_AUTO && o->picture.term != TERM_OFF;
+    if (o->picture.term == TERM_OFF || o->report.dry_run)
         return true;
     if (asked && !isatty(STDOUT_FILENO)) {
-        if (!o->quiet)
+        if (!o->report.quiet)
             say_warning("option '--term' shows nothing: standard output is not a terminal");
         return true;
     }
     if (asked && !check_asked(o, alone, error))
         return false;
-    bool to_stdout = o->output && strcmp(o->output, "-") == 0;
-    if (!asked && (!alone || o->json || o->quiet || (o->output && !to_stdout) || !isatty(STDOUT_FILENO)))
+    bool to_stdout = o->picture.output && strcmp(o->picture.output, "-") == 0;
+    if (!asked &&
+        (!alone || o->report.json || o->report.quiet || (o->picture.output && !to_stdout) || !isatty(STDOUT_FILENO)))
         return true;
-    struct terminal found = terminal_probe(!asked || o->term == TERM_SIXEL);
+    struct terminal found = terminal_probe(!asked || o->picture.term == TERM_SIXEL);
     if (asked)
-        found.kind = (enum term_kind)o->term;
+        found.kind = (enum term_kind)o->picture.term;
     if (found.kind == TERM_SIXEL || found.kind == TERM_BLOCKS) {
         missing_chafa = !chafa_open(error);
         if (missing_chafa && asked)
             return false;
         if (missing_chafa) {
-            if (o->verbose)
+            if (o->report.verbose)
                 say_warning(error->text);
             *error = (lam_error){0};
             return true;

@@ -92,7 +92,7 @@ static bool add_files(const struct job *job, struct page_model *model, lam_error
 
 bool page_model_add_environment(const struct options *options, struct page_model *model, lam_error *error)
 {
-    const char *text = options->environment, *paths[LAM_FACE_COUNT] = {text};
+    const char *text = options->shading.environment, *paths[LAM_FACE_COUNT] = {text};
     if (!text || environment_option_built_in(text))
         return true;
     char *copy = strchr(text, ',') ? environment_option_faces(text, paths, error) : strdup(text);

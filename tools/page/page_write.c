@@ -30,10 +30,10 @@ static bool check(const struct job *job, char **page, lam_error *error)
     if (strcmp(job->model, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "%s: a page needs a model with a name; standard input has none",
                         job->output);
-    if (o->show && strcmp(o->show, "all") == 0)
+    if (o->picture.show && strcmp(o->picture.show, "all") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--show all' makes several pictures, and a page shows one");
     *page = page_file_find(error);
-    return *page && output_check(job->output, job->model, output_given(o->output), error);
+    return *page && output_check(job->output, job->model, output_given(o->picture.output), error);
 }
 
 static void warn_formats(const struct job *job, const struct page_model *model)
@@ -104,7 +104,7 @@ static bool write_page(struct job *job, const struct options *given, const char 
     ok = out ? put_page(out, job, given, page, &model, error) : complain(error, LAM_LIMIT, "out of memory");
     if (out && (ferror(out) | fclose(out)) && ok)
         ok = complain(error, LAM_LIMIT, "out of memory");
-    ok = ok && output_save_bytes(&(lam_bytes){text, length}, job->output, given->durable, &job->bytes, error);
+    ok = ok && output_save_bytes(&(lam_bytes){text, length}, job->output, given->picture.durable, &job->bytes, error);
     page_model_free(&model);
     free(page);
     free(text);
@@ -118,7 +118,7 @@ bool page_run(struct job *job, struct progress *progress, lam_error *error)
     bool ok = check(job, &page, error);
     job->format = "html";
     job->pixels = LAM_RGBA8;
-    if (ok && given->dry_run) {
+    if (ok && given->report.dry_run) {
         ok = job->planned = job_load(job, progress, error) && job_arrange(job, progress, error);
     } else if (ok) {
         ok = job_draw(job, job->pixels, progress, error);
@@ -126,7 +126,7 @@ bool page_run(struct job *job, struct progress *progress, lam_error *error)
         ok = ok && write_page(job, given, page, error);
         job->times.encode += clock_ms() - start;
         job->written = ok;
-        ok = ok && (!given->save_scene || scene_settings_save(job, error));
+        ok = ok && (!given->picture.save_scene || scene_settings_save(job, error));
     }
     free(page);
     return ok;

@@ -8,7 +8,8 @@
 
 int planned_samples(const struct options *options)
 {
-    return options->draw.samples ? options->draw.samples : lam_default_samples(options->width, options->height);
+    return options->draw.samples ? options->draw.samples
+                                 : lam_default_samples(options->picture.width, options->picture.height);
 }
 
 bool plan_replaces(const struct job *job)
@@ -57,13 +58,13 @@ void report_plan(FILE *out, const struct job *job)
     char items[MODEL_COUNTS_SIZE];
     fprintf(out, "  model     %s, %s\n", *format ? format : "shape", model_counts_text(&job->model_counts, items));
     fprintf(out, "  picture   %s, %s, %dx%d, %d samples a pixel%s\n",
-            strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->format, o->width, o->height,
-            planned_samples(o), plan_replaces(job) ? "; replaces the file" : "");
+            strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->format, o->picture.width,
+            o->picture.height, planned_samples(o), plan_replaces(job) ? "; replaces the file" : "");
     if (job->frames.count)
         fprintf(out, "  frames    %d, %.4g a second%s%s\n", job->frames.count, job->frames.frames_per_second,
                 job->frames.last ? ", to " : "", job->frames.last ? job->frames.last : "");
-    if (o->save_scene)
-        fprintf(out, "  scene     %s\n", o->save_scene);
+    if (o->picture.save_scene)
+        fprintf(out, "  scene     %s\n", o->picture.save_scene);
     fprintf(out, "  camera    eye %.7g %.7g %.7g, target %.7g %.7g %.7g\n", camera->eye.x, camera->eye.y, camera->eye.z,
             camera->target.x, camera->target.y, camera->target.z);
     fprintf(out, "  device    %s\n", lam_device_name(job->device));

@@ -291,8 +291,8 @@ static void json_plan(struct json *json, const struct job *job)
     json_open(json, "planned", '{');
     json_text(json, "path", job->output);
     json_text(json, "format", job->format);
-    json_count(json, "width", (uint64_t)job->options->width);
-    json_count(json, "height", (uint64_t)job->options->height);
+    json_count(json, "width", (uint64_t)job->options->picture.width);
+    json_count(json, "height", (uint64_t)job->options->picture.height);
     json_count(json, "samples", (uint64_t)planned_samples(job->options));
     json_flag(json, "replaces", plan_replaces(job));
     json_frames(json, job);
@@ -358,9 +358,9 @@ void report_json(FILE *file, const struct job *job, const lam_error *error)
 
 FILE *report_stream(const struct options *options)
 {
-    if (!options->json)
+    if (!options->report.json)
         return NULL;
-    return options->output && strcmp(options->output, "-") == 0 ? stderr : stdout;
+    return options->picture.output && strcmp(options->picture.output, "-") == 0 ? stderr : stdout;
 }
 
 // Names the help of the option or command that a usage error begins with.

@@ -121,26 +121,27 @@ static void add_system(struct sandbox_paths *paths)
 
 void sandbox_add_options(struct sandbox_paths *paths, const struct options *o)
 {
-    for (int i = 0; i < o->allow_paths.count; i++)
-        sandbox_add(paths, o->allow_paths.items[i], SANDBOX_READ);
-    if (o->environment)
-        add_list(paths, o->environment, ',');
-    if (o->look)
-        sandbox_add(paths, o->look, SANDBOX_READ);
-    if (o->font)
-        sandbox_add(paths, o->font, SANDBOX_READ);
-    if (o->save_scene)
-        sandbox_add_output(paths, o->save_scene, false);
+    for (int i = 0; i < o->limits.allow_paths.count; i++)
+        sandbox_add(paths, o->limits.allow_paths.items[i], SANDBOX_READ);
+    if (o->shading.environment)
+        add_list(paths, o->shading.environment, ',');
+    if (o->lighting.look)
+        sandbox_add(paths, o->lighting.look, SANDBOX_READ);
+    if (o->captions.font)
+        sandbox_add(paths, o->captions.font, SANDBOX_READ);
+    if (o->picture.save_scene)
+        sandbox_add_output(paths, o->picture.save_scene, false);
 }
 
 static bool uses_opengl(const struct options *o)
 {
-    return o->device == DEVICE_GL || o->device == DEVICE_GLES || (o->device == DEVICE_AUTO && o->gl_device);
+    return o->work.device == DEVICE_GL || o->work.device == DEVICE_GLES ||
+           (o->work.device == DEVICE_AUTO && o->work.gl_device);
 }
 
 static bool check_required(const struct options *o, lam_error *error)
 {
-    if (o->sandbox != SANDBOX_REQUIRE || (active.landlock && active.filter))
+    if (o->limits.sandbox != SANDBOX_REQUIRE || (active.landlock && active.filter))
         return true;
     return complain(error, LAM_UNSUPPORTED, "option '--sandbox require': the sandbox is not complete: %s",
                     active.reason);
@@ -149,7 +150,7 @@ static bool check_required(const struct options *o, lam_error *error)
 bool sandbox_is_wanted(const struct options *o)
 {
     struct sandbox_state offered = sandbox_offered();
-    return o->sandbox != SANDBOX_OFF && !uses_opengl(o) && (offered.landlock || offered.filter);
+    return o->limits.sandbox != SANDBOX_OFF && !uses_opengl(o) && (offered.landlock || offered.filter);
 }
 
 static enum writer_right right_of(void *user, const char *path)
@@ -178,13 +179,13 @@ static bool start_writer(struct sandbox_paths *paths, lam_error *error)
 
 bool sandbox_start(const struct options *o, struct sandbox_paths *paths, lam_error *error)
 {
-    bool ok = true, everything = paths->scene_files && !o->files_inside && !o->allow_paths.count;
-    if (o->sandbox == SANDBOX_OFF) {
+    bool ok = true, everything = paths->scene_files && !o->limits.files_inside && !o->limits.allow_paths.count;
+    if (o->limits.sandbox == SANDBOX_OFF) {
         active.reason = "--sandbox off";
     } else if (uses_opengl(o)) {
         active.reason = "OpenGL's driver needs what a sandbox takes away";
         ok = check_required(o, error);
-    } else if (o->sandbox == SANDBOX_REQUIRE && sandbox_offered().reason) {
+    } else if (o->limits.sandbox == SANDBOX_REQUIRE && sandbox_offered().reason) {
         active = (struct sandbox_state){.reason = sandbox_offered().reason};
         ok = check_required(o, error);
     } else {

@@ -361,14 +361,14 @@ bool sheet_choose(const struct options *options, struct sheet *sheet, char *stor
 {
     for (int i = 0; i < ACROSS_MAX; i++)
         store[i] = NULL;
-    const struct texts *across = &options->across;
+    const struct texts *across = &options->sheet.across;
     if (across->count == 0) {
-        *sheet = sheets[options->sheet];
-        if (options->environment) // the user's environment replaces the sky
+        *sheet = sheets[options->sheet.name];
+        if (options->shading.environment) // the user's environment replaces the sky
             for (int i = 0; i < sheet->count; i++)
                 for (int k = 1; k < CELL_WORDS && sheet->cells[i].words[k]; k++)
                     if (strcmp(sheet->cells[i].words[k - 1], "--environment") == 0)
-                        sheet->cells[i].words[k] = options->environment;
+                        sheet->cells[i].words[k] = options->shading.environment;
         return true;
     }
     if (across->count == 1)

@@ -101,13 +101,13 @@ static bool take_model(struct drawer *d, struct job *job, lam_error *error)
         forget(d);
     if (!d->environments)
         d->environments = environment_cache_make();
-    if (d->device && d->threads != job->options->threads) {
+    if (d->device && d->threads != job->options->work.threads) {
         lam_device_free(d->device);
         d->device = NULL;
     }
     if (!d->device)
         d->device = device_option_make(job->options, error);
-    d->threads = job->options->threads;
+    d->threads = job->options->work.threads;
     job->device = d->device;
     job->environments = d->environments;
     bool ok = d->device && kept_model_take(&d->model, job, error);
@@ -236,7 +236,7 @@ static void tell_pixels(struct drawer *d, struct job *job)
 static bool tell_explanation(struct drawer *d, struct job *job, const struct view_request *request, lam_error *error)
 {
     const struct options *o = job->options;
-    if (request->x < 0 || request->y < 0 || request->x >= o->width || request->y >= o->height)
+    if (request->x < 0 || request->y < 0 || request->x >= o->picture.width || request->y >= o->picture.height)
         return complain(error, LAM_BAD_ARGUMENT, "pixel %d,%d lies outside of the picture", request->x, request->y);
     lam_explanation *explanation = job_explain(job, request->x, request->y, NULL, error);
     char *text = NULL;
@@ -290,8 +290,8 @@ static void work(struct drawer *d, const struct view_request *request, const cha
     struct view_words w;
     struct options options;
     lam_error error = {0};
-    d->limits.threads = request->threads;
-    d->limits.in_flight = request->in_flight;
+    d->limits.work.threads = request->threads;
+    d->limits.limits.in_flight = request->in_flight;
     bool ok = view_words_parse(&w, text, (size_t)request->size, d->files, &d->limits, &options, &error);
     struct job job = {.options = &options, .model = w.model, .keeps_scene = true, .cancel = &cancel};
     job.times.start = clock_ms();

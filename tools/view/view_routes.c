@@ -108,7 +108,7 @@ static enum MHD_Result begin(struct view_connection *c, enum view_kind kind, con
     if (view->ends) // what is suspended now would never be answered
         return view_answer_text(view, c->connection, 503, "the viewer has ended");
     struct view_request request = {.kind = kind, .x = number_of(c, "x"), .y = number_of(c, "y"), .size = (int)size};
-    request.threads = client ? view->options->threads : 1;
+    request.threads = client ? view->options->work.threads : 1;
     request.in_flight = client ? 1 : view->tasks.count - 1;
     c->kind = kind;
     if (kind == VIEW_MODEL)

@@ -49,7 +49,7 @@ static bool make_token(char token[VIEW_TOKEN_SIZE], lam_error *error)
 static int listen_here(struct view *view, lam_error *error)
 {
     struct sockaddr_in address = {.sin_family = AF_INET,
-                                  .sin_port = htons((uint16_t)view->options->port),
+                                  .sin_port = htons((uint16_t)view->options->viewer.port),
                                   .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
     socklen_t size = sizeof address;
     int file = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0), yes = 1;
@@ -59,8 +59,9 @@ static int listen_here(struct view *view, lam_error *error)
     view->port = ntohs(address.sin_port);
     if (ok)
         return file;
-    if (view->options->port)
-        complain(error, LAM_LIMIT, "cannot listen on port %d of 127.0.0.1: %s", view->options->port, strerror(errno));
+    if (view->options->viewer.port)
+        complain(error, LAM_LIMIT, "cannot listen on port %d of 127.0.0.1: %s", view->options->viewer.port,
+                 strerror(errno));
     else
         complain(error, LAM_LIMIT, "cannot listen on 127.0.0.1: %s", strerror(errno));
     if (file >= 0)
@@ -125,7 +126,7 @@ static void say_address(const struct view *view, const char *address, bool opene
     char host[256] = "HOST";
     printf("%s\n", address);
     fflush(stdout);
-    if (view->options->quiet)
+    if (view->options->report.quiet)
         return;
     // "CLIENT PORT SERVER PORT"
     if (!connection || sscanf(connection, "%*s %*s %255s", host) != 1)
@@ -140,7 +141,10 @@ static void say_address(const struct view *view, const char *address, bool opene
 
 static void hear_change(void *user, const char *path) { view_events_changed(user, path); }
 
-static double idle_limit_ms(const struct options *o) { return (o->has_idle ? o->idle_minutes : IDLE_MINUTES) * 60e3; }
+static double idle_limit_ms(const struct options *o)
+{
+    return (o->viewer.has_idle ? o->viewer.idle_minutes : IDLE_MINUTES) * 60e3;
+}
 
 static unsigned connections(const struct view *view)
 {
@@ -193,7 +197,7 @@ static void loop(struct view *view)
         if (connections(view)) {
             idle_since = now;
         } else if (now - idle_since > limit) {
-            if (!view->options->quiet)
+            if (!view->options->report.quiet)
                 say_plain("ended: no page was open for %.10g minutes (--idle)\n", limit / 60e3);
             return;
         }
@@ -245,7 +249,7 @@ bool view_run(const char *operand, const struct options *options, lam_error *err
     if (ok) {
         char address[VIEW_ADDRESS_SIZE];
         snprintf(address, sizeof address, "http://127.0.0.1:%d/%s/", view.port, view.token);
-        bool opened = !options->no_open && browser_open(address);
+        bool opened = !options->viewer.no_open && browser_open(address);
         ok = enter_sandbox(&view, error);
         if (ok) {
             say_address(&view, address, opened);

@@ -18,7 +18,7 @@ enum { GRACE_MS = 5000 };
 void view_tasks_start(struct view_tasks *tasks, const struct view_files *files, const struct options *options,
                       void (*done)(void *user, struct view_result *result))
 {
-    long cores = options->threads ? options->threads : sysconf(_SC_NPROCESSORS_ONLN);
+    long cores = options->work.threads ? options->work.threads : sysconf(_SC_NPROCESSORS_ONLN);
     double limit_s = limits_time(options);
     *tasks = (struct view_tasks){.files = files, .options = options, .done = done};
     tasks->count = (cores < 1 ? 1 : cores > VIEW_PROCESSES_MAX - 1 ? VIEW_PROCESSES_MAX - 1 : (int)cores) + 1;

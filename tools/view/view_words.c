@@ -34,11 +34,11 @@ static char *machine_path(const struct view_files *files, const char *path, lam_
 static bool take_environment(struct view_words *w, const struct view_files *files, struct options *out,
                              lam_error *error)
 {
-    if (!out->environment || environment_option_built_in(out->environment))
+    if (!out->shading.environment || environment_option_built_in(out->shading.environment))
         return true;
     size_t size = 0;
     FILE *list = open_memstream(&w->environment, &size);
-    char *copy = strdup(out->environment), *rest = copy;
+    char *copy = strdup(out->shading.environment), *rest = copy;
     bool ok = (list && copy) || complain(error, LAM_LIMIT, "out of memory");
     for (char *part; ok && (part = strsep(&rest, ","));) {
         char *path = machine_path(files, part, error);
@@ -51,7 +51,7 @@ static bool take_environment(struct view_words *w, const struct view_files *file
     if (list && fclose(list) != 0 && ok)
         ok = complain(error, LAM_LIMIT, "out of memory");
     if (ok)
-        out->environment = w->environment;
+        out->shading.environment = w->environment;
     return ok;
 }
 
@@ -59,7 +59,7 @@ static bool take_environment(struct view_words *w, const struct view_files *file
 static bool fits(const struct option *option, const struct options *given)
 {
     if (strcmp(option->name, "look") == 0)
-        return look_find(given->look) != NULL;
+        return look_find(given->lighting.look) != NULL;
     return page_model_has_option(option) || strcmp(option->name, "compress") == 0 ||
            strcmp(option->name, "quality") == 0;
 }
@@ -69,25 +69,25 @@ static bool check(const struct options *given, lam_error *error)
     for (const struct option *o = option_table; o->name; o++)
         if (given->given[o - option_table] && !fits(o, given))
             return complain(error, LAM_BAD_ARGUMENT, "option '--%s' is not of the picture that a page shows", o->name);
-    if (given->show && strcmp(given->show, "all") == 0)
+    if (given->picture.show && strcmp(given->picture.show, "all") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--show all' makes several pictures, and a page shows one");
     return job_check_options(given, error);
 }
 
 static void take_limits(const struct options *limits, struct options *out)
 {
-    out->memory_limit_bytes = limits->memory_limit_bytes;
-    out->time_limit_s = limits->time_limit_s;
-    out->triangle_limit = limits->triangle_limit;
-    out->pixel_limit = limits->pixel_limit;
-    out->file_limit_bytes = limits->file_limit_bytes;
-    out->json_depth_limit = limits->json_depth_limit;
-    out->expansion_limit = limits->expansion_limit;
-    out->object_limit = limits->object_limit;
-    out->layer_limit = limits->layer_limit;
-    out->threads = limits->threads;
-    out->in_flight = limits->in_flight;
-    out->files_inside = true;
+    out->limits.memory_limit_bytes = limits->limits.memory_limit_bytes;
+    out->limits.time_limit_s = limits->limits.time_limit_s;
+    out->limits.triangle_limit = limits->limits.triangle_limit;
+    out->limits.pixel_limit = limits->limits.pixel_limit;
+    out->limits.file_limit_bytes = limits->limits.file_limit_bytes;
+    out->limits.json_depth_limit = limits->limits.json_depth_limit;
+    out->limits.expansion_limit = limits->limits.expansion_limit;
+    out->limits.object_limit = limits->limits.object_limit;
+    out->limits.layer_limit = limits->limits.layer_limit;
+    out->work.threads = limits->work.threads;
+    out->limits.in_flight = limits->limits.in_flight;
+    out->limits.files_inside = true;
 }
 
 bool view_words_parse(struct view_words *w, const char *text, size_t size, const struct view_files *files,

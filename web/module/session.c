@@ -68,22 +68,22 @@ static bool start(int count, struct options *options, struct job *job, lam_error
                  operands ? words[1] : "");
     const char *name = operands == 1 ? words[0] : NULL;
     free(words);
-    if (!options->memory_limit_bytes)
-        options->memory_limit_bytes = session.memory_limit_bytes;
+    if (!options->limits.memory_limit_bytes)
+        options->limits.memory_limit_bytes = session.memory_limit_bytes;
     if (!name || !job_check_options(options, error) || !job_check_formula(name, options, error))
         return false;
-    if (options->turntable || options->sweeps.count)
+    if (options->animation.turntable || options->animation.sweeps.count)
         return complain(error, LAM_BAD_ARGUMENT,
                         "options '--turntable' and '--sweep' make files, expected one picture");
-    if (session.device && (session.isa != options->isa || session.threads != options->threads)) {
+    if (session.device && (session.isa != options->work.isa || session.threads != options->work.threads)) {
         lam_device_free(session.device);
         session.device = NULL;
     }
     if (!session.device)
         session.device = device_option_make(options, error);
-    session.isa = options->isa;
-    session.threads = options->threads;
-    options->threads = 1; // the device has the others; files are read here, since no other thread has them
+    session.isa = options->work.isa;
+    session.threads = options->work.threads;
+    options->work.threads = 1; // the device has the others; files are read here, since no other thread has them
     if (!session.environments)
         session.environments = environment_cache_make();
     *job = (struct job){.options = options,
@@ -135,7 +135,7 @@ int web_save(int count)
     struct job job = {0};
     lam_error error = {0};
     bool ok = start(count, &options, &job, &error);
-    job.output = options.output;
+    job.output = options.picture.output;
     if (ok && (!job.output || strcmp(job.output, "-") == 0))
         ok = complain(&error, LAM_BAD_ARGUMENT, "expected the file to write after -o");
     ok = ok && job_run(&job, NULL, &error);
@@ -151,7 +151,7 @@ int web_explain(int count, int x, int y)
     lam_error error = {0};
     lam_explanation *explanation = NULL;
     bool ok = start(count, &options, &job, &error);
-    if (ok && (x < 0 || y < 0 || x >= options.width || y >= options.height))
+    if (ok && (x < 0 || y < 0 || x >= options.picture.width || y >= options.picture.height))
         ok = complain(&error, LAM_BAD_ARGUMENT, "pixel %d,%d lies outside of the picture", x, y);
     if (ok)
         explanation = job_explain(&job, x, y, NULL, &error);

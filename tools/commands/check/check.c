@@ -55,9 +55,9 @@ struct check_command {
 // Splits "all,gate" into its names.
 static bool split_scenes(struct check_command *c, lam_error *error)
 {
-    if (!c->options->scenes)
+    if (!c->options->check.scenes)
         return true;
-    c->scene_list = strdup(c->options->scenes);
+    c->scene_list = strdup(c->options->check.scenes);
     if (!c->scene_list)
         return complain(error, LAM_LIMIT, "out of memory");
     for (char *word = strtok(c->scene_list, ","); word && c->batch.scene_count < MAX_SCENES; word = strtok(NULL, ","))
@@ -70,21 +70,22 @@ static bool split_scenes(struct check_command *c, lam_error *error)
 static bool find_submissions(struct check_command *c, int operand_count, char **operands, lam_error *error)
 {
     const struct options *o = c->options;
-    if (o->class_folder && operand_count)
+    if (o->check.class_folder && operand_count)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--class' names a folder, and '%.100s' is a shader besides; expected one of them",
                         operands[0]);
-    c->batch.in_class = o->class_folder != NULL;
-    c->batch.count = o->class_folder ? check_find(o->class_folder, &c->submissions, error)
-                                     : check_pair(operand_count, operands, o->vertex, &c->submissions, error);
+    c->batch.in_class = o->check.class_folder != NULL;
+    c->batch.count = o->check.class_folder
+                         ? check_find(o->check.class_folder, &c->submissions, error)
+                         : check_pair(operand_count, operands, o->check.vertex, &c->submissions, error);
     c->batch.submissions = c->submissions;
     if (c->batch.count < 0)
         return false;
     if (c->batch.count == 0)
         return complain(error, LAM_BAD_ARGUMENT,
                         "check: no shader given, expected the file of a fragment shader, --class FOLDER, or --list");
-    for (int i = 0; o->class_folder && o->vertex && i < c->batch.count; i++)
-        if (!c->submissions[i].vertex && !(c->submissions[i].vertex = strdup(o->vertex)))
+    for (int i = 0; o->check.class_folder && o->check.vertex && i < c->batch.count; i++)
+        if (!c->submissions[i].vertex && !(c->submissions[i].vertex = strdup(o->check.vertex)))
             return complain(error, LAM_LIMIT, "out of memory");
     for (int i = 0; c->batch.count > 1 && !c->batch.in_class && i < c->batch.count; i++)
         if (strcmp(c->submissions[i].fragment, "-") == 0)
@@ -97,23 +98,24 @@ static bool check_outputs(const struct check_command *c, lam_error *error)
 {
     const struct options *o = c->options;
     lam_pixel_format format;
-    if (o->has_size && o->width != o->height)
-        return complain(error, LAM_BAD_ARGUMENT, "check: pictures are square, found %dx%d", o->width, o->height);
+    if (o->picture.has_size && o->picture.width != o->picture.height)
+        return complain(error, LAM_BAD_ARGUMENT, "check: pictures are square, found %dx%d", o->picture.width,
+                        o->picture.height);
     if (c->batch.in_class) // -o always names a folder
         return true;
-    if (o->output && output_is_named(o->output) && c->batch.count > 1)
+    if (o->picture.output && output_is_named(o->picture.output) && c->batch.count > 1)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--output' names one sheet for %d shaders; name a folder: -o sheets/", c->batch.count);
-    if (!o->output || !output_is_named(o->output) || output_is_stream(o->output))
+    if (!o->picture.output || !output_is_named(o->picture.output) || output_is_stream(o->picture.output))
         return true;
-    return output_format(o->output, &format, error) &&
+    return output_format(o->picture.output, &format, error) &&
            (format == LAM_RGBA8 ||
-            complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .png or .ppm", o->output));
+            complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .png or .ppm", o->picture.output));
 }
 
 static bool open_csv(struct check_command *c, lam_error *error)
 {
-    const char *path = c->options->csv;
+    const char *path = c->options->check.csv;
     if (!path)
         return true;
     if (!output_make_folder(path, error))
@@ -128,7 +130,7 @@ static bool open_csv(struct check_command *c, lam_error *error)
 // The folder of the page and the sheets. Without it the verdicts are printed all the same.
 static bool prepare_page(struct check_command *c, lam_error *error)
 {
-    char *page = check_page_path(c->options->output, error);
+    char *page = check_page_path(c->options->picture.output, error);
     lam_error reason = {0};
     if (!page)
         return false;
@@ -147,10 +149,10 @@ static bool prepare(struct check_command *c, int operand_count, char **operands,
 {
     const struct options *o = c->options;
     if (!split_scenes(c, error) || !find_submissions(c, operand_count, operands, error) || !check_outputs(c, error) ||
-        !read_contract(o->contract, &c->contract, error) || !open_csv(c, error))
+        !read_contract(o->check.contract, &c->contract, error) || !open_csv(c, error))
         return false;
     c->batch.contract = c->contract;
-    if (c->batch.in_class && o->output && !prepare_page(c, error))
+    if (c->batch.in_class && o->picture.output && !prepare_page(c, error))
         return false;
     return c->batch.count == 1 || (c->batch.cache = lam_check_cache_make(max_cache_bytes, error));
 }
@@ -161,14 +163,14 @@ static int finish(struct check_command *c)
     const struct options *o = c->options;
     lam_error error = {0};
     int code = c->code;
-    if (c->batch.page && !check_page_write(c->batch.page, o->output, o->class_folder, &error)) {
+    if (c->batch.page && !check_page_write(c->batch.page, o->picture.output, o->check.class_folder, &error)) {
         say_error(error.text);
         code = exit_code_of(error.code)->code;
     }
     if (c->batch.csv && fclose(c->batch.csv) != 0 && !c->batch.csv_error)
         c->batch.csv_error = errno;
     if (c->batch.csv_error) {
-        complain(&error, LAM_CANNOT_WRITE, "%s: cannot write: %s", o->csv, strerror(c->batch.csv_error));
+        complain(&error, LAM_CANNOT_WRITE, "%s: cannot write: %s", o->check.csv, strerror(c->batch.csv_error));
         say_error(error.text);
         code = exit_code_of(error.code)->code;
     }
@@ -178,16 +180,16 @@ static int finish(struct check_command *c)
 int run_check(int operand_count, char **operands, const struct options *o)
 {
     lam_error error = {0};
-    if (o->list)
+    if (o->check.list)
         return check_print_lists(stdout, &error) ? 0 : report_failure(&error, o);
-    if (o->memory_limit_bytes == UINT64_MAX) {
+    if (o->limits.memory_limit_bytes == UINT64_MAX) {
         complain(&error, LAM_BAD_ARGUMENT,
                  "option '--memory-limit': found 'none', but a shader needs a limit, in bytes");
         return report_failure(&error, o);
     }
     interrupt_start();
     struct check_command c = {.options = o, .batch = {.options = o}};
-    c.batch.tolerance = option_given(o, "tolerance") ? o->tolerance : 2;
+    c.batch.tolerance = option_given(o, "tolerance") ? o->diff.tolerance : 2;
     int code = 0;
     if (prepare(&c, operand_count, operands, &error)) {
         code = check_batch_run(&c.batch, &error);

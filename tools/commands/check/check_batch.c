@@ -63,9 +63,9 @@ static void run_check_of(struct check_batch *b, struct check_result *result)
 {
     const struct options *o = b->options;
     const struct check_submission *s = result->submission;
-    struct check_process process = {.time_limit_s = o->stop_after_s,
-                                    .memory_limit_bytes =
-                                        o->memory_limit_bytes ? o->memory_limit_bytes : default_memory_bytes};
+    struct check_process process = {.time_limit_s = o->check.stop_after_s,
+                                    .memory_limit_bytes = o->limits.memory_limit_bytes ? o->limits.memory_limit_bytes
+                                                                                       : default_memory_bytes};
     lam_error *error = &result->error;
     if (s->problem) {
         complain(error, LAM_CANNOT_READ, "%s: %s", s->name, s->problem);
@@ -80,12 +80,12 @@ static void run_check_of(struct check_batch *b, struct check_result *result)
             .vertex = vertex,
             .vertex_name = s->vertex,
             .contract = b->contract,
-            .size = o->has_size ? o->width : 0,
+            .size = o->picture.has_size ? o->picture.width : 0,
             .tolerance = b->tolerance / 255,
-            .light_frame = (lam_light_frame)o->light_frame,
-            .reflection = (lam_reflection)o->highlight,
-            .terms = (unsigned)o->terms,
-            .max_pictures = (uint64_t)o->search_limit,
+            .light_frame = (lam_light_frame)o->check.light_frame,
+            .reflection = (lam_reflection)o->check.highlight,
+            .terms = (unsigned)o->check.terms,
+            .max_pictures = (uint64_t)o->check.search_limit,
             .scenes = b->scenes,
             .scene_count = b->scene_count,
             .cache = b->cache,
@@ -108,14 +108,14 @@ static void write_sheet(struct check_batch *b, struct check_result *result)
 {
     const struct options *o = b->options;
     lam_check_report *report = &result->report;
-    if (o->output && !b->without_sheets && report->scene_count) {
+    if (o->picture.output && !b->without_sheets && report->scene_count) {
         int index = (int)(result->submission - b->submissions);
-        result->sheet = check_sheet_path(o->output, b->submissions, index, b->in_class);
+        result->sheet = check_sheet_path(o->picture.output, b->submissions, index, b->in_class);
         if (!result->sheet)
             complain(&result->sheet_error, LAM_LIMIT, "out of memory");
         else if (output_is_stream(result->sheet) ||
-                 output_check(result->sheet, result->submission->fragment, !b->in_class && output_is_named(o->output),
-                              &result->sheet_error))
+                 output_check(result->sheet, result->submission->fragment,
+                              !b->in_class && output_is_named(o->picture.output), &result->sheet_error))
             check_sheet(report, result->submission->name, o, result->sheet, &result->sheet_error);
         if (result->sheet_error.code) {
             free(result->sheet);
@@ -157,11 +157,11 @@ static void print_report(const struct check_batch *b, const struct check_result 
 {
     const struct options *o = b->options;
     FILE *file = result->sheet && strcmp(result->sheet, "-") == 0 ? stderr : stdout;
-    if (o->json && (b->count > 1 || b->in_class || !result->error.code))
+    if (o->report.json && (b->count > 1 || b->in_class || !result->error.code))
         check_report_json(file, result, b->in_class ? result->submission->name : NULL, b->tolerance);
-    else if (!o->json && !o->quiet && b->in_class)
+    else if (!o->report.json && !o->report.quiet && b->in_class)
         check_report_line(file, result);
-    else if (!o->json && !o->quiet && !result->error.code)
+    else if (!o->report.json && !o->report.quiet && !result->error.code)
         check_report_text(file, &result->report, result->submission->fragment, b->tolerance);
     fflush(file); // each shader's report appears as soon as it is done
 }
@@ -234,7 +234,7 @@ static void *check_next(void *work)
 static int thread_count(const struct check_batch *b)
 {
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    int count = b->options->threads ? b->options->threads : processors > 0 ? (int)processors : 1;
+    int count = b->options->work.threads ? b->options->work.threads : processors > 0 ? (int)processors : 1;
     count = count < MAX_THREADS ? count : MAX_THREADS;
     return count < b->count ? count : b->count;
 }
@@ -261,7 +261,7 @@ int check_batch_run(struct check_batch *b, lam_error *first)
     free(w.results);
     pthread_cond_destroy(&w.printed_one);
     pthread_mutex_destroy(&w.lock);
-    if ((b->count > 1 || b->in_class) && !b->options->json && !b->options->quiet && !interrupted())
+    if ((b->count > 1 || b->in_class) && !b->options->report.json && !b->options->report.quiet && !interrupted())
         printf("%d of %d pass\n", w.passed, b->count);
     return w.code;
 }

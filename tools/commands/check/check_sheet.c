@@ -92,16 +92,17 @@ bool check_sheet(const lam_check_report *r, const char *shader, const struct opt
 {
     int size = r->scenes[0].reference.width, row = (size > 124 ? size : 124) + GAP;
     struct drawing d;
-    if (!drawing_open(&d, SIDE + 3 * (size + GAP), HEAD + r->scene_count * row, false, !o->no_captions, o->font, error))
+    if (!drawing_open(&d, SIDE + 3 * (size + GAP), HEAD + r->scene_count * row, false, !o->captions.no_captions,
+                      o->captions.font, error))
         return false;
-    put_head(&d, r, shader, o->gain, size);
+    put_head(&d, r, shader, o->diff.gain, size);
     bool ok = true;
     for (int i = 0; ok && i < r->scene_count; i++) {
         int top = HEAD + i * row;
         put_words(&d, &r->scenes[i], top);
         ok = put(&d, &r->scenes[i].theirs, SIDE, top, error) &&
              put(&d, &r->scenes[i].reference, SIDE + size + GAP, top, error) &&
-             put_difference(&d, &r->scenes[i], o->gain, SIDE + 2 * (size + GAP), top, error);
+             put_difference(&d, &r->scenes[i], o->diff.gain, SIDE + 2 * (size + GAP), top, error);
     }
     ok = ok && drawing_write(&d, path, error);
     drawing_free(&d);

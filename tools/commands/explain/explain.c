@@ -35,11 +35,11 @@ static bool read_pixel(const char *text, const struct options *o, int *x, int *y
         return complain(error, LAM_BAD_ARGUMENT,
                         "explain: found '%.60s', expected a pixel X,Y, counted from the picture's top left corner, "
                         "such as %d,%d",
-                        text, o->width / 2, o->height / 2);
-    if (*x >= o->width || *y >= o->height)
+                        text, o->picture.width / 2, o->picture.height / 2);
+    if (*x >= o->picture.width || *y >= o->picture.height)
         return complain(error, LAM_BAD_ARGUMENT,
                         "explain: pixel %d,%d lies outside the picture of %dx%d pixels, expected 0,0 to %d,%d", *x, *y,
-                        o->width, o->height, o->width - 1, o->height - 1);
+                        o->picture.width, o->picture.height, o->picture.width - 1, o->picture.height - 1);
     return true;
 }
 
@@ -58,9 +58,9 @@ static int report_job_failure(const struct job *job, lam_error *error)
 static char *figure_path(const struct options *o, const char *model, bool *failed)
 {
     *failed = false;
-    if (!o->output && !terminal_shows())
+    if (!o->picture.output && !terminal_shows())
         return NULL;
-    char *path = output_path(o->output ? o->output : "-", model, "-explained.svg");
+    char *path = output_path(o->picture.output ? o->picture.output : "-", model, "-explained.svg");
     *failed = !path;
     return path;
 }
@@ -71,10 +71,10 @@ static bool check_figure(const char *path, const struct options *o, const char *
     bool to_stdout = strcmp(path, "-") == 0;
     if (to_stdout && isatty(STDOUT_FILENO) && !terminal_shows())
         return terminal_refuse("explain MODEL X,Y", error);
-    if (to_stdout && o->json)
+    if (to_stdout && o->report.json)
         return complain(error, LAM_BAD_ARGUMENT, "options '--json' and '-o -' both write to standard output");
-    if (!drawing_is_svg(path) && o->title && !o->no_captions &&
-        !drawing_check_text("title", o->title, o->font != NULL, error))
+    if (!drawing_is_svg(path) && o->captions.title && !o->captions.no_captions &&
+        !drawing_check_text("title", o->captions.title, o->captions.font != NULL, error))
         return false;
     if (!to_stdout && !drawing_is_svg(path)) {
         if (!output_format(path, &format, error))
@@ -82,7 +82,7 @@ static bool check_figure(const char *path, const struct options *o, const char *
         if (format != LAM_RGBA8)
             return complain(error, LAM_UNSUPPORTED, "%s: a figure is written as .svg, .png, .jpg, .webp or .ppm", path);
     }
-    return to_stdout || output_check(path, model, output_given(o->output), error);
+    return to_stdout || output_check(path, model, output_given(o->picture.output), error);
 }
 
 // Draws the picture of the job that was explained.
@@ -95,18 +95,21 @@ static bool draw_picture(struct job *job, struct progress *progress, lam_error *
 static bool write_figure(struct job *job, const lam_explanation *e, const char *path, lam_error *error)
 {
     const struct options *o = job->options;
-    struct explain_figure figure = {
-        .explanation = e, .camera = &job->camera, .picture = &job->image, .model = job->model, .title = o->title};
+    struct explain_figure figure = {.explanation = e,
+                                    .camera = &job->camera,
+                                    .picture = &job->image,
+                                    .model = job->model,
+                                    .title = o->captions.title};
     struct drawing drawing;
     int width, height;
     explain_figure_size(&figure, &width, &height);
-    if (!drawing_open(&drawing, width, height, drawing_is_svg(path), !o->no_captions, o->font, error))
+    if (!drawing_open(&drawing, width, height, drawing_is_svg(path), !o->captions.no_captions, o->captions.font, error))
         return false;
-    drawing.compress = (lam_compress)o->compress;
-    drawing.quality = o->quality;
-    drawing.durable = o->durable;
+    drawing.compress = (lam_compress)o->picture.compress;
+    drawing.quality = o->picture.quality;
+    drawing.durable = o->picture.durable;
     bool ok = explain_figure_draw(&figure, &drawing, error) && drawing_write(&drawing, path, error);
-    if (ok && strcmp(path, "-") != 0 && !o->quiet)
+    if (ok && strcmp(path, "-") != 0 && !o->report.quiet)
         say_plain("%s  %dx%d\n", path, width, height);
     drawing_free(&drawing);
     return ok;
@@ -116,7 +119,7 @@ static bool write_figure(struct job *job, const lam_explanation *e, const char *
 
 static void print(const lam_explanation *explanation, const struct job *job)
 {
-    if (job->options->json)
+    if (job->options->report.json)
         explain_json(stdout, explanation, job->model);
     else
         explain_text(explanation, job->model);
@@ -128,7 +131,7 @@ static int explain(struct job *job, int x, int y, const char *figure)
     lam_error error = {0};
     struct progress progress;
     job->times.start = clock_ms();
-    progress_start(&progress, job->model, console_is_terminal() && !job->options->quiet);
+    progress_start(&progress, job->model, console_is_terminal() && !job->options->report.quiet);
     lam_explanation *explanation = job_explain(job, x, y, &progress, &error);
     bool ok = explanation && (!figure || draw_picture(job, &progress, &error));
     progress_end(&progress);
@@ -149,14 +152,14 @@ static bool check(const struct job *job, const char *pixel, int *x, int *y, lam_
     if (strcmp(job->model, "-") == 0 && isatty(STDIN_FILENO))
         return complain(error, LAM_BAD_ARGUMENT,
                         "standard input is a terminal, expected a model: lambent explain - X,Y < FILE");
-    if (o->dry_run)
+    if (o->report.dry_run)
         return complain(error, LAM_BAD_ARGUMENT, "option '--dry-run' does not go with explain");
-    if (o->show)
+    if (o->picture.show)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--show' has no effect on explain, which prints all terms of a pixel");
     // A figure is wanted by its name, or by a --term that is none of auto and off.
     return read_pixel(pixel, o, x, y, error) &&
-           terminal_start(o, o->output || (o->term != TERM_AUTO && o->term != TERM_OFF), error);
+           terminal_start(o, o->picture.output || (o->picture.term != TERM_AUTO && o->picture.term != TERM_OFF), error);
 }
 
 int run_explain(int operand_count, char **operands, const struct options *options)
@@ -176,7 +179,7 @@ int run_explain(int operand_count, char **operands, const struct options *option
         struct sandbox_paths paths = {0};
         sandbox_add_input(&paths, job.model);
         if (figure)
-            sandbox_add_output(&paths, figure, !output_is_named(options->output));
+            sandbox_add_output(&paths, figure, !output_is_named(options->picture.output));
         job.device = sandbox_start(options, &paths, &error) ? device_option_make(options, &error) : NULL;
         code = job.device ? explain(&job, x, y, figure) : report_failure(&error, options);
     }

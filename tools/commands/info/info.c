@@ -17,13 +17,13 @@
 static bool load(struct info *info, struct job *job, struct options *options, lam_error *error)
 {
     struct progress progress;
-    progress_start(&progress, job->model, console_is_terminal() && !options->quiet);
+    progress_start(&progress, job->model, console_is_terminal() && !options->report.quiet);
     bool ok = job_load(job, &progress, error);
-    if (!ok && error->code == LAM_UNSUPPORTED && !options->lenient && strcmp(job->model, "-") != 0) {
+    if (!ok && error->code == LAM_UNSUPPORTED && !options->model.lenient && strcmp(job->model, "-") != 0) {
         lam_error second = {0};
         lam_scene_free(job->scene);
         *job = (struct job){.options = options, .model = job->model, .times.start = job->times.start};
-        options->lenient = true;
+        options->model.lenient = true;
         ok = info->needs_lenient = job_load(job, &progress, &second);
     }
     progress_end(&progress);
@@ -33,7 +33,7 @@ static bool load(struct info *info, struct job *job, struct options *options, la
 // Finds what drawing takes, by drawing the depths once: lighting takes no more but for an environment's light.
 static void measure_drawing(struct info *info, const struct job *job)
 {
-    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = job->options->threads}, NULL);
+    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = job->options->work.threads}, NULL);
     lam_image image = {0};
     lam_camera camera = lam_camera_fit(job->scene, INFO_SIDE, INFO_SIDE, NULL);
     lam_draw_params params = {.output = LAM_OUTPUT_DEPTH};
@@ -64,7 +64,7 @@ static int print_one(const char *model, const struct options *given, bool first)
         measure_drawing(&info, &job);
     } else
         say_error(error.text);
-    if (given->json) {
+    if (given->report.json) {
         info_json(&info);
     } else if (ok) {
         if (!first)

@@ -90,7 +90,8 @@ static bool read_timeout(struct batch_job *job, const json_t *root, const struct
 {
     const json_t *value = json_object_get(root, "timeout_s");
     double most = limits_time(base), seconds = json_number_value(value);
-    job->options.time_limit_s = most > 0 ? most : (double)INFINITY; // of the whole job, also where it is an animation
+    job->options.limits.time_limit_s =
+        most > 0 ? most : (double)INFINITY; // of the whole job, also where it is an animation
     if (!value || json_is_null(value))
         return true;
     if (!json_is_number(value) || !(seconds > 0 && seconds <= 1e9) || (most > 0 && seconds > most))
@@ -98,7 +99,7 @@ static bool read_timeout(struct batch_job *job, const json_t *root, const struct
             error, LAM_BAD_ARGUMENT,
             "key 'timeout_s': expected seconds above 0, at most %.10g, the worker's own limit (--time-limit)",
             most > 0 ? most : 1e9);
-    job->options.time_limit_s = seconds;
+    job->options.limits.time_limit_s = seconds;
     return true;
 }
 
@@ -158,10 +159,10 @@ static bool read_output(struct batch_job *job, const json_t *root, lam_error *er
         job->output = strdup(output);
     else if (format && (strlen(format) > 10 || strspn(format, "abcdefghijklmnopqrstuvwxyz") != strlen(format)))
         return refuse(error, "format", "expected that of a picture, such as png");
-    else if (asprintf(&job->output, "{stem}%s%s.%s", o->view_count > 1 ? "-{view}" : "",
-                      o->size_count > 1 ? "-{size}" : "", format ? format : "png") < 0)
+    else if (asprintf(&job->output, "{stem}%s%s.%s", o->batch.view_count > 1 ? "-{view}" : "",
+                      o->batch.size_count > 1 ? "-{size}" : "", format ? format : "png") < 0)
         job->output = NULL;
-    o->output = job->output;
+    o->picture.output = job->output;
     return job->output || complain(error, LAM_LIMIT, "out of memory");
 }
 
@@ -169,8 +170,8 @@ static bool read_output(struct batch_job *job, const json_t *root, lam_error *er
 
 static bool check_environment(const struct batch_job *job, const struct batch_job_rules *rules, lam_error *error)
 {
-    const char *text = job->options.environment, *paths[LAM_FACE_COUNT] = {text};
-    if (!text || text == rules->options->environment || environment_option_built_in(text))
+    const char *text = job->options.shading.environment, *paths[LAM_FACE_COUNT] = {text};
+    if (!text || text == rules->options->shading.environment || environment_option_built_in(text))
         return true;
     char *names = strchr(text, ',') ? environment_option_faces(text, paths, error) : NULL;
     bool ok = names || !strchr(text, ',');
@@ -217,10 +218,10 @@ static bool read_options(struct batch_job *job, const json_t *root, const struct
         *o = (struct options){0};
         return complain(error, LAM_LIMIT, "out of memory");
     }
-    o->threads = rules->threads;
-    o->in_flight = rules->in_flight;
-    o->files_inside = true;
-    o->allow_paths.count = 0; // a job's model reads its own folder alone
+    o->work.threads = rules->threads;
+    o->limits.in_flight = rules->in_flight;
+    o->limits.files_inside = true;
+    o->limits.allow_paths.count = 0; // a job's model reads its own folder alone
     return job_words_make(json_object_get(root, "options"), &job->words, &job->word_count, error) &&
            check_looks(job, rules, error) && job_words_apply(job->words, job->word_count, o, error) &&
            check_environment(job, rules, error) && job_check_options(o, error);

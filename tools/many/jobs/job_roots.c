@@ -13,7 +13,7 @@
 
 bool job_roots_start(struct job_roots *roots, const struct options *options, lam_error *error)
 {
-    const struct texts *given = &options->allow_paths;
+    const struct texts *given = &options->limits.allow_paths;
     *roots = (struct job_roots){.paths = calloc((size_t)given->count + 1, sizeof *roots->paths)};
     if (!roots->paths)
         return complain(error, LAM_LIMIT, "out of memory");

@@ -75,9 +75,9 @@ static void print_value(FILE *out, const struct option *option, const struct opt
     else if (option->store == store_float || option->store == store_cutoff)
         fprintf(out, "%.9g", (double)*(const float *)field);
     else if (option->store == store_exposure)
-        fprintf(out, "%d/%.17g", o->exposure_kind, o->exposure);
+        fprintf(out, "%d/%.17g", o->picture.exposure_kind, o->picture.exposure);
     else if (option->store == store_segments)
-        fprintf(out, "%dx%d", o->slices, o->stacks);
+        fprintf(out, "%dx%d", o->shading.slices, o->shading.stacks);
     else if (option->store == store_reflectivity)
         fprintf(out, "%.9g/%.9g/%.9g", (double)color->r, (double)color->g, (double)color->b);
     else if (is_texts(option))
@@ -91,13 +91,14 @@ static void print_value(FILE *out, const struct option *option, const struct opt
 // not matter.
 static bool print_environment(FILE *out, const struct options *o, lam_error *error)
 {
-    const char *paths[LAM_FACE_COUNT] = {o->environment};
-    if (!o->environment || environment_option_built_in(o->environment)) {
-        fputs(o->environment ? o->environment : "", out);
+    const char *paths[LAM_FACE_COUNT] = {o->shading.environment};
+    if (!o->shading.environment || environment_option_built_in(o->shading.environment)) {
+        fputs(o->shading.environment ? o->shading.environment : "", out);
         return true;
     }
-    char *names = strchr(o->environment, ',') ? environment_option_faces(o->environment, paths, error) : NULL;
-    if (!names && strchr(o->environment, ','))
+    char *names =
+        strchr(o->shading.environment, ',') ? environment_option_faces(o->shading.environment, paths, error) : NULL;
+    if (!names && strchr(o->shading.environment, ','))
         return false;
     bool ok = true;
     for (int i = 0; ok && i < (names ? LAM_FACE_COUNT : 1); i++) {
@@ -175,7 +176,7 @@ uint64_t batch_key(const struct batch_key_parts *p)
             xxh64_add_text(&hash, option_table[i].name);
     xxh64_add_text(&hash, p->file_count ? NULL : p->model);
     xxh64_add_text(&hash, p->picture);
-    snprintf(numbers, sizeof numbers, "%d %dx%d", p->side >= 0 ? p->side : p->parsed->view, p->width, p->height);
+    snprintf(numbers, sizeof numbers, "%d %dx%d", p->side >= 0 ? p->side : p->parsed->view.side, p->width, p->height);
     xxh64_add_text(&hash, numbers);
     for (int i = 0; i < p->file_count; i++)
         xxh64_add_text(&hash, p->files[i]);

@@ -13,8 +13,8 @@
 static bool make_pattern(struct batch_plan *plan, lam_error *error)
 {
     const struct options *o = plan->options;
-    const char *output = o->output, *side = o->view_count > 1 ? "-{view}" : "",
-               *size = o->size_count > 1 ? "-{size}" : "";
+    const char *output = o->picture.output, *side = o->batch.view_count > 1 ? "-{view}" : "",
+               *size = o->batch.size_count > 1 ? "-{size}" : "";
     if (output_name_is_pattern(output)) {
         plan->pattern = strdup(output);
     } else if (plan->view_count > 1) {
@@ -39,22 +39,22 @@ static bool make_pattern(struct batch_plan *plan, lam_error *error)
 static bool check_together(const struct options *o, lam_error *error)
 {
     static const char *const sides[] = {"view", "camera", "azimuth", "elevation", NULL};
-    for (int i = 0; o->view_count && sides[i]; i++)
+    for (int i = 0; o->batch.view_count && sides[i]; i++)
         if (option_given(o, sides[i]))
             return complain(error, LAM_BAD_ARGUMENT, "options '--views' and '--%s' cannot be used together", sides[i]);
-    const char *wants = o->resume ? "resume" : o->skip_same ? "skip-same" : NULL;
-    if (wants && o->journal && strcmp(o->journal, "none") == 0)
+    const char *wants = o->batch.resume ? "resume" : o->batch.skip_same ? "skip-same" : NULL;
+    if (wants && o->batch.journal && strcmp(o->batch.journal, "none") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' goes by a journal, and '--journal none' has none",
                         wants);
-    if (o->resume && o->skip_same)
+    if (o->batch.resume && o->batch.skip_same)
         return complain(error, LAM_BAD_ARGUMENT,
                         "options '--resume' and '--skip-same' cannot be used together; --skip-same goes on after a "
                         "killed run too");
-    if (o->shard_by == SHARD_BY_LIST && !o->shard)
+    if (o->batch.shard_by == SHARD_BY_LIST && !o->batch.shard)
         return complain(error, LAM_BAD_ARGUMENT, "option '--shard-by' goes with --shard K/N");
-    if (o->size_count && option_given(o, "size"))
+    if (o->batch.size_count && option_given(o, "size"))
         return complain(error, LAM_BAD_ARGUMENT, "options '--sizes' and '--size' cannot be used together");
-    if (o->save_scene && (o->view_count > 1 || o->size_count > 1))
+    if (o->picture.save_scene && (o->batch.view_count > 1 || o->batch.size_count > 1))
         return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' goes only with a single picture");
     return true;
 }
@@ -62,16 +62,16 @@ static bool check_together(const struct options *o, lam_error *error)
 bool batch_plan_start(struct batch_plan *plan, const struct options *o, lam_error *error)
 {
     *plan = (struct batch_plan){.options = o};
-    if (!check_together(o, error) || (o->shard && !batch_shard_of(o->shard, &plan->shard, error)))
+    if (!check_together(o, error) || (o->batch.shard && !batch_shard_of(o->batch.shard, &plan->shard, error)))
         return false;
-    plan->by_list = o->shard_by == SHARD_BY_LIST;
-    int views = o->view_count ? o->view_count : 1, sizes = o->size_count ? o->size_count : 1;
+    plan->by_list = o->batch.shard_by == SHARD_BY_LIST;
+    int views = o->batch.view_count ? o->batch.view_count : 1, sizes = o->batch.size_count ? o->batch.size_count : 1;
     for (int v = 0; v < views; v++)
         for (int s = 0; s < sizes; s++)
             plan->views[plan->view_count++] = (struct job_view){
-                .side = o->view_count ? o->views[v] : -1,
-                .width = o->size_count ? o->sizes[s][0] : o->width,
-                .height = o->size_count ? o->sizes[s][1] : o->height,
+                .side = o->batch.view_count ? o->batch.views[v] : -1,
+                .width = o->batch.size_count ? o->batch.sizes[s][0] : o->picture.width,
+                .height = o->batch.size_count ? o->batch.sizes[s][1] : o->picture.height,
             };
     return make_pattern(plan, error);
 }
@@ -110,16 +110,16 @@ char *batch_plan_output(const struct batch_plan *plan, size_t index, int view)
     const struct job_view *v = &plan->views[view];
     struct output_words words = {.model = model->path,
                                  .root = model->root,
-                                 .view = lam_side_name((lam_side)(v->side >= 0 ? v->side : plan->options->view)),
+                                 .view = lam_side_name((lam_side)(v->side >= 0 ? v->side : plan->options->view.side)),
                                  .width = v->width,
                                  .height = v->height,
                                  .frame = OUTPUT_FRAME_OPEN};
-    return output_path_of(plan->pattern ? plan->pattern : plan->options->output, &words);
+    return output_path_of(plan->pattern ? plan->pattern : plan->options->picture.output, &words);
 }
 
 char *batch_plan_folder(const struct batch_plan *plan)
 {
-    const char *name = plan->pattern ? plan->pattern : plan->options->output;
+    const char *name = plan->pattern ? plan->pattern : plan->options->picture.output;
     if (!name)
         return strdup("");
     if (!output_name_is_pattern(name) && !output_is_named(name)) {

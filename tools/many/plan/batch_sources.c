@@ -29,7 +29,7 @@ static bool is_below(const char *real, const char *folder)
 // nowhere does not.
 static bool leads_out(const struct batch_plan *plan, const char *path, const char *root)
 {
-    const struct texts *allowed = &plan->options->allow_paths;
+    const struct texts *allowed = &plan->options->limits.allow_paths;
     char *real = realpath(path, NULL);
     bool out = real && !is_below(real, root);
     for (int i = 0; i < allowed->count && out; i++)

@@ -69,7 +69,7 @@ static void name_model(const struct job *job, lam_error *error)
     } else if (error->code == LAM_CANCELLED) {
         complain(error, LAM_CANCELLED, "%s: %s", name, interrupted() ? "interrupted" : "cancelled");
     } else if (error->code != LAM_CANNOT_WRITE && !names(error->text, name) &&
-               !((o->parametric || o->implicit) && strncmp(error->text, "option '", 8) == 0) &&
+               !((o->shape.parametric || o->shape.implicit) && strncmp(error->text, "option '", 8) == 0) &&
                !(job->output && strstr(error->text, job->output) == error->text)) {
         lam_error plain = *error;
         complain(error, plain.code, "%.200s: %.300s", name, plain.text);
@@ -137,7 +137,7 @@ static json_t *start_record(const struct batch_item *item, int view, const char 
     json_t *record = json_object();
     set_text(record, "model", item->model);
     set_text(record, "output", item->contents ? NULL : item->outputs[view]);
-    set_text(record, "view", lam_side_name((lam_side)(v->side >= 0 ? v->side : item->options->view)));
+    set_text(record, "view", lam_side_name((lam_side)(v->side >= 0 ? v->side : item->options->view.side)));
     set_text(record, "class", class);
     set(record, "exit", json_integer(exit));
     set_text(record, "error", error);
@@ -266,7 +266,7 @@ static void finish_picture(struct reading *r, struct job *job, int view, bool ok
     job->times.total = clock_ms() - job->times.start;
     if (!ok)
         name_model(job, error);
-    bool talks = !o->quiet && may_talk && r->artist->is_talkative;
+    bool talks = !o->report.quiet && may_talk && r->artist->is_talkative;
     if (view == 0 || !job->views)
         r->result->warnings += print_warnings(job, talks);
     if (sees_nothing(job)) {
@@ -276,11 +276,11 @@ static void finish_picture(struct reading *r, struct job *job, int view, bool ok
     }
     if (!ok && may_talk)
         say_error(error->text);
-    if (ok && o->dry_run && !stream && !o->quiet)
+    if (ok && o->report.dry_run && !stream && !o->report.quiet)
         report_plan(r->artist->out, job);
-    else if (ok && o->verbose && may_talk && !o->dry_run)
+    else if (ok && o->report.verbose && may_talk && !o->report.dry_run)
         report_table(job);
-    else if (ok && talks && !stream && !o->dry_run)
+    else if (ok && talks && !stream && !o->report.dry_run)
         report_line(job);
     if (stream)
         report_json(stream == stdout ? r->artist->out : stream, job, error);
@@ -333,7 +333,7 @@ static void draw(struct reading *r)
 {
     const struct batch_item *item = r->item;
     struct options own = *item->options; // sizes of the command line are given like --size
-    own.has_size |= own.size_count > 0;
+    own.picture.has_size |= own.batch.size_count > 0;
     struct job job = {.options = item->several ? &own : item->options,
                       .model = item->model,
                       .model_bytes = item->model_bytes,
@@ -346,7 +346,7 @@ static void draw(struct reading *r)
     clock_gettime(CLOCK_REALTIME_COARSE, &r->start);
     struct progress progress;
     progress_start(&progress, item->model,
-                   console_is_terminal() && r->artist->has_bar && !own.quiet && report_stream(&own) != stderr);
+                   console_is_terminal() && r->artist->has_bar && !own.report.quiet && report_stream(&own) != stderr);
     if (item->several) {
         job.views = item->views;
         job.view_count = item->view_count;
@@ -378,7 +378,7 @@ void batch_draw(const struct batch_item *item, const struct batch_artist *artist
         return;
     }
     // Markers of lights are objects of the scene, and belong to one camera: each picture reads the model itself.
-    int together = item->options->show_lights ? 1 : item->view_count;
+    int together = item->options->shading.show_lights ? 1 : item->view_count;
     for (int i = 0; i < item->view_count; i += together) {
         struct batch_item part = *item;
         struct batch_result own = *result;

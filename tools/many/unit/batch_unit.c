@@ -150,7 +150,7 @@ static enum picture_outcome look(const struct batch_unit *u, const struct batch 
         return whole ? PICTURE_BEFORE : PICTURE_OPEN;
     }
     *attempts = (uint16_t)json_integer_value(json_object_get(record, "attempt"));
-    return *attempts > b->options->retry_failed ? PICTURE_FAILED_BEFORE : PICTURE_OPEN;
+    return *attempts > b->options->batch.retry_failed ? PICTURE_FAILED_BEFORE : PICTURE_OPEN;
 }
 
 bool batch_unit_look(struct batch_unit *u, const struct batch *b)
@@ -201,7 +201,7 @@ static struct batch_item item_of(const struct batch_unit *u, const struct batch 
                                .makes_folders = task->job != NULL,
                                .attempts = attempts,
                                .view_count = count,
-                               .several = o->view_count || o->size_count};
+                               .several = o->batch.view_count || o->batch.size_count};
 }
 
 enum { VIEWS = VIEWS_MAX * VIEWS_MAX };
@@ -218,7 +218,7 @@ void batch_unit_draw(struct batch_unit *u, const struct batch *b, const struct o
                                   .environments = b->environments,
                                   .out = stdout,
                                   .has_bar = !capture,
-                                  .is_talkative = !b->is_batch || o->verbose};
+                                  .is_talkative = !b->is_batch || o->report.verbose};
     size_t out_size, err_size;
     FILE *out = capture ? open_memstream(&u->out, &out_size) : NULL,
          *err = capture ? open_memstream(&u->err, &err_size) : NULL;

@@ -2,6 +2,7 @@
 # not end or write NaN are reported.
 # Above 600 lines: one test for each option and each kind of submission, with the programs that they share.
 import base64
+import collections
 import concurrent.futures
 import json
 import os
@@ -20,6 +21,7 @@ from harness import ROOT, Case, PROGRAM, check_value, long, read_png, write_png
 
 sys.path.insert(0, str(ROOT / "tests" / "check"))
 from correct import SHADERS as CORRECT  # noqa: E402
+from demands import demanding  # noqa: E402
 from lectures import LECTURES  # noqa: E402
 from mistakes import MISTAKES  # noqa: E402
 
@@ -325,18 +327,20 @@ class Mistakes(CheckTest):
             return
         folder = pathlib.Path(tempfile.mkdtemp(prefix="lambent-cli-"))
         cls.addClassCleanup(shutil.rmtree, folder, True)
-        files = ([], [])  # pictures are cached by contract, so a contract's shaders stay together
-        for number, (name, _, edits) in list(enumerate(MISTAKES))[::EVERY]:
+        calls = collections.defaultdict(list)  # pictures are cached by contract, so a contract's shaders stay together
+        for number, (name, ids, edits) in list(enumerate(MISTAKES))[::EVERY]:
+            options = demanding(PROGRAM, name, ids.split(), folder)
             for ending, text in edited(name, edits).items():
                 (folder / f"{number:03}.{ending}").write_text(text)
-                files[name != "pittsburgh"].append(f"{number:03}.{ending}")
+                calls[name == "pittsburgh", options].append(f"{number:03}.{ending}")
 
-        def check(some):
-            return subprocess.run([PROGRAM, "check", *some, "-s", "64", "--json"], cwd=folder, stdout=subprocess.PIPE,
+        def check(call):
+            (_, options), files = call
+            return subprocess.run([PROGRAM, "check", *files, *options, "-s", "64", "--json"], cwd=folder, stdout=subprocess.PIPE,
                                   stderr=subprocess.PIPE)
 
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
-            done = list(pool.map(check, files))
+            done = list(pool.map(check, calls.items()))
         cls.said = b"".join(d.stderr for d in done).decode()
         cls.reports = {r["fragment"]: r for d in done for r in map(json.loads, d.stdout.splitlines())}
 
@@ -763,10 +767,12 @@ class Contracts(CheckTest):
         report = self.report_of(*self.shader("learnopengl", edits))
         self.assertEqual(report["verdict"], "passes")
         self.assertIn("taken from the shader's text", " ".join(self.notes(report, "hint")))
-        report = self.report_of(*self.shader("learnopengl", edits + [("frag", "diffuse > 0.0 ?", "true ?")]), code=6)
+        words = self.shader("learnopengl", edits + [("frag", "diffuse > 0.0 ?", "true ?")])
+        self.assertIn("\"gate\": \"required\"", " ".join(self.notes(self.report_of(*words), "hint")))
+        report = self.report_of(*words, *demanding(PROGRAM, "learnopengl", ["no-gate"], self.folder), code=6)
         self.assertEqual([m["id"] for m in report["mistakes"]], ["no-gate"])
         # Numbers that come nearer than those of the exercise explain nothing.
-        for old, new, expected in [("reflect(-l, n)", "reflect(l, n)", ["reflect-sign"]), ("max(dot(n, l), 0.0)", "dot(n, l) * 0.5 + 0.5", ["half-lambert", "no-gate"]),
+        for old, new, expected in [("reflect(-l, n)", "reflect(l, n)", ["reflect-sign"]), ("max(dot(n, l), 0.0)", "dot(n, l) * 0.5 + 0.5", ["half-lambert"]),
                                    ("vec3 v = normalize(viewPos - FragPos)", "vec3 v = viewPos - FragPos", ["half-of-raw-eye"]),
                                    ("max(dot(n, l), 0.0)", "pow(max(dot(n, l), 0.0), 2.0)", ["n.l-squared"])][::EVERY]:
             for names in (edits, [("frag", "    float ambientStrength = 0.1;\n    float specularStrength = 0.5;", "    float ambientStrength = 0.1, specularStrength = 0.5;")]):

@@ -92,6 +92,13 @@ struct map_convention {
     bool v_down;
 };
 
+// Forms that a contract may demand; without that their counterparts are accepted (fault.h).
+enum contract_demand {
+    DEMAND_GATE = 1,         // no highlight where n.l <= 0
+    DEMAND_UNIT_NORMALS = 2, // normalized in the vertex shader too
+    DEMAND_BARE_AMBIENT = 4, // the ambient term is not attenuated
+};
+
 enum contract_term { TERM_AMBIENT = 1, TERM_DIFFUSE = 2, TERM_SPECULAR = 4 };
 enum { MAX_LIGHT_GROUPS = 8 };
 
@@ -108,6 +115,7 @@ struct contract {
     int group_count;
     unsigned supports;     // bits of reference_need
     unsigned terms;        // bits of contract_term
+    unsigned demands;      // bits of contract_demand
     lam_light_frame space; // in which the course lights: CAMERA (eye space) or WORLD
     // The space of the first light: OBJECT (the model-view matrix transforms it like the vertices), WORLD or CAMERA.
     lam_light_frame light_frame;

@@ -28,6 +28,22 @@ static bool read_terms(struct contract_reader *r, const json_t *root)
     return true;
 }
 
+static bool read_demands(struct contract_reader *r, const json_t *root)
+{
+    static const struct json_choice words[] = {{"optional", 0}, {"required", 1}, {NULL, 0}};
+    static const struct {
+        const char *key;
+        enum contract_demand demand;
+    } rows[] = {{"gate", DEMAND_GATE}, {"unit_normals", DEMAND_UNIT_NORMALS}, {"bare_ambient", DEMAND_BARE_AMBIENT}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        int required = 0;
+        if (!json_take_word(&r->json, NULL, root, rows[i].key, words, &required))
+            return false;
+        r->contract->demands |= required ? (unsigned)rows[i].demand : 0;
+    }
+    return true;
+}
+
 static bool has(const struct contract *c, enum uniform_semantic semantic)
 {
     for (const struct contract_name *n = c->names; n->name; n++)
@@ -84,10 +100,10 @@ static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
 
 static bool read_root(struct contract_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"contract",  "name",     "title",     "glsl",      "space",      "terms",
-                                       "highlight", "alpha",    "two_sided", "printed",   "attributes", "uniforms",
-                                       "built_ins", "varyings", "outputs",   "constants", "undeclared", "prefix",
-                                       "physical",  "maps",     NULL};
+    static const char *const keys[] = {"contract",  "name",     "title",     "glsl",         "space",        "terms",
+                                       "highlight", "alpha",    "two_sided", "printed",      "attributes",   "uniforms",
+                                       "built_ins", "varyings", "outputs",   "constants",    "undeclared",   "prefix",
+                                       "physical",  "maps",     "gate",      "unit_normals", "bare_ambient", NULL};
     static const struct json_choice highlights[] = {{"phong", LAM_REFLECTION_PHONG},
                                                     {"blinn-phong", LAM_REFLECTION_BLINN_PHONG},
                                                     {"metallic-roughness", LAM_REFLECTION_GGX},
@@ -126,9 +142,10 @@ static bool read_root(struct contract_reader *r, const json_t *root)
     const json_t *outputs = json_object_get(root, "outputs");
     if (outputs && !contract_read_list(r, KEY_OF(NULL, "outputs"), outputs, " ", true, true, &c->outputs))
         return false;
-    return read_terms(r, root) && contract_read_names(r, root) && contract_read_varyings(r, root) &&
-           contract_read_defaults(r, root) && contract_read_constants(r, root) && contract_read_prefix(r, root) &&
-           contract_read_physical(r, root) && contract_read_maps(r, root) && complete(r, alpha, two_sided);
+    return read_terms(r, root) && read_demands(r, root) && contract_read_names(r, root) &&
+           contract_read_varyings(r, root) && contract_read_defaults(r, root) && contract_read_constants(r, root) &&
+           contract_read_prefix(r, root) && contract_read_physical(r, root) && contract_read_maps(r, root) &&
+           complete(r, alpha, two_sided);
 }
 
 lam_check_contract *lam_check_contract_read(const char *text, size_t size, const char *file, lam_error *error)

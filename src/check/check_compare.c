@@ -183,8 +183,7 @@ static bool accept_styles(struct run *r, struct fault_search *s, bool writes, la
                 return false;
     for (int i = 0; i < s->style_count; i++)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s%s%s", s->styles[i]->explanation,
-                        s->styles[i]->demand ? "; the contract accepts this form: "
-                                             : "",
+                        s->styles[i]->demand ? "; the contract accepts this form: " : "",
                         s->styles[i]->demand == DEMAND_GATE           ? "it has no \"gate\": \"required\""
                         : s->styles[i]->demand == DEMAND_UNIT_NORMALS ? "it has no \"unit_normals\": \"required\""
                         : s->styles[i]->demand == DEMAND_BARE_AMBIENT ? "it has no \"bare_ambient\": \"required\""

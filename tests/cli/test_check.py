@@ -635,11 +635,8 @@ class Unruly(CheckTest):
         self.assertEqual(self.report_of(*self.shader("pittsburgh", [unused]), "--scenes", "all")["notes"], [])
         words = self.shader("pittsburgh", [("vert", "uniform mat3 normal_matrix;", "uniform mat3 turn;"),
                                            ("vert", "normal_matrix * vNormal", "turn * vNormal")])
-        self.bad(1, "check", *words, says=("no known contract", "pittsburgh, which has no 'turn' (mat3"), leaves=("s.frag", "s.vert"))
-        report = self.report_of(*words, "--contract", "pittsburgh", code=6)
-        self.assertEqual(report["mistakes"], [])
-        self.assertIn("'turn' is not in the contract", " ".join(self.notes(report, "unknown")))
-        self.assertIn("correct the names first", " ".join(self.notes(report, "hint")))
+        self.assertEqual(self.report_of(*words)["contract"], "inferred")  # its use tells what it is
+        self.bad(1, "check", *words, "--contract", "pittsburgh", says=("an input has no value", "'turn' (mat3"), leaves=("s.frag", "s.vert"))
 
     def test_driver_sleeps(self):
         """A driver that waits for ever uses no processor time: the limit on elapsed time stops it."""
@@ -670,7 +667,7 @@ class Unruly(CheckTest):
         self.bad(1, "check", "s.frag", "--scenes", "spot", says="spot", leaves=("s.frag", "s.vert"))
         self.bad(1, "check", "s.frag", "-s", "64x32", says="square", leaves=("s.frag", "s.vert"))
         (self.folder / "s.frag").write_text("void main() { gl_FragColor = vec4(1.0); }\n")
-        self.bad(1, "check", "s.frag", says=("--contract", "none"), leaves=("s.frag", "s.vert"))
+        self.bad(1, "check", "s.frag", says=("no verdict", "--contract"), leaves=("s.frag", "s.vert"))
 
 
 class Contracts(CheckTest):
@@ -729,15 +726,26 @@ class Contracts(CheckTest):
         return ["s.frag", "--vertex", "s.vert"]
 
     def test_unknown(self):
-        """Names of no contract get no verdict, but the nearest contract and what it does not have."""
+        """Names of no contract: the roles of the inputs are found by their use. Without evidence there is no verdict, but a sentence."""
         vert, frag = ((SHADERS / f"learnopengl.{ending}").read_text() for ending in ("vert", "frag"))
         for old, new in (("aPos", "inVertex"), ("aNormal", "inNormal"), ("uniform mat4 model;", "uniform mat4 M;"), ("(model", "(M")):
             vert = vert.replace(old, new)
-        words = self.write(vert, frag.replace("lightPos", "sunPos"))
-        self.bad(1, "check", *words, leaves=("s.frag", "s.vert"),
-                 says=("no known contract", "the nearest is learnopengl", "'M' (mat4", "'sunPos' (vec3", "'inVertex' (vec3", "--contract FILE"))
-        done = self.run_program("check", *words, "-s", 32, "--json", "--contract", "learnopengl", "--scenes", "all")
-        self.assertEqual(json.loads(done.stdout)["verdict"], "differs")
+        frag = frag.replace("lightPos", "sunPos").replace("viewPos", "camera")
+        report = self.report_of(*self.write(vert, frag))
+        self.assertEqual((report["verdict"], report["contract"]), ("passes", "inferred"))
+        wrong = vert.replace("normalize(mat3(transpose(inverse(M))) * inNormal)", "inNormal")
+        self.assertNotEqual(wrong, vert)
+        report = self.report_of(*self.write(wrong, frag), code=6)
+        self.assertEqual([(m["id"], m["certain"]) for m in report["mistakes"]], [("normal-object-space", 1)])
+        shadowed = frag.replace("uniform vec3 camera", "uniform sampler2D shadowMap; uniform vec3 camera").replace("= vec4(", "= texture(shadowMap, vec2(0)) + vec4(")
+        black = "void main() { gl_FragColor = vec4(0, 0, 0, 1); }"
+        for texts, options, says in (((vert, frag), ("--contract", "learnopengl"), ("an input has no value", "'M' (mat4", "'sunPos' (vec3")),
+                                     ((vert, shadowed), (), ("'shadowMap' (sampler2D)", "--contract FILE")),
+                                     (("void main() { gl_Position = gl_Vertex; }", black), (), ("no verdict",))):
+            self.bad(1, "check", *self.write(*texts), *options, leaves=("s.frag", "s.vert"), says=says)
+        for contract in ("oregon", "learnopengl", "pittsburgh"):  # black passes nowhere
+            done = self.run_program("check", *self.write(vert, black), "--contract", contract)
+            self.assertNotEqual(done.returncode, 0, contract)
         # A slip of the pen is a mistake of the shader.
         text = (SHADERS / "learnopengl.frag").read_text().replace("viewPos", "viewPosn")
         report = self.report_of(*self.write((SHADERS / "learnopengl.vert").read_text(), text), code=6)

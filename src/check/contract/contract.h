@@ -51,9 +51,10 @@ struct contract_defaults {
     struct default_color ambient_color, diffuse_color, specular_color;
     struct default_color light_color, light_specular, light_ambient;
     struct default_number ambient_strength, diffuse_strength, specular_strength, shininess, spot_exponent;
-    bool has_attenuation, has_direction;
+    bool has_attenuation, has_direction, has_position;
     float attenuation[3];
-    lam_vec3 direction; // to the light, in the contract's space
+    lam_vec3 direction; // to the light; has_position: the light's place
+    int light_space;    // of both; the contract's unless it is said
 };
 
 // A variable that a shader gives a number: `float ambientStrength = 0.1;`. The name "pow" stands for a number that is
@@ -130,6 +131,7 @@ struct contract {
     const char *outputs;     // names of the fragment shader's output, separated by blanks; NULL: not said
     bool has_attenuation;    // names or constants
     bool material_strengths; // colours and their strengths are apart
+    bool any_strengths;      // strengths and colours are the shader's own: those that fit its pictures count
     bool printed;            // shaders of `lambent shader`, whose loops name the kinds of lights
 };
 

@@ -18,7 +18,7 @@
 #include "number.h"
 #include "render_cache.h"
 
-enum { MAX_EXPONENTS = 6, MAX_FORMS = 3, MAX_READINGS = 400, FIRST_SCENES = 1, MAX_BASES = 6 };
+enum { MAX_EXPONENTS = 6, MAX_FORMS = 3, MAX_READINGS = 400, FIRST_SCENES = 1, MAX_BASES = 12 };
 
 static const double min_diffuse = 0.02;  // the least factor of a diffuse term that is evidence of lighting
 static const double min_mean = 0.02;     // the least difference that is one without an explanation
@@ -410,6 +410,27 @@ static int by_mean(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+// The readings with which faults are tried: those that differ from the nearest one in the highlight and its forms alone. Where
+// the text has reflect(), the highlight is Phong's.
+static int choose_bases(const struct run *r, struct reading *readings, int count, const struct reading *best)
+{
+    static const enum fault_bit same[] = {BIT_VIEWER_INFINITE, BIT_INVERSE_SQUARE, BIT_INVERSE_DISTANCE,
+                                          BIT_DIRECTION_REVERSED, BIT_AMBIENT_ATTENUATED};
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        bool fits = readings[i].decoded == best->decoded &&
+                    (readings[i].reflection == LAM_REFLECTION_PHONG || !uses(r, "reflect"));
+        for (size_t k = 0; k < sizeof same / sizeof *same; k++) {
+            bool has = fault_set_has(&readings[i].set, same[k]);
+            fits = fits && (!has || fault_set_has(&best->set, same[k]));
+        }
+        if (fits)
+            readings[kept++] = readings[i];
+    }
+    qsort(readings, (size_t)kept, sizeof *readings, by_mean);
+    return kept < MAX_BASES ? kept : MAX_BASES;
+}
+
 static bool open_fit(struct fit *f, struct run *r, lam_error *error)
 {
     *f = (struct fit){.r = r, .stride = r->size >= 96 ? (r->size + 20) / 43 : r->size >= 70 ? 2 : 1};
@@ -514,8 +535,7 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
         if (readings[i].fits || readings[i].mean < best.mean)
             best = readings[i];
     }
-    qsort(readings, (size_t)count, sizeof *readings, by_mean);
-    count = count < MAX_BASES ? count : MAX_BASES; // a fault leaves the nearest readings near
+    count = choose_bases(r, readings, count, &best);
     const struct fault *row = NULL;
     struct reading correct = best;
     double before = best.mean;

@@ -308,6 +308,7 @@ static bool infer_and_run(struct run *r, const struct contract *nearest, lam_err
     struct complete_texts texts = {0};
     struct declarations sides[2] = {{0}};
     int explained = -1, differs = -1;
+    lam_error unread = {0};
     bool ok = p->vertex != NULL, done = false;
     if (!ok)
         return fail_unknown(
@@ -328,12 +329,16 @@ static bool infer_and_run(struct run *r, const struct contract *nearest, lam_err
                 snprintf(reason, sizeof reason, "%s", why);
             break;
         }
-        lam_check_contract *contract = lam_check_contract_read(text, strlen(text), "inferred contract", error);
+        lam_check_contract *contract = lam_check_contract_read(text, strlen(text), "inferred contract", &unread);
         free(text);
         lam_check_contract_free(r->inferred);
         r->inferred = contract;
         enum fit_outcome outcome = FIT_UNKNOWN;
-        ok = contract && try_inferred(r, &contract->contract, &outcome, reason, sizeof reason, error);
+        if (!contract) {
+            snprintf(reason, sizeof reason, "%.300s", unread.text);
+            break;
+        }
+        ok = try_inferred(r, &contract->contract, &outcome, reason, sizeof reason, error);
         done = ok && (outcome == FIT_RIGHT || again || r->report->verdict > LAM_CHECK_DIFFERS);
         if (outcome == FIT_EXPLAINED && explained < 0)
             explained = guess;

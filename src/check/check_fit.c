@@ -18,7 +18,15 @@
 #include "number.h"
 #include "render_cache.h"
 
-enum { MAX_EXPONENTS = 6, MAX_FORMS = 3, MAX_READINGS = 400, FIRST_SCENES = 1, MAX_BASES = 12 };
+enum {
+    MAX_EXPONENTS = 6,
+    MAX_FORMS = 3,
+    MAX_READINGS = 400,
+    FIRST_SCENES = 1,
+    MAX_BASES = 12,
+    MAX_FAULTS = 2,
+    MAX_NEAREST = 3
+};
 
 static const double min_diffuse = 0.02;  // the least factor of a diffuse term that is evidence of lighting
 static const double min_mean = 0.02;     // the least difference that is one without an explanation
@@ -30,6 +38,8 @@ struct reading {
     fault_set set;
     const struct fault *forms[MAX_FORMS];
     int form_count;
+    const struct fault *faults[MAX_FAULTS];
+    int fault_count;
     double factors[3][3]; // of red, green and blue; of the ambient, diffuse and specular term
     double mean;          // difference
     bool fits;
@@ -322,30 +332,45 @@ static bool has_bit(const struct fault *row, enum fault_bit bit)
     return false;
 }
 
-// The first fault that, with one of the readings, explains every scene. `best`: the reading; `row` NULL: none.
-static bool find_fault(struct fit *f, const struct reading *readings, int count, struct reading *best,
-                       const struct fault **row, lam_error *error)
+// Adds each fault to each of the readings until one explains every scene. `nearest`: the MAX_NEAREST that come nearest.
+static bool add_faults(struct fit *f, const struct reading *readings, int count, struct reading nearest[MAX_NEAREST],
+                       struct reading *best, lam_error *error)
 {
-    unsigned needs = ~0u;
-    *row = NULL;
-    for (int m = 0; m < fault_count && !*row; m++)
-        for (int i = 0; i < count && !*row; i++) {
+    for (int i = 0; i < MAX_NEAREST; i++)
+        nearest[i] = (struct reading){.mean = 1e9};
+    for (int m = 0; m < fault_count && !best->fits; m++)
+        for (int i = 0; i < count && !best->fits; i++) {
             struct reading g = readings[i];
             bool early = fault_set_has(&g.set, BIT_LONG_NORMAL_VERTEX) && has_bit(&faults[m], BIT_LONG_NORMAL);
-            if (early || !is_single(&faults[m]) ||
-                !fault_applies(&faults[m], &f->r->interface, f->r->interface.light_frame, g.reflection, needs))
+            if (early || !is_single(&faults[m]) || g.mean >= 1e9 ||
+                !fault_applies(&faults[m], &f->r->interface, f->r->interface.light_frame, g.reflection, ~0u))
                 continue;
             g.set = fault_set_add(&g.set, &faults[m]);
             if (fault_set_equal(&g.set, &readings[i].set))
                 continue;
+            g.faults[g.fault_count++] = &faults[m];
             if (!try_reading(f, &g, error))
                 return false;
-            if (g.fits) {
+            if (g.fits)
                 *best = g;
-                *row = &faults[m];
+            int at = MAX_NEAREST;
+            while (at > 0 && g.mean < nearest[at - 1].mean)
+                at--;
+            if (at < MAX_NEAREST) {
+                memmove(&nearest[at + 1], &nearest[at], (size_t)(MAX_NEAREST - 1 - at) * sizeof *nearest);
+                nearest[at] = g;
             }
         }
     return true;
+}
+
+// The first fault, or else two, that explain every scene with one of the readings: `best` fits.
+static bool find_faults(struct fit *f, const struct reading *readings, int count, struct reading *best,
+                        lam_error *error)
+{
+    struct reading nearest[MAX_NEAREST], unused[MAX_NEAREST];
+    return add_faults(f, readings, count, nearest, best, error) &&
+           (best->fits || add_faults(f, nearest, MAX_NEAREST, unused, best, error));
 }
 
 // --- the report
@@ -373,23 +398,25 @@ static bool draw_references(struct run *r, const struct reading *g, lam_error *e
     return ok;
 }
 
-static void report_fault(struct run *r, const struct reading *g, const struct fault *row, double before)
+static void report_faults(struct run *r, const struct reading *g, double before)
 {
-    char explanation[400], correction[400];
-    fault_text(row->explanation, &r->interface, r->interface.light_frame, g->reflection, explanation,
-               sizeof explanation);
-    fault_text(row->correction, &r->interface, r->interface.light_frame, g->reflection, correction, sizeof correction);
-    r->report->findings = arena_alloc_zeroed(r->arena, sizeof *r->report->findings);
-    if (!r->report->findings)
-        return;
-    r->report->finding_count = 1;
-    r->report->findings[0] = (lam_check_finding){.mistake = row->id,
-                                                 .explanation = arena_string(r->arena, explanation),
-                                                 .correction = arena_string(r->arena, correction),
-                                                 .certain = true,
-                                                 .mean_before = before,
-                                                 .mean_after = g->mean,
-                                                 .share = 1};
+    r->report->findings = arena_alloc_zeroed(r->arena, MAX_FAULTS * sizeof *r->report->findings);
+    for (int i = 0; r->report->findings && i < g->fault_count; i++) {
+        const struct fault *row = g->faults[i];
+        char explanation[400], correction[400];
+        fault_text(row->explanation, &r->interface, r->interface.light_frame, g->reflection, explanation,
+                   sizeof explanation);
+        fault_text(row->correction, &r->interface, r->interface.light_frame, g->reflection, correction,
+                   sizeof correction);
+        r->report->findings[r->report->finding_count++] =
+            (lam_check_finding){.mistake = row->id,
+                                .explanation = arena_string(r->arena, explanation),
+                                .correction = arena_string(r->arena, correction),
+                                .certain = true,
+                                .mean_before = before,
+                                .mean_after = g->mean,
+                                .share = 1};
+    }
 }
 
 static void hint_forms(struct run *r, const struct reading *g)
@@ -536,11 +563,10 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
             best = readings[i];
     }
     count = choose_bases(r, readings, count, &best);
-    const struct fault *row = NULL;
     struct reading correct = best;
     double before = best.mean;
     if (ok && count && !best.fits)
-        ok = find_fault(&f, readings, count, &best, &row, error);
+        ok = find_faults(&f, readings, count, &best, error);
     render_cache_keep_shader(r->params->cache, f.shader);
     if (!ok)
         return false;
@@ -550,20 +576,21 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
                  "its pictures are no sum of an ambient, a diffuse and a specular term that the check knows");
         return true;
     }
-    if (row) {
+    bool explained = best.fault_count > 0;
+    if (explained) {
         memcpy(correct.factors, best.factors, sizeof correct.factors);
         correct.reflection = best.reflection;
     }
     if (!draw_references(r, &correct, error))
         return false;
     check_measure(r, writes);
-    *outcome = row ? FIT_EXPLAINED : plain ? FIT_DIFFERS : FIT_RIGHT;
-    if ((row || plain) == (r->report->verdict == LAM_CHECK_PASSES))
+    *outcome = explained ? FIT_EXPLAINED : plain ? FIT_DIFFERS : FIT_RIGHT;
+    if ((explained || plain) == (r->report->verdict == LAM_CHECK_PASSES))
         *outcome = FIT_UNKNOWN; // the full pictures say something else
     if (*outcome == FIT_UNKNOWN)
         snprintf(reason, capacity, "its pictures are near to those of a right shader, and not the same");
-    else if (row)
-        report_fault(r, &best, row, before);
+    else if (explained)
+        report_faults(r, &best, before);
     if (*outcome == FIT_RIGHT)
         hint_forms(r, &best);
     return true;

@@ -66,7 +66,7 @@ LABELS = [
     ("slackmoehrle/Computer-Graphics-Through-OpenGL-2nd", "Chapter20/BumpMappingPerPixelLight/fragmentShader.glsl", "Chapter20/BumpMappingPerPixelLight/vertexShader.glsl", "right", [], "a directional light and a distant viewer"),
     (LIU, "lab_practice/demoes/SimpleGUI 0.5/Demo Phong bunny and friends + GUI/phong.frag", "lab_practice/demoes/SimpleGUI 0.5/Demo Phong bunny and friends + GUI/phong.vert", "right", [], "a direction in eye space as numbers"),
     (LIU, "lab_practice/demoes/SimpleGUI 0.5/Demo put-lid-on-teapot/mphong.frag", "lab_practice/demoes/SimpleGUI 0.5/Demo put-lid-on-teapot/phong.vert", "right", [], "the same, and an ambient term"),
-    (LIU, "lab_practice/lab1/lab1-6.frag", "lab_practice/lab1/lab1-6.vert", "wrong", ["no-clamp"], "n.l is not clamped and the direction is not a unit vector"),
+    (LIU, "lab_practice/lab1/lab1-6.frag", "lab_practice/lab1/lab1-6.vert", "wrong", ["no-clamp", "normal-not-unit"], "n.l is not clamped, neither the direction nor the normal is a unit vector"),
     ("williamblair/learnopengl", "08_02_phong/fragmentShader.glsl", "08_02_phong/vertexShader.glsl", "right", [], "LearnOpenGL's under other names"),
     ("williamblair/learnopengl", "30_bloom/lightFragmentShader.glsl", "30_bloom/lightVertexShader.glsl", "unknown", [], "no lighting at all: the lamp's own cube"),
 ]

@@ -751,6 +751,30 @@ class Contracts(CheckTest):
         report = self.report_of(*self.write((SHADERS / "learnopengl.vert").read_text(), text), code=6)
         self.assertIn("'viewPosn' is not in the contract learnopengl; did you mean 'viewPos'", " ".join(self.notes(report, "unknown")))
 
+    def test_inferred(self):
+        """Shaders of no contract: fixed state, numbers for the light, accepted forms, two mistakes, and what is not understood."""
+        fixed = ("varying vec3 N, L;\nvoid main() {\n    N = normalize(gl_NormalMatrix * gl_Normal);\n    L = gl_LightSource[0].position.xyz - vec3(gl_ModelViewMatrix * gl_Vertex);\n"
+                 "    gl_Position = ftransform();\n}\n",
+                 "varying vec3 N, L;\nvoid main() {\n    float d = max(dot(normalize(N), normalize(L)), 0.0);\n"
+                 "    gl_FragColor = gl_FrontMaterial.ambient * gl_LightModel.ambient + gl_FrontMaterial.diffuse * gl_LightSource[0].diffuse * d;\n}\n")
+        report = self.report_of(*self.write(*fixed))
+        self.assertEqual((report["verdict"], report["contract"]), ("passes", "inferred"))
+        eye = ("#version 330\nin vec3 inPosition, inNormal; uniform mat4 MV, P; out vec3 n, p;\n"
+               "void main() { n = inverse(transpose(mat3(MV))) * inNormal; vec4 e = MV * vec4(inPosition, 1.0); p = e.xyz; gl_Position = P * e; }\n",
+               "#version 330\nin vec3 n, p; uniform vec3 paint; out vec4 o; const vec3 lightDir = vec3(0.3, 0.4, 0.86);\n"
+               "void main() { vec3 N = normalize(n); float d = max(dot(N, lightDir), 0.0), s = pow(max(dot(reflect(-lightDir, N), normalize(-p)), 0.0), 20.0);\n"
+               "o = vec4(paint * (0.2 + 0.6 * d) + vec3(0.3 * s), 1.0); }\n")
+        report = self.report_of(*self.write(*eye))
+        self.assertEqual(report["verdict"], "passes")
+        self.assertIn("20", " ".join(self.notes(report, "hint")))
+        for old, new, expected in (("vec3 N = normalize(n)", "vec3 N = n", ["normal-never-unit"]), ("max(dot(N, lightDir), 0.0), s", "dot(N, lightDir), s", ["no-clamp"])):
+            report = self.report_of(*self.write(eye[0], eye[1].replace(old, new)), code=6)
+            self.assertEqual([m["id"] for m in report["mistakes"]], expected)
+        toon = eye[1].replace("0.6 * d", "(d > 0.5 ? 0.6 : 0.1)")
+        self.bad(1, "check", *self.write(eye[0], toon), says="no verdict", leaves=("s.frag", "s.vert"))
+        staged = eye[1].replace("in vec3 n, p;", "in vec3 n, p, fromGeometry;").replace("paint * (", "fromGeometry * (")
+        self.bad(1, "check", *self.write(eye[0], staged), says=("'fromGeometry'", "another stage"), leaves=("s.frag", "s.vert"))
+
     def test_varyings_of_no_contract(self):
         (self.folder / "s.frag").write_text((SHADERS / "mdn.frag").read_text())
         self.bad(1, "check", "s.frag", says=("vLighting", "--vertex"), leaves=("s.frag",))

@@ -11,11 +11,13 @@
 #include "number.h"
 
 enum { MAX_CHAIN = 8, MAX_DEPTH = 8, MAX_SPACES = 4 };
+// The time grows with their product; real shaders are far below.
+enum { MAX_WORDS = 30000, MAX_DECLARED = 500, MAX_STEPS = 100000 };
 
 struct inference {
     const struct declarations *vertex, *fragment;
     const char *chain[MAX_CHAIN]; // the matrices from the position to gl_Position, the last one first
-    int chain_count;
+    int chain_count, steps;
     const char *position; // the attribute that reaches gl_Position
     bool has_model, has_model_view, has_eye, has_light, has_normal_matrix;
     json_t *attributes, *uniforms, *undeclared;
@@ -95,7 +97,7 @@ static int assignment_of(const struct declarations *d, const char *name, int bef
 static void follow(struct inference *f, int at, int depth)
 {
     const struct declarations *d = f->vertex;
-    for (int i = at; i < d->word_count && !is(d, i, ";"); i++) {
+    for (int i = at; i < d->word_count && !is(d, i, ";") && f->steps++ < MAX_STEPS; i++) {
         const char *word = d->words[i].text;
         if (d->words[i].is_member || !(isalpha((unsigned char)word[0]) || word[0] == '_'))
             continue;
@@ -501,6 +503,9 @@ static bool infer(struct inference *f, int guess)
 {
     const char *spaces[MAX_SPACES][2];
     bool fixed = declarations_uses(f->vertex, "ftransform") || declarations_uses(f->vertex, "gl_Vertex");
+    if (f->vertex->word_count > MAX_WORDS || f->fragment->word_count > MAX_WORDS || f->vertex->count > MAX_DECLARED ||
+        f->fragment->count > MAX_DECLARED)
+        return cannot(f, "the %s are longer than the check reads%s", "texts", "");
     for (int i = 0; i + 1 < f->vertex->word_count; i++)
         if (is(f->vertex, i, "gl_Position") && is(f->vertex, i + 1, "="))
             follow(f, i + 2, MAX_DEPTH);

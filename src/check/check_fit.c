@@ -204,6 +204,29 @@ static bool read_exponent(const struct declarations *d, int at, double *out)
     return false;
 }
 
+// The factor of the exponent that the text writes in pow(x, shininess * factor); 0: none.
+static float find_factor(const struct declarations *d)
+{
+    for (int i = 0; i + 2 < d->word_count; i++) {
+        int depth = 0;
+        bool second = false;
+        for (int k = i + 1; strcmp(d->words[i].text, "pow") == 0 && k + 1 < d->word_count; k++) {
+            const char *text = d->words[k].text;
+            double x = 0;
+            depth += (strcmp(text, "(") == 0) - (strcmp(text, ")") == 0);
+            if (depth == 0)
+                break;
+            second = second || (depth == 1 && strcmp(text, ",") == 0);
+            if (second && read_literal(text, &x) && x > 0 && strcmp(d->words[k - 1].text, "/") == 0)
+                return (float)(1 / x);
+            if (second && read_literal(text, &x) && x > 0 &&
+                (strcmp(d->words[k - 1].text, "*") == 0 || strcmp(d->words[k + 1].text, "*") == 0))
+                return (float)x;
+        }
+    }
+    return 0;
+}
+
 // The numbers of the text that may be the exponent.
 static int find_exponents(const struct run *r, float out[MAX_EXPONENTS])
 {
@@ -272,6 +295,8 @@ static int list_readings(const struct run *r, struct reading out[MAX_READINGS])
                               .has_highlight = highlight,
                               .decoded = decoded};
         g->set.constant = highlight ? exponents[exponent] : 0;
+        if (highlight && exponents[exponent] == 0)
+            g->set.factor = find_factor(interface->vertex_lit ? &interface->vertex : &interface->fragment);
         if (bare)
             add_form(r, g, gate);
         if (long_normal)
@@ -523,6 +548,9 @@ static bool is_plain(const struct run *r)
             for (int k = 1; call && k < sides[s]->word_count && !own; k++)
                 own = strcmp(sides[s]->words[k].text, w->text) == 0 && sides[s]->words[k].depth == 0 &&
                       isalpha((unsigned char)sides[s]->words[k - 1].text[0]);
+            double divisor = 0; // a division by w is that of a projection; by a distance, it may be an attenuation
+            bool of_w = i + 3 < sides[s]->word_count && strcmp(w[2].text, ".") == 0 && strcmp(w[3].text, "w") == 0;
+            bool quotient = strcmp(w->text, "/") == 0 && !read_literal(next, &divisor) && !of_w;
             bool number = read_literal(w->text, &x);
             bool compared = false; // with anything but 0, outside of a loop's head
             if (w->text[0] == '<' || w->text[0] == '>') {
@@ -534,7 +562,8 @@ static bool is_plain(const struct run *r)
                 compared = !in_head && !((read_literal(after, &zero) || read_literal(before, &zero)) && zero == 0);
             }
             bool rim = number && x == 1 && strcmp(next, "-") == 0;
-            if ((call && !own && !strstr(known, padded)) || compared || rim || strcmp(w->text, "discard") == 0)
+            if ((call && !own && !strstr(known, padded)) || compared || rim || strcmp(w->text, "discard") == 0 ||
+                quotient || strcmp(w->text, "flat") == 0 || strcmp(w->text, "gl_FrontFacing") == 0)
                 return false;
         }
     return true;
@@ -585,7 +614,9 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
         return false;
     check_measure(r, writes);
     *outcome = explained ? FIT_EXPLAINED : plain ? FIT_DIFFERS : FIT_RIGHT;
-    if ((explained || plain) == (r->report->verdict == LAM_CHECK_PASSES))
+    if (r->report->verdict == LAM_CHECK_NOT_NUMBER)
+        *outcome = FIT_EXPLAINED;
+    else if ((explained || plain) == (r->report->verdict == LAM_CHECK_PASSES))
         *outcome = FIT_UNKNOWN; // the full pictures say something else
     if (*outcome == FIT_UNKNOWN)
         snprintf(reason, capacity, "its pictures are near to those of a right shader, and not the same");

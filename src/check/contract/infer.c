@@ -165,7 +165,8 @@ static bool find_matrix(struct inference *f, const struct declaration *item)
     core_of(name, core);
     if (in_chain(f, item->name, &index))
         role = role_in_chain(f, index);
-    else if (strncmp(item->type, "mat3", 4) == 0 || has(core, "norm") || strcmp(core, "n") == 0 ||
+    else if (strncmp(item->type, "mat3", 4) == 0 ||
+             has(core, "norm invtrans inversetrans invertrans transposeinv transinv") || strcmp(core, "n") == 0 ||
              strcmp(core, "nm") == 0)
         role = "normal_matrix";
     else if (has(core, "inv shadow light bone tex bias prev"))
@@ -479,7 +480,10 @@ static int find_spaces(const struct inference *f, const char *out[MAX_SPACES][2]
     } else if (f->has_model_view || built_in) {
         SPACES("eye", "eye");
         SPACES("eye", "world");
-        SPACES("eye", "object");
+        if (f->has_model)
+            SPACES("world", "world");
+        else
+            SPACES("eye", "object");
     } else {
         SPACES("object", "object");
     }

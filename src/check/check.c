@@ -3,7 +3,9 @@
 #include "check_draw.h"
 #include "compiler_hints.h"
 #include "default_vertex_shader.h"
+#include "fixed_state.h"
 #include "gl_painter.h"
+#include "infer.h"
 #include "recognise.h"
 #include "shader_diagnostics.h"
 
@@ -76,54 +78,27 @@ static bool choose_scenes(struct run *r, unsigned *scenes, lam_error *error)
     return true;
 }
 
-// The names of the shaders' uniforms, for messages.
-static void list_uniforms(const struct declarations *d, char *out, size_t capacity)
-{
-    for (int i = 0; i < d->count; i++) {
-        size_t used = strlen(out);
-        if (d->items[i].kind == DECLARED_UNIFORM && used + 60 < capacity)
-            snprintf(out + used, capacity - used, "%s%.40s", used ? ", " : "", d->items[i].name);
-    }
-}
-
-// The contract that is given, or that has the shaders' names. NULL: see `error`.
-static const struct contract *choose_contract(struct run *r, lam_error *error)
+// The contract that is given, or that has the shaders' names. NULL: none has. False: see `error`.
+static bool choose_contract(struct run *r, const struct contract **out, lam_error *error)
 {
     const lam_check_params *p = r->params;
-    if (p->contract)
-        return &p->contract->contract;
-    const struct contract *found = NULL;
-    if (!contracts_read(r->shipped, &r->shipped_count, error) ||
-        !contract_recognise(r->shipped, r->shipped_count, p->vertex, p->fragment, &found, error))
-        return NULL;
-    if (!found) {
-        struct declarations d = {0};
-        char uniforms[200] = "";
-        if (p->vertex && declarations_read(&d, p->vertex, true, NULL))
-            list_uniforms(&d, uniforms, sizeof uniforms);
-        declarations_free(&d);
-        if (declarations_read(&d, p->fragment, false, NULL))
-            list_uniforms(&d, uniforms, sizeof uniforms);
-        declarations_free(&d);
-        fail(error, LAM_BAD_ARGUMENT,
-             "no uniform or attribute of the shader has a name of a known contract (found %s); `lambent check --list` "
-             "prints them, and --contract names another or a file",
-             uniforms[0] ? uniforms : "none");
-    }
-    return found;
+    *out = p->contract ? &p->contract->contract : NULL;
+    return p->contract || (contracts_read(r->shipped, &r->shipped_count, error) &&
+                           contract_recognise(r->shipped, r->shipped_count, p->vertex, p->fragment, out, error));
 }
 
 // Completes the shaders as the contract's engine does, and reads them.
-static bool read_shaders(struct run *r, lam_error *error)
+static bool read_shaders(struct run *r, const struct contract *contract, lam_error *error)
 {
-    const struct contract *contract = choose_contract(r, error);
-    return contract && prefix_complete(contract, r->params->vertex, r->params->fragment, &r->texts, error) &&
+    shader_interface_free(&r->interface);
+    prefix_free(&r->texts);
+    return prefix_complete(contract, r->params->vertex, r->params->fragment, &r->texts, error) &&
            shader_interface_make(&r->interface, &r->texts, contract, error);
 }
 
 static bool is_printed(const struct run *r) { return r->interface.printed_model != LAM_REFLECTION_AUTO; }
 
-static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
+static bool check_params(struct run *r, lam_error *error)
 {
     const lam_check_params *p = r->params;
     if (!p->fragment)
@@ -132,7 +107,13 @@ static bool prepare(struct run *r, unsigned *scenes, lam_error *error)
     if (r->size < 32 || r->size > 1024)
         return fail(error, LAM_BAD_ARGUMENT, "check: pictures of %d pixels, expected 32 to 1024", r->size);
     r->tolerance = p->tolerance > 0 ? p->tolerance : 2.0 / 255;
-    if (!read_shaders(r, error))
+    return true;
+}
+
+static bool prepare(struct run *r, const struct contract *contract, unsigned *scenes, lam_error *error)
+{
+    const lam_check_params *p = r->params;
+    if (!read_shaders(r, contract, error))
         return false;
     const lam_reflection_info *printed = lam_reflection_describe(r->interface.printed_model);
     r->frame = p->light_frame == LAM_FRAME_WORLD ? r->interface.light_frame : p->light_frame;
@@ -222,32 +203,193 @@ static bool draw(struct run *r, unsigned scenes, lam_error *error)
     return true;
 }
 
-// Whether the shaders' names are those of the contract: no verdict is honest where an input has no value. A contract that
-// was asked for is kept, and so is a recognised one whose names are only misspelt: these are mistakes, which the report
-// names.
-static bool knows_inputs(struct run *r, lam_error *error)
+#define BIT(semantic) ((uint64_t)1 << (semantic))
+// Names that say nothing of light.
+static const uint64_t matrices_and_zero = BIT(SEMANTIC_MODEL_VIEW) | BIT(SEMANTIC_PROJECTION) |
+                                          BIT(SEMANTIC_MODEL_VIEW_PROJECTION) | BIT(SEMANTIC_NORMAL_MATRIX) |
+                                          BIT(SEMANTIC_MODEL) | BIT(SEMANTIC_VIEW) | BIT(SEMANTIC_VIEW_PROJECTION) |
+                                          BIT(SEMANTIC_ZERO) | BIT(SEMANTIC_ONE) | BIT(SEMANTIC_EYE_POSITION);
+
+// Whether the shaders' names are those of the contract: no verdict is honest where an input has no value. Names that are only
+// misspelt are mistakes, which the report names; those that differ in nothing but case and underscores are another course's.
+static bool suits_contract(const struct run *r)
 {
+    bool drawn_here = !r->texts.vertex;
+    for (const char *const *word = r->interface.contract->built_ins; *word; word++)
+        drawn_here = drawn_here || declarations_uses(&r->interface.vertex, *word);
+    for (int i = 0; i < r->interface.vertex.count; i++) {
+        const struct declaration *item = &r->interface.vertex.items[i];
+        const struct contract_name *n =
+            item->kind == DECLARED_INPUT ? contract_find(r->interface.contract, item->name, true, NULL) : NULL;
+        drawn_here = drawn_here || (n && n->semantic == SEMANTIC_POSITION);
+    }
     const struct shader_interface *interface = &r->interface;
     const struct draw_result *drawn = &r->drawn;
-    const char *unknown[MAX_UNKNOWN_NAMES];
-    int count = 0, misspelt = 0;
-    if (r->params->contract || drawn->state != DRAWN_PICTURES)
+    int misspelt = 0;
+    if (drawn->state != DRAWN_PICTURES)
         return true;
-    for (int i = 0; i < drawn->unknown_count; i++) {
-        unknown[count++] = drawn->unknown[i];
-        misspelt += contract_is_misspelt(interface->contract, &interface->vertex, &interface->fragment, unknown[i]);
-    }
-    if (misspelt == count && !drawn->types_count)
-        return true;
+    for (int i = 0; i < drawn->unknown_count; i++)
+        misspelt +=
+            contract_is_misspelt(interface->contract, &interface->vertex, &interface->fragment, drawn->unknown[i]);
+    bool lit = r->params->contract || !r->texts.vertex ||
+               ((interface->declared | interface->constants) & ~matrices_and_zero) != 0 ||
+               interface->defaults.has_direction;
+    return misspelt == drawn->unknown_count && !drawn->types_count && lit && drawn_here;
+}
+
+// Says why the contract that comes nearest is not theirs. Returns false.
+static bool fail_unknown(struct run *r, const char *reason, lam_error *error)
+{
+    const struct shader_interface *interface = &r->interface;
     char names[300] = "", types[160] = "";
-    contract_describe_unknown(interface->contract, &interface->vertex, &interface->fragment, unknown, count, names,
-                              sizeof names);
-    if (drawn->types_count)
-        snprintf(types, sizeof types, "%s%.120s", count ? "; " : "", drawn->types[0]);
+    const char *unknown[MAX_UNKNOWN_NAMES];
+    for (int i = 0; i < r->drawn.unknown_count; i++)
+        unknown[i] = r->drawn.unknown[i];
+    if (interface->contract)
+        contract_describe_unknown(interface->contract, &interface->vertex, &interface->fragment, unknown,
+                                  r->drawn.unknown_count, names, sizeof names);
+    if (r->drawn.types_count)
+        snprintf(types, sizeof types, "%s%.120s", names[0] ? "; " : "", r->drawn.types[0]);
+    const char *nearest = interface->contract && (names[0] || types[0]) ? interface->contract->name : NULL;
     return fail(error, LAM_BAD_ARGUMENT,
-                "the names are of no known contract; the nearest is %s, which has no %s%s; --contract %s checks by it, "
-                "--contract FILE by your own",
-                interface->contract->name, names, types, interface->contract->name);
+                "no verdict: %s%s%s%s%s%s%s; --contract FILE says what each input is (docs/check/contract-file.md)",
+                reason, nearest ? "; the contract " : "", nearest ? nearest : "", nearest ? " has no " : "", names,
+                types, "");
+}
+
+static void forget_scenes(struct run *r)
+{
+    for (int i = 0; i < r->report->scene_count; i++) {
+        lam_image_free(&r->report->scenes[i].theirs);
+        lam_image_free(&r->report->scenes[i].reference);
+    }
+    r->report->scene_count = r->scene_count = 0;
+    r->report->finding_count = 0;
+    r->report->verdict = LAM_CHECK_PASSES;
+    lam_bytes_free(&r->bytes);
+    r->drawn = (struct draw_result){0};
+}
+
+static int count_bits(unsigned bits)
+{
+    int count = 0;
+    for (; bits; bits &= bits - 1)
+        count++;
+    return count;
+}
+
+// Draws the shaders by an inferred contract, and compares them.
+static bool try_inferred(struct run *r, const struct contract *contract, enum fit_outcome *outcome, char *reason,
+                         size_t capacity, lam_error *error)
+{
+    unsigned scenes = 0;
+    *outcome = FIT_UNKNOWN;
+    forget_scenes(r);
+    if (!prepare(r, contract, &scenes, error) || !draw(r, scenes, error))
+        return false;
+    r->report->scenes_wanted = count_bits(scenes);
+    if (r->report->verdict != LAM_CHECK_PASSES)
+        *outcome = FIT_EXPLAINED; // refused, or endless
+    else if (r->drawn.unknown_count || r->drawn.types_count)
+        snprintf(reason, capacity, "the input '%.60s' has no value",
+                 r->drawn.unknown_count ? r->drawn.unknown[0] : r->drawn.types[0]);
+    else if (!check_make_scenes(r, scenes, error) || !check_fit(r, true, outcome, reason, capacity, error))
+        return false;
+    return true;
+}
+
+// Finds the roles of the inputs by their use, in each space that the text leaves open; the first reading with which the shaders
+// are right counts, else one that a single mistake explains.
+static bool infer_and_run(struct run *r, const struct contract *nearest, lam_error *error)
+{
+    const lam_check_params *p = r->params;
+    const struct contract *engine = r->texts.owned[1] ? nearest : NULL;
+    char reason[400] = "", why[300];
+    struct complete_texts texts = {0};
+    struct declarations sides[2] = {{0}};
+    int explained = -1, differs = -1;
+    lam_error unread = {0};
+    bool ok = p->vertex != NULL, done = false;
+    if (!ok)
+        return fail_unknown(
+            r, "the names are of no known contract, and a fragment shader alone does not tell what its inputs are",
+            error);
+    ok = (engine ? prefix_add(engine, p->vertex, p->fragment, &texts, error)
+                 : (texts = (struct complete_texts){.vertex = p->vertex, .fragment = p->fragment}, true)) &&
+         prefix_read(&texts, true, &sides[0], error) && prefix_read(&texts, false, &sides[1], error);
+    for (int guess = 0; ok && !done; guess++) {
+        bool again = false;
+        char *text = contract_infer(&sides[0], &sides[1], engine, guess, why, sizeof why);
+        if (!text && (explained >= 0 || differs >= 0)) {
+            text = contract_infer(&sides[0], &sides[1], engine, explained >= 0 ? explained : differs, why, sizeof why);
+            again = true;
+        }
+        if (!text) {
+            if (!reason[0])
+                snprintf(reason, sizeof reason, "%s", why);
+            break;
+        }
+        lam_check_contract *contract = lam_check_contract_read(text, strlen(text), "inferred contract", &unread);
+        free(text);
+        lam_check_contract_free(r->inferred);
+        r->inferred = contract;
+        enum fit_outcome outcome = FIT_UNKNOWN;
+        if (!contract) {
+            snprintf(reason, sizeof reason, "%.300s", unread.text);
+            break;
+        }
+        ok = try_inferred(r, &contract->contract, &outcome, reason, sizeof reason, error);
+        done = ok && (outcome == FIT_RIGHT || again || r->report->verdict > LAM_CHECK_DIFFERS);
+        if (outcome == FIT_EXPLAINED && explained < 0)
+            explained = guess;
+        if (outcome == FIT_DIFFERS && differs < 0)
+            differs = guess;
+    }
+    declarations_free(&sides[0]);
+    declarations_free(&sides[1]);
+    prefix_free(&texts);
+    return ok && (done || fail_unknown(r, reason, error));
+}
+
+// The same, with the fixed state of GLSL 110 and 120 as inputs.
+static bool run_inferred(struct run *r, const struct contract *nearest, lam_error *error)
+{
+    const lam_check_params *const params = r->params;
+    lam_check_params own = *params;
+    bool vertex_ok = true, fragment_ok = true;
+    char *vertex = params->vertex ? fixed_state_rewrite(params->vertex, &vertex_ok) : NULL,
+         *fragment = fixed_state_rewrite(params->fragment, &fragment_ok);
+    own.vertex = vertex ? vertex : params->vertex;
+    own.fragment = fragment ? fragment : params->fragment;
+    r->params = &own;
+    bool ok =
+        vertex_ok && fragment_ok ? infer_and_run(r, nearest, error) : fail_memory(error, strlen(params->fragment));
+    r->params = params;
+    r->texts = (struct complete_texts){.owned = {r->texts.owned[0], r->texts.owned[1]}};
+    free(vertex);
+    free(fragment);
+    return ok;
+}
+
+// Compares by the contract that was asked for, or whose names the shaders have.
+static bool run_contract(struct run *r, const struct contract *contract, unsigned scenes, lam_error *error)
+{
+    const lam_check_params *p = r->params;
+    for (int i = 0; i < r->drawn.unknown_count && r->drawn.state == DRAWN_PICTURES; i++)
+        if (!contract_is_misspelt(contract, &r->interface.vertex, &r->interface.fragment, r->drawn.unknown[i]))
+            return fail_unknown(r, "an input has no value", error);
+    diagnostics_add_names(&r->diagnostics, &r->drawn, &r->interface, p);
+    r->report->scenes_wanted = count_bits(scenes);
+    if (r->report->verdict != LAM_CHECK_PASSES)
+        return true;
+    bool writes =
+        compiler_hints_for_output(&r->diagnostics, &r->interface.fragment, p->fragment_name, contract->outputs);
+    if (!contract->any_strengths)
+        return check_compare(r, scenes, writes, error);
+    enum fit_outcome outcome;
+    char reason[400] = "";
+    return check_make_scenes(r, scenes, error) && check_fit(r, writes, &outcome, reason, sizeof reason, error) &&
+           (outcome != FIT_UNKNOWN || fail(error, LAM_BAD_ARGUMENT, "no verdict: %s", reason));
 }
 
 bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam_error *error)
@@ -263,19 +405,17 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     r.diagnostics.arena = r.arena;
     r.painter = params->painter ? *params->painter : gl_painter(params->gl_device);
     unsigned scenes = 0;
-    bool ok = prepare(&r, &scenes, error);
-    for (unsigned left = scenes; ok && left; left &= left - 1)
-        report->scenes_wanted++;
-    ok = ok && draw(&r, scenes, error) && knows_inputs(&r, error);
+    const struct contract *contract = NULL;
+    bool ok = check_params(&r, error) && choose_contract(&r, &contract, error);
+    if (ok && contract)
+        ok = prepare(&r, contract, &scenes, error) && draw(&r, scenes, error);
+    if (ok && contract && (params->contract || suits_contract(&r)))
+        ok = run_contract(&r, contract, scenes, error);
+    else
+        ok = ok && run_inferred(&r, contract, error);
     if (ok) {
         report->contract = arena_string(r.arena, r.interface.contract->name);
         report->vertex_lit = r.interface.vertex_lit;
-        diagnostics_add_names(&r.diagnostics, &r.drawn, &r.interface, params);
-    }
-    if (ok && report->verdict == LAM_CHECK_PASSES) {
-        bool writes = compiler_hints_for_output(&r.diagnostics, &r.interface.fragment, params->fragment_name,
-                                                r.interface.contract->outputs);
-        ok = check_compare(&r, scenes, writes, error);
     }
     if (ok && r.diagnostics.failed)
         ok = fail_memory(error, 1);
@@ -285,6 +425,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     prefix_free(&r.texts);
     for (int i = 0; i < r.shipped_count; i++)
         lam_check_contract_free(r.shipped[i]);
+    lam_check_contract_free(r.inferred);
     free(r.vertex);
     lam_bytes_free(&r.bytes);
     if (!ok)

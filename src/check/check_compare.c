@@ -13,10 +13,12 @@
 
 // Some seconds with a software driver on one processor (docs/check.md).
 static const uint64_t default_max_pictures = 10000;
+static const double max_dark = 2.0 / 255; // of a picture that is black
+static const double max_left = 0.25;      // of the difference, beside names that do not explain everything
 
 // --- the pictures
 
-static bool make_scenes(struct run *r, unsigned scenes, lam_error *error)
+bool check_make_scenes(struct run *r, unsigned scenes, lam_error *error)
 {
     size_t pixels = (size_t)r->size * (size_t)r->size, at = 0;
     r->scenes = arena_alloc_zeroed(r->arena, (size_t)reference_scene_count * sizeof *r->scenes);
@@ -101,7 +103,7 @@ static unsigned terms_of(const struct reference_scene *s)
 }
 
 // Compares every scene with its reference, and sets the verdict.
-static void measure(struct run *r, bool writes)
+void check_measure(struct run *r, bool writes)
 {
     lam_check_report *report = r->report;
     report->verdict = LAM_CHECK_PASSES;
@@ -133,7 +135,7 @@ static void measure(struct run *r, bool writes)
 }
 
 // Fraction of the compared pixels that are unwritten, or NaN or infinite.
-static double missing_share(const struct scene_comparison *scene, bool not_numbers)
+double check_missing_share(const struct scene_comparison *scene, bool not_numbers)
 {
     size_t missing = 0;
     for (size_t i = 0; i < scene->inside_count; i++) {
@@ -144,6 +146,34 @@ static double missing_share(const struct scene_comparison *scene, bool not_numbe
         missing += not_numbers ? !number : clear;
     }
     return scene->inside_count ? (double)missing / (double)scene->inside_count : 0;
+}
+
+static bool is_dark(const struct scene_comparison *scene, const float *picture)
+{
+    for (size_t i = 0; i < scene->inside_count; i++)
+        for (int c = 0; c < 3; c++)
+            if ((double)picture[4 * (size_t)scene->inside[i] + (size_t)c] > max_dark)
+                return false;
+    return true;
+}
+
+// A black picture of a scene that is black proves nothing: it earns no point in a shader that does not pass, and a shader of
+// which nothing else is asked gets no verdict.
+static bool weigh_darkness(struct run *r, lam_error *error)
+{
+    bool lit = false;
+    for (int i = 0; i < r->scene_count; i++) {
+        bool dark = is_dark(&r->scenes[i], r->scenes[i].reference);
+        lit = lit || !dark;
+        if (dark && r->report->verdict != LAM_CHECK_PASSES)
+            r->report->scenes[i].passes = false;
+    }
+    return lit || r->report->verdict == LAM_CHECK_NOT_NUMBER || r->interface.printed_model == LAM_REFLECTION_NONE ||
+           fail(error, LAM_BAD_ARGUMENT,
+                "no verdict: the shader declares no colour, strength or light of the contract %s, so that nothing is "
+                "to be "
+                "lit; a contract says by `undeclared` what its numbers are (docs/check/contract-file.md)",
+                r->interface.contract->name);
 }
 
 // Whether a search for faults makes sense: not for pictures that are nearly empty. Scenes with much NaN are left out: it
@@ -163,8 +193,8 @@ static bool is_searchable(struct run *r, bool writes)
                         "Phong's and Blinn-Phong's models, and for GGX with --single-scattering; not with --gl1 or "
                         "--viewer infinite");
     for (int i = 0; i < r->scene_count; i++) {
-        clear += missing_share(&r->scenes[i], false) / r->scene_count;
-        r->scenes[i].spoilt = missing_share(&r->scenes[i], true) > 0.25;
+        clear += check_missing_share(&r->scenes[i], false) / r->scene_count;
+        r->scenes[i].spoilt = check_missing_share(&r->scenes[i], true) > 0.25;
         usable += !r->scenes[i].spoilt && !r->scenes[i].passes;
     }
     if (writes && clear > 0.02)
@@ -182,9 +212,14 @@ static bool accept_styles(struct run *r, struct fault_search *s, bool writes, la
             if (!r->scenes[i].passes && !fault_search_draw_style(s, i, r->scenes[i].reference, error))
                 return false;
     for (int i = 0; i < s->style_count; i++)
-        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s", s->styles[i]->explanation);
+        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s%s%s", s->styles[i]->explanation,
+                        s->styles[i]->demand ? "; the contract accepts this form: " : "",
+                        s->styles[i]->demand == DEMAND_GATE           ? "it has no \"gate\": \"required\""
+                        : s->styles[i]->demand == DEMAND_UNIT_NORMALS ? "it has no \"unit_normals\": \"required\""
+                        : s->styles[i]->demand == DEMAND_BARE_AMBIENT ? "it has no \"bare_ambient\": \"required\""
+                                                                      : "");
     if (s->count == 0)
-        measure(r, writes);
+        check_measure(r, writes);
     return true;
 }
 
@@ -200,6 +235,8 @@ static const char *also_text(struct run *r, const struct found_fault *found)
 static void report_findings(struct run *r, const struct fault_search *s)
 {
     lam_check_report *report = r->report;
+    if (s->count && !s->certain && s->found[s->count - 1].after > max_left * s->before)
+        return; // what remains is too much for a name
     report->findings = arena_alloc_zeroed(r->arena, MAX_FOUND_FAULTS * sizeof *report->findings);
     for (int i = 0; report->findings && i < s->count; i++) {
         char explanation[400], correction[400];
@@ -280,13 +317,15 @@ static bool explain(struct run *r, bool writes, lam_error *error)
 bool check_compare(struct run *r, unsigned scenes, bool writes, lam_error *error)
 {
     shader_interface_set_counts(&r->interface, r->drawn.group_counts);
-    if (!make_scenes(r, scenes, error))
+    if (!check_make_scenes(r, scenes, error))
         return false;
     if (is_encoded(r) && !decode_all(r))
         return fail_memory(error, 4 * (size_t)r->size * (size_t)r->size * sizeof(float));
     if (!check_draw_references(r, error))
         return false;
-    measure(r, writes);
+    check_measure(r, writes);
+    if (!weigh_darkness(r, error))
+        return false;
     if (r->report->verdict == LAM_CHECK_PASSES || !is_searchable(r, writes))
         return true;
     return explain(r, writes, error);

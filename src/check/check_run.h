@@ -16,6 +16,7 @@ struct run {
     lam_check_painter painter;                  // that draws
     lam_check_contract *shipped[MAX_CONTRACTS]; // read where none is given
     int shipped_count;
+    lam_check_contract *inferred; // where none has the shaders' names
     struct complete_texts texts;
     struct shader_interface interface;
     int size;
@@ -34,6 +35,17 @@ struct run {
 
 // Draws the references of `scenes`: of the possible expectations the first that the pictures fulfil, else the nearest.
 bool check_draw_references(struct run *run, lam_error *error);
+
+// The steps of a comparison: the scenes of `drawn`, the share of the compared pixels that are unwritten (or not numbers), and
+// the difference of each scene from its reference with the verdict.
+bool check_make_scenes(struct run *run, unsigned scenes, lam_error *error);
+double check_missing_share(const struct scene_comparison *scene, bool not_numbers);
+void check_measure(struct run *run, bool writes);
+
+// Compares shaders of a contract whose strengths are any. FIT_UNKNOWN: no verdict; `reason` is the end of a sentence.
+enum fit_outcome { FIT_UNKNOWN, FIT_RIGHT, FIT_EXPLAINED, FIT_DIFFERS };
+bool check_fit(struct run *run, bool writes, enum fit_outcome *outcome, char *reason, size_t capacity,
+               lam_error *error);
 
 // Compares the pictures of `drawn` with the reference scenes `scenes` (bits), and fills the report: scenes, verdict,
 // findings. `writes`: the fragment shader writes a colour.

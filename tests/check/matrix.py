@@ -14,6 +14,7 @@ import sys
 import tempfile
 
 import correct
+import demands
 import mutants
 
 BATCH = 200  # shaders of one call: the pictures of mistakes are drawn once in each
@@ -76,7 +77,8 @@ def matches(choices, right):
 
 
 def judge_mistakes(program, folder, jobs, versions, only):
-    rows = [((number, name, contract, stage, dialect, tuple(map(tuple, right))), (contract, stage), [], texts)
+    rows = [((number, name, contract, stage, dialect, tuple(map(tuple, right))), (contract, stage),
+             demands.demanding(program, contract, sum(right, []), folder), texts)
             for number, (name, contract, stage, dialect, right, texts) in enumerate(mutants.mutants(versions))]
     rows = [r for r in rows if only in " ".join(r[0][1:5])]
     reports = check(program, folder, rows, jobs)

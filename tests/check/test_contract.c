@@ -129,7 +129,7 @@ static void test_errors(void **state)
     bad("{\"contract\": 1}", "my.json: the key 'name' is missing");
     bad("{\"contract\": 1, \"nam\": \"x\"}", "my.json: nam: unknown key; did you mean 'name'?");
     bad("{\"contract\": 1, \"name\": \"x\", \"space\": \"clip\"}",
-        "my.json: space: found \"clip\", expected eye or world");
+        "my.json: space: found \"clip\", expected eye, world or object");
     bad(GOOD LIGHT "}, \"maps\": {\"colors\": \"gama\"}}",
         "my.json: maps.colors: found \"gama\", expected linear or gamma; did you mean 'gamma'?");
     bad(GOOD LIGHT "}, \"maps\": {\"v\": \"left\"}}", "my.json: maps.v: found \"left\", expected up or down");

@@ -2,6 +2,7 @@
 # not end or write NaN are reported.
 # Above 600 lines: one test for each option and each kind of submission, with the programs that they share.
 import base64
+import collections
 import concurrent.futures
 import json
 import os
@@ -20,6 +21,7 @@ from harness import ROOT, Case, PROGRAM, check_value, long, read_png, write_png
 
 sys.path.insert(0, str(ROOT / "tests" / "check"))
 from correct import SHADERS as CORRECT  # noqa: E402
+from demands import demanding  # noqa: E402
 from lectures import LECTURES  # noqa: E402
 from mistakes import MISTAKES  # noqa: E402
 
@@ -325,18 +327,20 @@ class Mistakes(CheckTest):
             return
         folder = pathlib.Path(tempfile.mkdtemp(prefix="lambent-cli-"))
         cls.addClassCleanup(shutil.rmtree, folder, True)
-        files = ([], [])  # pictures are cached by contract, so a contract's shaders stay together
-        for number, (name, _, edits) in list(enumerate(MISTAKES))[::EVERY]:
+        calls = collections.defaultdict(list)  # pictures are cached by contract, so a contract's shaders stay together
+        for number, (name, ids, edits) in list(enumerate(MISTAKES))[::EVERY]:
+            options = demanding(PROGRAM, name, ids.split(), folder)
             for ending, text in edited(name, edits).items():
                 (folder / f"{number:03}.{ending}").write_text(text)
-                files[name != "pittsburgh"].append(f"{number:03}.{ending}")
+                calls[name == "pittsburgh", options].append(f"{number:03}.{ending}")
 
-        def check(some):
-            return subprocess.run([PROGRAM, "check", *some, "-s", "64", "--json"], cwd=folder, stdout=subprocess.PIPE,
+        def check(call):
+            (_, options), files = call
+            return subprocess.run([PROGRAM, "check", *files, *options, "-s", "64", "--json"], cwd=folder, stdout=subprocess.PIPE,
                                   stderr=subprocess.PIPE)
 
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
-            done = list(pool.map(check, files))
+            done = list(pool.map(check, calls.items()))
         cls.said = b"".join(d.stderr for d in done).decode()
         cls.reports = {r["fragment"]: r for d in done for r in map(json.loads, d.stdout.splitlines())}
 
@@ -631,11 +635,8 @@ class Unruly(CheckTest):
         self.assertEqual(self.report_of(*self.shader("pittsburgh", [unused]), "--scenes", "all")["notes"], [])
         words = self.shader("pittsburgh", [("vert", "uniform mat3 normal_matrix;", "uniform mat3 turn;"),
                                            ("vert", "normal_matrix * vNormal", "turn * vNormal")])
-        self.bad(1, "check", *words, says=("no known contract", "pittsburgh, which has no 'turn' (mat3"), leaves=("s.frag", "s.vert"))
-        report = self.report_of(*words, "--contract", "pittsburgh", code=6)
-        self.assertEqual(report["mistakes"], [])
-        self.assertIn("'turn' is not in the contract", " ".join(self.notes(report, "unknown")))
-        self.assertIn("correct the names first", " ".join(self.notes(report, "hint")))
+        self.assertEqual(self.report_of(*words)["contract"], "inferred")  # its use tells what it is
+        self.bad(1, "check", *words, "--contract", "pittsburgh", says=("an input has no value", "'turn' (mat3"), leaves=("s.frag", "s.vert"))
 
     def test_driver_sleeps(self):
         """A driver that waits for ever uses no processor time: the limit on elapsed time stops it."""
@@ -666,7 +667,7 @@ class Unruly(CheckTest):
         self.bad(1, "check", "s.frag", "--scenes", "spot", says="spot", leaves=("s.frag", "s.vert"))
         self.bad(1, "check", "s.frag", "-s", "64x32", says="square", leaves=("s.frag", "s.vert"))
         (self.folder / "s.frag").write_text("void main() { gl_FragColor = vec4(1.0); }\n")
-        self.bad(1, "check", "s.frag", says=("--contract", "none"), leaves=("s.frag", "s.vert"))
+        self.bad(1, "check", "s.frag", says=("no verdict", "--contract"), leaves=("s.frag", "s.vert"))
 
 
 class Contracts(CheckTest):
@@ -725,19 +726,54 @@ class Contracts(CheckTest):
         return ["s.frag", "--vertex", "s.vert"]
 
     def test_unknown(self):
-        """Names of no contract get no verdict, but the nearest contract and what it does not have."""
+        """Names of no contract: the roles of the inputs are found by their use. Without evidence there is no verdict, but a sentence."""
         vert, frag = ((SHADERS / f"learnopengl.{ending}").read_text() for ending in ("vert", "frag"))
         for old, new in (("aPos", "inVertex"), ("aNormal", "inNormal"), ("uniform mat4 model;", "uniform mat4 M;"), ("(model", "(M")):
             vert = vert.replace(old, new)
-        words = self.write(vert, frag.replace("lightPos", "sunPos"))
-        self.bad(1, "check", *words, leaves=("s.frag", "s.vert"),
-                 says=("no known contract", "the nearest is learnopengl", "'M' (mat4", "'sunPos' (vec3", "'inVertex' (vec3", "--contract FILE"))
-        done = self.run_program("check", *words, "-s", 32, "--json", "--contract", "learnopengl", "--scenes", "all")
-        self.assertEqual(json.loads(done.stdout)["verdict"], "differs")
+        frag = frag.replace("lightPos", "sunPos").replace("viewPos", "camera")
+        report = self.report_of(*self.write(vert, frag))
+        self.assertEqual((report["verdict"], report["contract"]), ("passes", "inferred"))
+        wrong = vert.replace("normalize(mat3(transpose(inverse(M))) * inNormal)", "inNormal")
+        self.assertNotEqual(wrong, vert)
+        report = self.report_of(*self.write(wrong, frag), code=6)
+        self.assertEqual([(m["id"], m["certain"]) for m in report["mistakes"]], [("normal-object-space", 1)])
+        shadowed = frag.replace("uniform vec3 camera", "uniform sampler2D shadowMap; uniform vec3 camera").replace("= vec4(", "= texture(shadowMap, vec2(0)) + vec4(")
+        black = "void main() { gl_FragColor = vec4(0, 0, 0, 1); }"
+        for texts, options, says in (((vert, frag), ("--contract", "learnopengl"), ("an input has no value", "'M' (mat4", "'sunPos' (vec3")),
+                                     ((vert, shadowed), (), ("'shadowMap' (sampler2D)", "--contract FILE")),
+                                     (("void main() { gl_Position = gl_Vertex; }", black), (), ("no verdict",))):
+            self.bad(1, "check", *self.write(*texts), *options, leaves=("s.frag", "s.vert"), says=says)
+        for contract in ("oregon", "learnopengl", "pittsburgh"):  # black passes nowhere
+            done = self.run_program("check", *self.write(vert, black), "--contract", contract)
+            self.assertNotEqual(done.returncode, 0, contract)
         # A slip of the pen is a mistake of the shader.
         text = (SHADERS / "learnopengl.frag").read_text().replace("viewPos", "viewPosn")
         report = self.report_of(*self.write((SHADERS / "learnopengl.vert").read_text(), text), code=6)
         self.assertIn("'viewPosn' is not in the contract learnopengl; did you mean 'viewPos'", " ".join(self.notes(report, "unknown")))
+
+    def test_inferred(self):
+        """Shaders of no contract: fixed state, numbers for the light, accepted forms, two mistakes, and what is not understood."""
+        fixed = ("varying vec3 N, L;\nvoid main() {\n    N = normalize(gl_NormalMatrix * gl_Normal);\n    L = gl_LightSource[0].position.xyz - vec3(gl_ModelViewMatrix * gl_Vertex);\n"
+                 "    gl_Position = ftransform();\n}\n",
+                 "varying vec3 N, L;\nvoid main() {\n    float d = max(dot(normalize(N), normalize(L)), 0.0);\n"
+                 "    gl_FragColor = gl_FrontMaterial.ambient * gl_LightModel.ambient + gl_FrontMaterial.diffuse * gl_LightSource[0].diffuse * d;\n}\n")
+        report = self.report_of(*self.write(*fixed))
+        self.assertEqual((report["verdict"], report["contract"]), ("passes", "inferred"))
+        eye = ("#version 330\nin vec3 inPosition, inNormal; uniform mat4 MV, P; out vec3 n, p;\n"
+               "void main() { n = inverse(transpose(mat3(MV))) * inNormal; vec4 e = MV * vec4(inPosition, 1.0); p = e.xyz; gl_Position = P * e; }\n",
+               "#version 330\nin vec3 n, p; uniform vec3 paint; out vec4 o; const vec3 lightDir = vec3(0.3, 0.4, 0.86);\n"
+               "void main() { vec3 N = normalize(n); float d = max(dot(N, lightDir), 0.0), s = pow(max(dot(reflect(-lightDir, N), normalize(-p)), 0.0), 20.0);\n"
+               "o = vec4(paint * (0.2 + 0.6 * d) + vec3(0.3 * s), 1.0); }\n")
+        report = self.report_of(*self.write(*eye))
+        self.assertEqual(report["verdict"], "passes")
+        self.assertIn("20", " ".join(self.notes(report, "hint")))
+        for old, new, expected in (("vec3 N = normalize(n)", "vec3 N = n", ["normal-never-unit"]), ("max(dot(N, lightDir), 0.0), s", "dot(N, lightDir), s", ["no-clamp"])):
+            report = self.report_of(*self.write(eye[0], eye[1].replace(old, new)), code=6)
+            self.assertEqual([m["id"] for m in report["mistakes"]], expected)
+        toon = eye[1].replace("0.6 * d", "(d > 0.5 ? 0.6 : 0.1)")
+        self.bad(1, "check", *self.write(eye[0], toon), says="no verdict", leaves=("s.frag", "s.vert"))
+        staged = eye[1].replace("in vec3 n, p;", "in vec3 n, p, fromGeometry;").replace("paint * (", "fromGeometry * (")
+        self.bad(1, "check", *self.write(eye[0], staged), says=("'fromGeometry'", "another stage"), leaves=("s.frag", "s.vert"))
 
     def test_varyings_of_no_contract(self):
         (self.folder / "s.frag").write_text((SHADERS / "mdn.frag").read_text())
@@ -763,10 +799,12 @@ class Contracts(CheckTest):
         report = self.report_of(*self.shader("learnopengl", edits))
         self.assertEqual(report["verdict"], "passes")
         self.assertIn("taken from the shader's text", " ".join(self.notes(report, "hint")))
-        report = self.report_of(*self.shader("learnopengl", edits + [("frag", "diffuse > 0.0 ?", "true ?")]), code=6)
+        words = self.shader("learnopengl", edits + [("frag", "diffuse > 0.0 ?", "true ?")])
+        self.assertIn("\"gate\": \"required\"", " ".join(self.notes(self.report_of(*words), "hint")))
+        report = self.report_of(*words, *demanding(PROGRAM, "learnopengl", ["no-gate"], self.folder), code=6)
         self.assertEqual([m["id"] for m in report["mistakes"]], ["no-gate"])
         # Numbers that come nearer than those of the exercise explain nothing.
-        for old, new, expected in [("reflect(-l, n)", "reflect(l, n)", ["reflect-sign"]), ("max(dot(n, l), 0.0)", "dot(n, l) * 0.5 + 0.5", ["half-lambert", "no-gate"]),
+        for old, new, expected in [("reflect(-l, n)", "reflect(l, n)", ["reflect-sign"]), ("max(dot(n, l), 0.0)", "dot(n, l) * 0.5 + 0.5", ["half-lambert"]),
                                    ("vec3 v = normalize(viewPos - FragPos)", "vec3 v = viewPos - FragPos", ["half-of-raw-eye"]),
                                    ("max(dot(n, l), 0.0)", "pow(max(dot(n, l), 0.0), 2.0)", ["n.l-squared"])][::EVERY]:
             for names in (edits, [("frag", "    float ambientStrength = 0.1;\n    float specularStrength = 0.5;", "    float ambientStrength = 0.1, specularStrength = 0.5;")]):

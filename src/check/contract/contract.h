@@ -51,9 +51,10 @@ struct contract_defaults {
     struct default_color ambient_color, diffuse_color, specular_color;
     struct default_color light_color, light_specular, light_ambient;
     struct default_number ambient_strength, diffuse_strength, specular_strength, shininess, spot_exponent;
-    bool has_attenuation, has_direction;
+    bool has_attenuation, has_direction, has_position;
     float attenuation[3];
-    lam_vec3 direction; // to the light, in the contract's space
+    lam_vec3 direction; // to the light; has_position: the light's place
+    int light_space;    // of both; the contract's unless it is said
 };
 
 // A variable that a shader gives a number: `float ambientStrength = 0.1;`. The name "pow" stands for a number that is
@@ -92,6 +93,13 @@ struct map_convention {
     bool v_down;
 };
 
+// Forms that a contract may demand; without that their counterparts are accepted (fault.h).
+enum contract_demand {
+    DEMAND_GATE = 1,         // no highlight where n.l <= 0
+    DEMAND_UNIT_NORMALS = 2, // normalized in the vertex shader too
+    DEMAND_BARE_AMBIENT = 4, // the ambient term is not attenuated
+};
+
 enum contract_term { TERM_AMBIENT = 1, TERM_DIFFUSE = 2, TERM_SPECULAR = 4 };
 enum { MAX_LIGHT_GROUPS = 8 };
 
@@ -108,6 +116,7 @@ struct contract {
     int group_count;
     unsigned supports;     // bits of reference_need
     unsigned terms;        // bits of contract_term
+    unsigned demands;      // bits of contract_demand
     lam_light_frame space; // in which the course lights: CAMERA (eye space) or WORLD
     // The space of the first light: OBJECT (the model-view matrix transforms it like the vertices), WORLD or CAMERA.
     lam_light_frame light_frame;
@@ -122,6 +131,7 @@ struct contract {
     const char *outputs;     // names of the fragment shader's output, separated by blanks; NULL: not said
     bool has_attenuation;    // names or constants
     bool material_strengths; // colours and their strengths are apart
+    bool any_strengths;      // strengths and colours are the shader's own: those that fit its pictures count
     bool printed;            // shaders of `lambent shader`, whose loops name the kinds of lights
 };
 

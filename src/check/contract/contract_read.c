@@ -28,6 +28,22 @@ static bool read_terms(struct contract_reader *r, const json_t *root)
     return true;
 }
 
+static bool read_demands(struct contract_reader *r, const json_t *root)
+{
+    static const struct json_choice words[] = {{"optional", 0}, {"required", 1}, {NULL, 0}};
+    static const struct {
+        const char *key;
+        enum contract_demand demand;
+    } rows[] = {{"gate", DEMAND_GATE}, {"unit_normals", DEMAND_UNIT_NORMALS}, {"bare_ambient", DEMAND_BARE_AMBIENT}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        int required = 0;
+        if (!json_take_word(&r->json, NULL, root, rows[i].key, words, &required))
+            return false;
+        r->contract->demands |= required ? (unsigned)rows[i].demand : 0;
+    }
+    return true;
+}
+
 static bool has(const struct contract *c, enum uniform_semantic semantic)
 {
     for (const struct contract_name *n = c->names; n->name; n++)
@@ -41,7 +57,7 @@ static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
 {
     struct contract *c = r->contract;
     const struct contract_defaults *d = &c->defaults;
-    c->light_frame = c->space;
+    c->light_frame = d->has_direction || d->has_position ? (lam_light_frame)d->light_space : c->space;
     for (const struct contract_name *n = c->names; n->name; n++) {
         bool placed = n->group >= 0 && role_of(n->semantic)->uses & ROLE_IN_SPACE;
         if (placed) {
@@ -51,6 +67,7 @@ static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
     }
     bool position = has(c, SEMANTIC_LIGHT_POSITION) || has(c, SEMANTIC_LIGHT_X),
          direction = has(c, SEMANTIC_LIGHT_DIRECTION) || has(c, SEMANTIC_LIGHT_TRAVEL) || d->has_direction;
+    position = position || d->has_position;
     c->has_attenuation = has(c, SEMANTIC_ATTENUATION) || has(c, SEMANTIC_ATTENUATION_CONSTANT) ||
                          has(c, SEMANTIC_ATTENUATION_LINEAR) || has(c, SEMANTIC_ATTENUATION_QUADRATIC) ||
                          (d->has_attenuation && (d->attenuation[1] > 0 || d->attenuation[2] > 0));
@@ -84,18 +101,23 @@ static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
 
 static bool read_root(struct contract_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"contract",  "name",     "title",     "glsl",      "space",      "terms",
-                                       "highlight", "alpha",    "two_sided", "printed",   "attributes", "uniforms",
-                                       "built_ins", "varyings", "outputs",   "constants", "undeclared", "prefix",
-                                       "physical",  "maps",     NULL};
+    static const char *const keys[] = {"contract",   "name",         "title",        "glsl",      "space",
+                                       "terms",      "highlight",    "alpha",        "two_sided", "printed",
+                                       "attributes", "uniforms",     "built_ins",    "varyings",  "outputs",
+                                       "constants",  "undeclared",   "prefix",       "physical",  "maps",
+                                       "gate",       "unit_normals", "bare_ambient", "strengths", NULL};
     static const struct json_choice highlights[] = {{"phong", LAM_REFLECTION_PHONG},
                                                     {"blinn-phong", LAM_REFLECTION_BLINN_PHONG},
                                                     {"metallic-roughness", LAM_REFLECTION_GGX},
                                                     {NULL, 0}};
-    static const struct json_choice spaces[] = {{"eye", LAM_FRAME_CAMERA}, {"world", LAM_FRAME_WORLD}, {NULL, 0}};
+    static const struct json_choice spaces[] = {{"eye", LAM_FRAME_CAMERA},
+                                                {"world", LAM_FRAME_WORLD},
+                                                {"object", LAM_FRAME_OBJECT},
+                                                {NULL, 0}},
+                                    strengths[] = {{"given", false}, {"any", true}, {NULL, 0}};
     struct contract *c = r->contract;
     double version = 0;
-    int highlight = LAM_REFLECTION_BLINN_PHONG, space = LAM_FRAME_CAMERA;
+    int highlight = LAM_REFLECTION_BLINN_PHONG, space = LAM_FRAME_CAMERA, any = false;
     const char *name = NULL, *title = NULL;
     bool alpha = false, two_sided = false;
     if (!json_check_keys(&r->json, NULL, root, keys))
@@ -107,6 +129,7 @@ static bool read_root(struct contract_reader *r, const json_t *root)
         !json_take_text(&r->json, NULL, root, "title", &title) ||
         !json_take_word(&r->json, NULL, root, "space", spaces, &space) ||
         !json_take_word(&r->json, NULL, root, "highlight", highlights, &highlight) ||
+        !json_take_word(&r->json, NULL, root, "strengths", strengths, &any) ||
         !json_take_bool(&r->json, NULL, root, "alpha", &alpha) ||
         !json_take_bool(&r->json, NULL, root, "two_sided", &two_sided) ||
         !json_take_bool(&r->json, NULL, root, "printed", &c->printed))
@@ -117,8 +140,11 @@ static bool read_root(struct contract_reader *r, const json_t *root)
     c->title = arena_string(r->arena, title ? title : name);
     if (!c->name || !c->title)
         return contract_no_memory(r);
+    if (space == LAM_FRAME_OBJECT && !any)
+        return json_fail(&r->json, KEY_OF(NULL, "space"), "object needs \"strengths\": \"any\"");
     c->space = (lam_light_frame)space;
     c->reflection = (lam_reflection)highlight;
+    c->any_strengths = any != 0;
     const json_t *versions = json_object_get(root, "glsl");
     if (versions && !contract_read_list(r, KEY_OF(NULL, "glsl"), versions, ", ", false, false, &c->versions))
         return false;
@@ -126,9 +152,10 @@ static bool read_root(struct contract_reader *r, const json_t *root)
     const json_t *outputs = json_object_get(root, "outputs");
     if (outputs && !contract_read_list(r, KEY_OF(NULL, "outputs"), outputs, " ", true, true, &c->outputs))
         return false;
-    return read_terms(r, root) && contract_read_names(r, root) && contract_read_varyings(r, root) &&
-           contract_read_defaults(r, root) && contract_read_constants(r, root) && contract_read_prefix(r, root) &&
-           contract_read_physical(r, root) && contract_read_maps(r, root) && complete(r, alpha, two_sided);
+    return read_terms(r, root) && read_demands(r, root) && contract_read_names(r, root) &&
+           contract_read_varyings(r, root) && contract_read_defaults(r, root) && contract_read_constants(r, root) &&
+           contract_read_prefix(r, root) && contract_read_physical(r, root) && contract_read_maps(r, root) &&
+           complete(r, alpha, two_sided);
 }
 
 lam_check_contract *lam_check_contract_read(const char *text, size_t size, const char *file, lam_error *error)

@@ -94,13 +94,10 @@ static bool read_number(struct contract_reader *r, const struct place *place, co
 
 bool contract_read_defaults(struct contract_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"ambient_color",    "diffuse_color",
-                                       "specular_color",   "ambient_strength",
-                                       "diffuse_strength", "specular_strength",
-                                       "shininess",        "light_color",
-                                       "light_specular",   "light_ambient",
-                                       "light_direction",  "attenuation",
-                                       "spot_exponent",    NULL};
+    static const char *const keys[] = {"ambient_color",    "diffuse_color",     "specular_color",  "ambient_strength",
+                                       "diffuse_strength", "specular_strength", "shininess",       "light_color",
+                                       "light_specular",   "light_ambient",     "light_direction", "light_position",
+                                       "light_space",      "attenuation",       "spot_exponent",   NULL};
     const json_t *object = json_object_get(root, "undeclared");
     const struct place *place = KEY_OF(NULL, "undeclared");
     struct contract_defaults *d = &r->contract->defaults;
@@ -119,6 +116,9 @@ bool contract_read_defaults(struct contract_reader *r, const json_t *root)
         !read_number(r, place, object, "shininess", &d->shininess) ||
         !read_number(r, place, object, "spot_exponent", &d->spot_exponent))
         return false;
+    d->light_space = r->contract->space;
+    if (!json_take_word(&r->json, place, object, "light_space", contract_spaces, &d->light_space))
+        return false;
     double v[3];
     const json_t *list = json_object_get(object, "attenuation");
     if (list) {
@@ -131,13 +131,17 @@ bool contract_read_defaults(struct contract_reader *r, const json_t *root)
         for (int i = 0; i < 3; i++)
             d->attenuation[i] = (float)v[i];
     }
-    list = json_object_get(object, "light_direction");
-    if (list) {
-        if (!json_numbers_of(&r->json, KEY_OF(place, "light_direction"), list, 3, 3, v, NULL))
+    static const char *const places[] = {"light_direction", "light_position"};
+    for (int i = 0; i < 2; i++) {
+        list = json_object_get(object, places[i]);
+        if (!list)
+            continue;
+        if (!json_numbers_of(&r->json, KEY_OF(place, places[i]), list, 3, 3, v, NULL))
             return false;
-        if (v[0] == 0 && v[1] == 0 && v[2] == 0)
-            return json_fail(&r->json, KEY_OF(place, "light_direction"), "found 0, 0, 0, expected a direction");
-        d->has_direction = true;
+        if (i == 0 && v[0] == 0 && v[1] == 0 && v[2] == 0)
+            return json_fail(&r->json, KEY_OF(place, places[i]), "found 0, 0, 0, expected a direction");
+        d->has_direction = i == 0;
+        d->has_position = i == 1;
         d->direction = (lam_vec3){v[0], v[1], v[2]};
     }
     return true;

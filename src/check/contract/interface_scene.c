@@ -158,15 +158,21 @@ static void adapt_light(const struct shader_interface *r, int index, const struc
         light->type = LAM_LIGHT_DIRECTIONAL;
         light->to_light = light->position;
     }
-    if (d->has_direction && !shader_interface_uses(r, SEMANTIC_LIGHT_POSITION) &&
+    if ((d->has_direction || d->has_position) && !shader_interface_uses(r, SEMANTIC_LIGHT_POSITION) &&
         !shader_interface_uses(r, SEMANTIC_LIGHT_DIRECTION) && !shader_interface_uses(r, SEMANTIC_LIGHT_TRAVEL)) {
         struct reference_matrices m;
         lam_mat4 to_world = lam_mat4_identity();
         reference_matrices(s, &m);
-        if (r->space == LAM_FRAME_CAMERA)
+        if (r->light_frame == LAM_FRAME_CAMERA)
             mat4_inverse_affine(&m.view, &to_world);
-        light->type = LAM_LIGHT_DIRECTIONAL;
+        else if (r->light_frame == LAM_FRAME_OBJECT)
+            to_world = m.model;
+        light->type = d->has_direction ? LAM_LIGHT_DIRECTIONAL : LAM_LIGHT_POINT;
         light->to_light = mat4_vector(&to_world, d->direction);
+        if (d->has_position) {
+            light->position = mat4_point(&to_world, d->direction);
+            light->to_light = (lam_vec3){0, 0, 0};
+        }
     }
     bool attenuated = declares(r, SEMANTIC_ATTENUATION) || declares(r, SEMANTIC_ATTENUATION_CONSTANT) ||
                       declares(r, SEMANTIC_ATTENUATION_LINEAR) || declares(r, SEMANTIC_ATTENUATION_QUADRATIC);
@@ -281,6 +287,22 @@ static void adapt_maps(const struct shader_interface *r, struct reference_scene 
         s->mesh += MESH_PATCH_DOWN - MESH_PATCH;
 }
 
+// Where the strengths and colours are the shader's own, each term has a channel: red ambient, green diffuse, blue specular.
+// The fit finds their factors.
+static void separate_terms(struct reference_scene *s)
+{
+    const lam_rgb white = {1, 1, 1}, black = {0, 0, 0};
+    s->ambient = (lam_rgb){1, 0, 0};
+    s->diffuse = (lam_rgb){0, 1, 0};
+    s->specular = (lam_rgb){0, 0, 1};
+    s->ka = s->kd = s->ks = s->alpha = 1;
+    s->occlusion = 0;
+    for (int i = 0; i < s->light_count; i++) {
+        s->lights[i].color = s->lights[i].specular = white;
+        s->lights[i].ambient = i ? black : white;
+    }
+}
+
 struct reference_scene shader_interface_scene(const struct shader_interface *r,
                                               const struct reference_scene *reference_scene)
 {
@@ -306,5 +328,9 @@ struct reference_scene shader_interface_scene(const struct shader_interface *r,
         s.shininess = r->defaults.shininess.value;
     if (!(r->contract->supports & NEED_ALPHA))
         s.alpha = 1;
+    if (r->contract->any_strengths)
+        separate_terms(&s);
+    if (r->contract->any_strengths && !shader_interface_uses(r, SEMANTIC_SHININESS))
+        s.shininess = 1;
     return s;
 }

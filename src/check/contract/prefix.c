@@ -66,6 +66,21 @@ static char *join(const char *prefix, const char *text)
     return out;
 }
 
+// Whether a text reads a name that it does not declare.
+static bool lacks(const char *text, bool vertex, const char *name)
+{
+    static const char *const types[] = {"vec2", "vec3", "vec4", "float",     "int",
+                                        "bool", "mat3", "mat4", "sampler2D", "define"};
+    struct declarations d = {0};
+    bool read = declarations_read(&d, text, vertex, NULL), declared = false;
+    for (int i = 1; i < d.word_count; i++)
+        for (size_t k = 0; k < sizeof types / sizeof *types && strcmp(d.words[i].text, name) == 0; k++)
+            declared = declared || strcmp(d.words[i - 1].text, types[k]) == 0 || strcmp(d.words[i - 1].text, ",") == 0;
+    bool out = read && !declared && declarations_uses(&d, name);
+    declarations_free(&d);
+    return out;
+}
+
 bool prefix_add(const struct contract *contract, const char *vertex, const char *fragment, struct complete_texts *out,
                 lam_error *error)
 {
@@ -73,8 +88,12 @@ bool prefix_add(const struct contract *contract, const char *vertex, const char 
     out->fragment = out->owned[1] = join(contract->prefix_fragment, fragment);
     out->lines[1] = count_lines(contract->prefix_fragment) + 1;
     if (vertex) {
-        out->vertex = out->owned[0] = join(contract->prefix_vertex, vertex);
-        out->lines[0] = count_lines(contract->prefix_vertex) + 1;
+        // three.js declares the colours of vertices for materials that have them.
+        char prefix[4096];
+        snprintf(prefix, sizeof prefix, "%s%s", contract->prefix_vertex,
+                 lacks(vertex, true, "color") ? "\nattribute vec3 color;" : "");
+        out->vertex = out->owned[0] = join(prefix, vertex);
+        out->lines[0] = count_lines(prefix) + 1;
     }
     return (out->fragment && (!vertex || out->vertex)) || fail_memory(error, strlen(fragment));
 }

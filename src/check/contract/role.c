@@ -79,6 +79,8 @@ const struct role roles[] = {
     {SEMANTIC_FLAT, "flat", UNIFORM, TYPE_SCALAR, "flat shading: the values of each triangle's last vertex"},
     {SEMANTIC_ZERO, "zero", ROLE_ATTRIBUTE | UNIFORM,
      TYPE_SCALAR | TYPE_VEC2 | TYPE_VECTOR | TYPE_MATRIX | TYPE_SAMPLER, "0: the scenes have nothing of the kind"},
+    {SEMANTIC_FACTOR, "factor", ROLE_ATTRIBUTE | UNIFORM, TYPE_SCALAR | TYPE_VEC2 | TYPE_VECTOR | TYPE_SAMPLER,
+     "a colour or strength, the same in every scene; for a contract whose strengths are any"},
     {SEMANTIC_ONE, "one", UNIFORM, TYPE_SCALAR | TYPE_VEC2 | TYPE_VECTOR, "1"},
 };
 const int role_count = sizeof roles / sizeof *roles;

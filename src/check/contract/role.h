@@ -76,6 +76,7 @@ enum uniform_semantic {
     SEMANTIC_EYE_POSITION,
     SEMANTIC_ZERO,
     SEMANTIC_ONE,
+    SEMANTIC_FACTOR, // a colour or strength, the same in every scene
     SEMANTIC_COUNT
 };
 

@@ -276,6 +276,26 @@ static unsigned kind_of(enum uniform_semantic semantic, const char *type)
     }
 }
 
+// How many elements of a list the texts read, where they do so by numbers alone; `count` otherwise.
+static int read_elements(const struct shader_interface *r, const char *name, int count)
+{
+    const struct declarations *sides[] = {&r->vertex, &r->fragment};
+    size_t length = strcspn(name, "[.");
+    int most = 0;
+    for (int s = 0; s < 2; s++)
+        for (int i = 0; i + 2 < sides[s]->word_count; i++) {
+            const struct word *w = &sides[s]->words[i];
+            if (strncmp(w->text, name, length) != 0 || w->text[length] || w->depth == 0 || strcmp(w[1].text, "[") != 0)
+                continue;
+            if (strchr("0123456789", w[2].text[0]) == NULL)
+                return count;
+            int index = 0;
+            sscanf(w[2].text, "%d", &index);
+            most = index + 1 > most ? index + 1 : most;
+        }
+    return most && most < count ? most : count;
+}
+
 static void add_light_name(struct shader_interface *r, const struct declarations *d, const struct declaration *item)
 {
     const struct contract_name *n =
@@ -284,10 +304,12 @@ static void add_light_name(struct shader_interface *r, const struct declarations
         return;
     struct light_group *group = &r->groups[n->group];
     int count = item->count > 0 ? item->count : 1;
+    if (r->contract->any_strengths) // which light is meant to be read is not known
+        count = read_elements(r, item->name, count);
     group->list = group->list || item->count != 0;
     group->count = count > group->count ? count : group->count;
     if (is_used(d, item->name))
-        group->kinds |= kind_of(n->semantic, item->type);
+        group->kinds |= kind_of(n->semantic, r->contract->any_strengths ? n->type : item->type);
     // A direction alone makes the light directional; beside a position it is the axis of a spot.
     bool direction = n->semantic == SEMANTIC_LIGHT_DIRECTION || n->semantic == SEMANTIC_LIGHT_TRAVEL;
     if (direction && is_used(d, item->name))
@@ -355,7 +377,7 @@ static void summarize_lights(struct shader_interface *r)
 
 void shader_interface_set_counts(struct shader_interface *r, const int counts[MAX_LIGHT_GROUPS])
 {
-    for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
+    for (int g = 0; g < MAX_LIGHT_GROUPS && !r->contract->any_strengths; g++)
         if (r->groups[g].count && r->groups[g].list && counts[g] > r->groups[g].count)
             r->groups[g].count = counts[g];
 }
@@ -382,6 +404,9 @@ bool shader_interface_make(struct shader_interface *r, const struct complete_tex
     r->space = find_space(r);
     r->light_frame = find_light_frame(r);
     r->vertex_lit = texts->vertex && !is_lit(r, &r->fragment);
+    if (contract->any_strengths) // names of factors tell nothing
+        r->vertex_lit =
+            texts->vertex && !declarations_uses(&r->fragment, "dot") && !declarations_uses(&r->fragment, "reflect");
     find_lights(r);
     r->supports = r->contract->supports | (r->supports & NEED_TANGENT_SIGN);
     r->supports |= r->maps & map_bit(SEMANTIC_NORMAL_MAP) ? NEED_NORMAL_MAP : 0;

@@ -195,6 +195,8 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
         return color_factor(s, NUMBER_EMISSION, s->emission, 1);
     case SEMANTIC_ONE:
         return (struct uniform_value){{1, 1, 1, 1}};
+    case SEMANTIC_FACTOR:
+        return (struct uniform_value){{0.4f, 0.35f, 0.3f, 1}};
     case SEMANTIC_MAP_ROW_U:
         return (struct uniform_value){{1, 0, 0, 1}};
     case SEMANTIC_MAP_ROW_V:

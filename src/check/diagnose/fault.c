@@ -84,6 +84,11 @@ bool fault_applies(const struct fault *fault, const struct shader_interface *int
            (!fault->maps || (fault->maps & ~map_bits(interface)) == 0);
 }
 
+bool fault_is_style(const struct fault *fault, const struct shader_interface *interface)
+{
+    return fault->style || (fault->demand && !(fault->demand & interface->contract->demands));
+}
+
 // Row `index` of those that are listed: no styles, and of each mistake the first form.
 static const struct fault *listed(int index)
 {

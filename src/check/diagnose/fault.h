@@ -130,6 +130,7 @@ struct fault {
     bool rare;       // not mentioned beside another with the same pictures
     bool style;      // not a mistake: a form that is as right as the reference
     bool whole_term; // a term, or several, are missing altogether
+    unsigned demand; // bits of contract_demand: a mistake only if the contract demands one of them, else a style
 };
 
 extern const struct fault faults[];
@@ -141,6 +142,10 @@ fault_set fault_set_add(const fault_set *set, const struct fault *fault);
 // Whether the fault can occur in these shaders.
 bool fault_applies(const struct fault *fault, const struct shader_interface *interface, lam_light_frame frame,
                    lam_reflection reflection, unsigned needs);
+
+// Whether the fault is no mistake in these shaders, but a form that is accepted: a style, or one that their contract does not
+// demand otherwise.
+bool fault_is_style(const struct fault *fault, const struct shader_interface *interface);
 
 // Expands an explanation or a correction: each {place} becomes the name that the shaders use.
 void fault_text(const char *template, const struct shader_interface *interface, lam_light_frame frame,

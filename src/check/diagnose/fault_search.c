@@ -248,6 +248,30 @@ static bool try_each(struct state *t, struct candidate *best, lam_error *error)
     return true;
 }
 
+// Accepted forms that a contract may demand otherwise are frequent together: each set of them is tried before any mistake.
+static bool try_forms(struct state *t, struct candidate *best, lam_error *error)
+{
+    struct found_fault forms[MAX_FOUND_FAULTS];
+    int count = 0;
+    for (int m = 0; m < fault_count && count < MAX_FOUND_FAULTS; m++)
+        if (faults[m].demand && fault_is_style(&faults[m], t->s->interface) &&
+            fault_applies(&faults[m], t->s->interface, t->s->frame, t->s->reflection, t->s->needs))
+            forms[count++] = (struct found_fault){.row = &faults[m]};
+    for (unsigned some = 1; some < 1u << count && !best->fits; some++) {
+        struct candidate c = {0};
+        for (int i = 0; i < count; i++)
+            if (some >> i & 1)
+                c.members[c.count++] = forms[i];
+        rebuild(&c);
+        t->s->tried++;
+        if (!try_candidate(t, &c, max_ratio_explained * t->s->before, error))
+            return false;
+        if (c.fits)
+            *best = c;
+    }
+    return true;
+}
+
 // Whether a fault changes a scene that passes without it. A shader that has the fault would not pass there.
 static bool find_spoils(struct state *t, struct outcome *o, lam_error *error)
 {
@@ -300,7 +324,8 @@ static bool reduce(struct state *t, struct candidate *c, lam_error *error)
     }
     bool supported = c->mean <= max_ratio_explained * t->s->before;
     for (int i = 0; i < c->count && c->mean > max_exact; i++)
-        supported = supported && (c->members[i].row->style || outcome_of(t, c->members[i].row)->explained);
+        supported = supported &&
+                    (fault_is_style(c->members[i].row, t->s->interface) || outcome_of(t, c->members[i].row)->explained);
     c->fits = c->fits && supported;
     return true;
 }
@@ -339,7 +364,8 @@ static bool try_supported(struct state *t, bool all, struct candidate *c, lam_er
         for (int m = 0; ok && m < fault_count; m++) {
             struct outcome *o = &t->outcomes[m];
             int mine = count_bits(o->explained & ~covered), most = next ? count_bits(next->explained & ~covered) : 0;
-            if (used[m] || !mine || faults[m].style || mine < most || (mine == most && o->mean >= next->mean))
+            if (used[m] || !mine || fault_is_style(&faults[m], t->s->interface) || mine < most ||
+                (mine == most && o->mean >= next->mean))
                 continue;
             ok = find_spoils(t, o, error);
             if (ok && !o->spoils && (all || is_the_one(t, o, error, &ok)))
@@ -456,7 +482,7 @@ static bool find_also(struct state *t, const struct candidate *best, int i, stru
 {
     for (int m = 0; m < fault_count && found->also_count < MAX_ALSO; m++) {
         struct outcome *o = &t->outcomes[m];
-        if (!o->applies || faults[m].style || faults[m].rare || faults[m].fit ||
+        if (!o->applies || fault_is_style(&faults[m], t->s->interface) || faults[m].rare || faults[m].fit ||
             strcmp(faults[m].id, found->row->id) == 0 || (m > 0 && strcmp(faults[m].id, faults[m - 1].id) == 0))
             continue;
         double most = 2 * best->mean + same_mean;
@@ -493,7 +519,7 @@ static bool store(struct state *t, struct candidate *c, lam_error *error)
         rebuild(&part);
         if (!try_candidate(t, &part, no_limit, error))
             return false;
-        if (c->members[i].row->style) {
+        if (fault_is_style(c->members[i].row, s->interface)) {
             s->styles[s->style_count++] = c->members[i].row;
             continue;
         }
@@ -515,6 +541,10 @@ static bool store(struct state *t, struct candidate *c, lam_error *error)
 static bool search(struct state *t, lam_error *error)
 {
     struct candidate best = {0};
+    if (!try_forms(t, &best, error))
+        return false;
+    if (best.fits)
+        return store(t, &best, error);
     if (!try_each(t, &best, error))
         return false;
     if (!best.fits && !t->s->has_unset_names) {

@@ -350,7 +350,12 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
                   {"normal_matrix4", SEMANTIC_NORMAL_MATRIX, SEMANTIC_NORMAL_MATRIX}};
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
         enum uniform_semantic semantic = space == LAM_FRAME_WORLD ? values[i].world : values[i].eye;
-        if (semantic != SEMANTIC_NONE)
+        if (space == LAM_FRAME_OBJECT && semantic == SEMANTIC_PROJECTION)
+            semantic = SEMANTIC_MODEL_VIEW_PROJECTION;
+        if (space == LAM_FRAME_OBJECT && semantic == SEMANTIC_MODEL_VIEW) {
+            const lam_mat4 identity = lam_mat4_identity();
+            set(m, values[i].name, 1, 16, matrix_value(&identity).v);
+        } else if (semantic != SEMANTIC_NONE)
             set(m, values[i].name, 1, 16, uniform_semantic_value(semantic, 0, space, reference_scene, &matrices).v);
     }
     set(m, "eye_position", 1, 4, uniform_semantic_value(SEMANTIC_EYE_POSITION, 0, space, reference_scene, &matrices).v);
@@ -402,7 +407,9 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
                                  .cull = !closed       ? LAM_CHECK_CULL_NONE
                                          : upside_down ? LAM_CHECK_CULL_FRONT
                                                        : LAM_CHECK_CULL_BACK};
-    const struct map_inputs inputs = {
-        {place_input(m->program, "texture_coordinate", true), -1}, place_input(m->program, "tangent", true), -1};
+    const struct map_inputs inputs = {{place_input(m->program, "texture_coordinate", true), -1},
+                                      place_input(m->program, "tangent", true),
+                                      -1,
+                                      {-1, -1}};
     return place_draw(&m->place, reference_scene->mesh, &drawing, &inputs, pixels, error);
 }

@@ -49,7 +49,7 @@ const struct fault faults[] = {
     ROW("normal-unit-late", BITS(LONG_NORMAL_VERTEX), WHERE_FRAGMENT, 0,
         "the normal is normalized only in the fragment shader; the matrix changes the lengths of normals, and longer "
         "ones weigh more between vertices",
-        "N = normalize({normal_matrix} * {normal}); // in the vertex shader too"),
+        "N = normalize({normal_matrix} * {normal}); // in the vertex shader too", .demand = DEMAND_UNIT_NORMALS),
     ROW("normal-never-unit", BITS(LONG_NORMAL, LONG_NORMAL_VERTEX), 0, 0,
         "the normal is never normalized, although the matrix changes its length",
         "N = normalize({normal_matrix} * {normal});"),
@@ -194,7 +194,7 @@ const struct fault faults[] = {
         "the diffuse term is not attenuated", "diffuse *= 1.0 / ({a} + {b} * d + {c} * d * d);"),
     ROW("ambient-attenuated", BITS(AMBIENT_ATTENUATED), WHERE_CLASSIC, NEED_ATTENUATION | NEED_AMBIENT,
         "the ambient term is attenuated, although ambient light comes from everywhere",
-        "color = ambient + attenuation * (diffuse + specular);"),
+        "color = ambient + attenuation * (diffuse + specular);", .demand = DEMAND_BARE_AMBIENT),
     ROW("attenuation-swapped", BITS(ATTENUATION_SWAPPED), WHERE_CLASSIC, NEED_ATTENUATION,
         "the linear and the quadratic coefficient are swapped",
         "float attenuation = 1.0 / ({a} + {b} * d + {c} * d * d);"),
@@ -227,7 +227,7 @@ const struct fault faults[] = {
     // --- terms
     ROW("no-gate", BITS(NO_GATE), WHERE_CLASSIC, 0,
         "the highlight is kept where the surface faces away from the light (n.l <= 0)",
-        "float s = dot(N, L) > 0.0 ? {S} : 0.0;"),
+        "float s = dot(N, L) > 0.0 ? {S} : 0.0;", .demand = DEMAND_GATE),
     ROW("no-clamp", BITS(NO_CLAMP), 0, 0, "n.l is not clamped at 0: the diffuse term subtracts light",
         "float d = max(dot(N, L), 0.0);"),
     ROW("lit-from-behind", BITS(ABSOLUTE), WHERE_CLASSIC, 0,

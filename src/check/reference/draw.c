@@ -85,6 +85,8 @@ static void add_binding(struct shader_run *run, int index)
         report_unknown(&run->drawn, input->name);
         return;
     }
+    if (input->type == LAM_CHECK_TYPE_OTHER && known->semantic == SEMANTIC_ZERO)
+        return; // the value of a uniform that nobody sets
     if (!type_fits(input->type, known)) {
         if (run->drawn.types_count < MAX_UNKNOWN_NAMES)
             snprintf(run->drawn.types[run->drawn.types_count++], sizeof run->drawn.types[0],
@@ -118,6 +120,8 @@ static void add_attribute(struct shader_run *run, int index)
         run->tangent = index;
     else if (known->semantic == SEMANTIC_BITANGENT)
         run->maps.bitangent = index;
+    else if (known->semantic == SEMANTIC_FACTOR)
+        run->maps.factors[run->maps.factors[0] < 0 ? 0 : 1] = index;
     else if (known->semantic == SEMANTIC_TEXCOORD && run->interface.maps)
         run->maps.texture_coordinates[run->maps.texture_coordinates[0] < 0 ? 0 : 1] = index;
 }

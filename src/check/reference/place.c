@@ -1,5 +1,6 @@
 // place.c: meshes for a painter, made when they are first drawn.
 #include "place.h"
+#include "contract.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -43,6 +44,7 @@ void place_close(struct place *p)
         if (p->meshes[i].index_count)
             reference_points_free(&p->points[i]);
         free(p->normals[i]);
+        free(p->factors[i]);
     }
     *p = (struct place){0};
 }
@@ -74,19 +76,35 @@ static bool make_mesh(struct place *p, enum reference_mesh mesh, lam_error *erro
     return true;
 }
 
-const struct map_inputs no_map_inputs = {{-1, -1}, -1, -1};
+const struct map_inputs no_map_inputs = {{-1, -1}, -1, -1, {-1, -1}};
+
+static bool make_factors(struct place *p, enum reference_mesh mesh, lam_error *error)
+{
+    size_t count = (size_t)p->points[mesh].vertex_count;
+    struct reference_matrices none = {0};
+    struct reference_scene empty = {0};
+    struct uniform_value value = uniform_semantic_value(SEMANTIC_FACTOR, 0, LAM_FRAME_WORLD, &empty, &none);
+    if (p->factors[mesh])
+        return true;
+    float *all = p->factors[mesh] = malloc(count * 4 * sizeof *all);
+    for (size_t i = 0; all && i < count; i++)
+        memcpy(all + 4 * i, value.v, 4 * sizeof *all);
+    return all || fail_memory(error, count * 4 * sizeof *all);
+}
 
 bool place_draw(struct place *p, enum reference_mesh mesh, const lam_check_drawing *drawing,
                 const struct map_inputs *inputs, float *pixels, lam_error *error)
 {
-    if (!make_mesh(p, mesh, error))
+    if (!make_mesh(p, mesh, error) || (inputs->factors[0] >= 0 && !make_factors(p, mesh, error)))
         return false;
     const struct reference_points *points = &p->points[mesh];
     const lam_check_stream all[] = {
         {.input = inputs->texture_coordinates[0], .components = 2, .numbers = points->texture_coordinates},
         {.input = inputs->texture_coordinates[1], .components = 2, .numbers = points->texture_coordinates},
         {.input = inputs->tangent, .components = 4, .numbers = points->surface_tangents},
-        {.input = inputs->bitangent, .components = 3, .numbers = points->bitangents}};
+        {.input = inputs->bitangent, .components = 3, .numbers = points->bitangents},
+        {.input = inputs->factors[0], .components = 4, .numbers = p->factors[mesh]},
+        {.input = inputs->factors[1], .components = 4, .numbers = p->factors[mesh]}};
     enum { STREAMS = sizeof all / sizeof *all };
     lam_check_stream streams[STREAMS];
     lam_check_drawing whole = *drawing;

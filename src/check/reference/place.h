@@ -4,7 +4,7 @@
 
 #include "reference_scene.h"
 
-enum { MAX_TEXTURE_COORDINATES = 2 };
+enum { MAX_TEXTURE_COORDINATES = 2, MAX_FACTORS = 2 };
 
 struct place {
     lam_check_painter painter; // a copy: the caller's may be gone while a cache keeps the place
@@ -14,6 +14,7 @@ struct place {
     struct reference_points points[MESH_COUNT];
     lam_check_mesh meshes[MESH_COUNT]; // index_count 0: not made yet
     float *normals[MESH_COUNT];        // four floats each
+    float *factors[MESH_COUNT];        // likewise, made when one is first drawn
 };
 
 bool place_open(struct place *place, const lam_check_painter *painter, lam_check_language language, int size,
@@ -23,6 +24,7 @@ void place_close(struct place *place); // a zeroed one is fine
 // The inputs of a program that get what maps need; -1: none.
 struct map_inputs {
     int texture_coordinates[MAX_TEXTURE_COORDINATES], tangent, bitangent; // tangent: of four floats
+    int factors[MAX_FACTORS];                                             // colours that are the same at every vertex
 };
 extern const struct map_inputs no_map_inputs;
 

@@ -1,0 +1,628 @@
+// check_fit.c: compares a shader whose strengths and colours are its own with sums of an ambient, a diffuse and a specular term.
+//
+// The fault shader draws each term of a scene in a channel of its own (shader_interface_scene). A reading is a highlight, an
+// exponent, and forms or a fault. The factors of its terms, the same in every scene, are those of the least squares. The shader
+// passes if some reading of a correct shader explains every scene, and differs if one with a single known mistake does.
+// Otherwise there is no verdict: what the check does not understand may well be right.
+#include "check_run.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "arena.h"
+#include "elementary.h"
+#include "fail.h"
+#include "fault_search.h"
+#include "number.h"
+#include "render_cache.h"
+
+enum {
+    MAX_EXPONENTS = 6,
+    MAX_FORMS = 3,
+    MAX_READINGS = 400,
+    FIRST_SCENES = 1,
+    MAX_BASES = 12,
+    MAX_FAULTS = 2,
+    MAX_NEAREST = 3
+};
+
+static const double min_diffuse = 0.02;  // the least factor of a diffuse term that is evidence of lighting
+static const double min_mean = 0.02;     // the least difference that is one without an explanation
+static const double max_negative = 0.01; // a factor below its negative is no strength
+
+struct reading {
+    lam_reflection reflection;
+    bool has_highlight, decoded; // pow(x, 1/2.2) is undone before
+    fault_set set;
+    const struct fault *forms[MAX_FORMS];
+    int form_count;
+    const struct fault *faults[MAX_FAULTS];
+    int fault_count;
+    double factors[3][3]; // of red, green and blue; of the ambient, diffuse and specular term
+    double mean;          // difference
+    bool fits;
+};
+
+struct fit {
+    struct run *r;
+    struct fault_shader *shader; // of the strided pictures
+    int stride, size;
+    uint32_t *from[MAX_SCENES],
+        *to[MAX_SCENES]; // indices of the pixels: in the shader's pictures, and in those drawn here
+    size_t count[MAX_SCENES];
+    float *basis[MAX_SCENES], *pixels;
+};
+
+// --- pictures
+
+static bool draw_terms(struct run *r, struct fault_shader *shader, int scene, const struct reading *g, float *pixels,
+                       lam_error *error)
+{
+    return fault_shader_draw(shader, &r->scenes[scene].reference_scene, &r->interface,
+                             shader_interface_light_count(&r->interface), r->interface.light_frame, g->reflection,
+                             &g->set, pixels, error);
+}
+
+static double decode(double x, bool decoded) { return decoded && x > 0 ? math_pow(x, 2.2) : x; }
+
+// The factors of least squares of the first `scene_count` scenes.
+static void solve(const struct fit *f, int scene_count, struct reading *g)
+{
+    for (int c = 0; c < 3; c++) {
+        double a[3][4] = {{0}};
+        for (int s = 0; s < scene_count; s++)
+            for (size_t i = 0; i < f->count[s]; i++) {
+                double y = (double)f->r->scenes[s].theirs[4 * (size_t)f->from[s][i] + (size_t)c];
+                if (!(y > 0 && y < 1)) // clamped, or not a number
+                    continue;
+                const float *b = f->basis[s] + 3 * i;
+                y = decode(y, g->decoded);
+                for (int k = 0; k < 3; k++) {
+                    for (int m = 0; m < 3; m++)
+                        a[k][m] += (double)b[k] * (double)b[m];
+                    a[k][3] += (double)b[k] * y;
+                }
+            }
+        for (int k = 0; k < 3; k++) { // Gauss, without a term that is nowhere
+            if (a[k][k] < 1e-6 || (k == 2 && !g->has_highlight))
+                continue;
+            for (int m = 0; m < 3; m++) {
+                double times = m == k ? 0 : a[m][k] / a[k][k];
+                for (int n = 0; n < 4; n++)
+                    a[m][n] -= times * a[k][n];
+            }
+        }
+        for (int k = 0; k < 3; k++)
+            g->factors[c][k] = a[k][k] < 1e-6 || (k == 2 && !g->has_highlight) ? 0 : a[k][3] / a[k][k];
+    }
+}
+
+static double clamped(double x) { return x > 0 ? (x < 1 ? x : 1) : 0; }
+
+// Measures a reading in the first `scene_count` scenes.
+static bool measure(struct fit *f, int scene_count, struct reading *g, lam_error *error)
+{
+    for (int s = 0; s < scene_count; s++) {
+        if (!draw_terms(f->r, f->shader, s, g, f->pixels, error))
+            return false;
+        for (size_t i = 0; i < f->count[s]; i++)
+            memcpy(f->basis[s] + 3 * i, f->pixels + 4 * (size_t)f->to[s][i], 3 * sizeof(float));
+    }
+    solve(f, scene_count, g);
+    double diffuse = 0, lit = 0;
+    g->fits = true;
+    g->mean = 0;
+    for (int c = 0; c < 3; c++) {
+        diffuse = g->factors[c][1] > diffuse ? g->factors[c][1] : diffuse;
+        lit = g->factors[c][1] + g->factors[c][2] > lit ? g->factors[c][1] + g->factors[c][2] : lit;
+        for (int k = 0; k < 3; k++)
+            g->fits = g->fits && g->factors[c][k] > -max_negative;
+    }
+    g->fits = g->fits && diffuse > min_diffuse;
+    double tolerance = f->r->tolerance * (lit < 1 ? lit : 1); // products of small colours are dark
+    for (int s = 0; s < scene_count; s++) {
+        double sum = 0;
+        size_t over = 0;
+        for (size_t i = 0; i < f->count[s]; i++) {
+            const float *b = f->basis[s] + 3 * i, *theirs = f->r->scenes[s].theirs + 4 * (size_t)f->from[s][i];
+            double largest = 0;
+            for (int c = 0; c < 3; c++) {
+                const double *x = g->factors[c];
+                double difference = clamped(x[0] * (double)b[0] + x[1] * (double)b[1] + x[2] * (double)b[2]) -
+                                    decode(clamped((double)theirs[c]), g->decoded);
+                difference = difference < 0 ? -difference : difference;
+                sum += difference / 3;
+                largest = difference > largest ? difference : largest;
+            }
+            over += largest > tolerance;
+        }
+        double mean = f->count[s] ? sum / (double)f->count[s] : 0;
+        g->mean += mean / scene_count;
+        g->fits = g->fits && (double)over <= 0.005 * (double)f->count[s] + 1 && mean <= tolerance / 4;
+    }
+    return true;
+}
+
+// Measures a reading in all scenes, if it fits the first ones.
+static bool try_reading(struct fit *f, struct reading *g, lam_error *error)
+{
+    int first = f->r->scene_count < FIRST_SCENES ? f->r->scene_count : FIRST_SCENES;
+    return measure(f, first, g, error) && (!g->fits || measure(f, f->r->scene_count, g, error));
+}
+
+// --- readings
+
+static const struct fault *row_of(const char *id)
+{
+    for (int i = 0; i < fault_count; i++)
+        if (strcmp(faults[i].id, id) == 0)
+            return &faults[i];
+    return NULL;
+}
+
+static bool uses(const struct run *r, const char *word)
+{
+    return declarations_uses(&r->interface.vertex, word) || declarations_uses(&r->interface.fragment, word);
+}
+
+static bool read_literal(const char *text, double *out)
+{
+    const uint8_t *end = (const uint8_t *)text + strcspn(text, "fF");
+    return text[0] && strchr("0123456789", text[0]) && number_double((const uint8_t *)text, end, out) == end;
+}
+
+static void add_exponent(float out[MAX_EXPONENTS], int *count, double x)
+{
+    bool known = x < 2 || x > 4096 || *count == MAX_EXPONENTS;
+    for (int k = 0; k < *count; k++)
+        known = known || (double)out[k] == x;
+    if (!known)
+        out[(*count)++] = (float)x;
+}
+
+// The second argument of pow, whose bracket is word `at`: a number, or a variable that is given one.
+static bool read_exponent(const struct declarations *d, int at, double *out)
+{
+    int depth = 0;
+    for (int i = at; i + 2 < d->word_count; i++) {
+        const char *text = d->words[i].text;
+        depth += (strcmp(text, "(") == 0) - (strcmp(text, ")") == 0);
+        if (depth == 0)
+            return false;
+        if (depth != 1 || strcmp(text, ",") != 0 || strcmp(d->words[i + 2].text, ")") != 0)
+            continue;
+        if (read_literal(d->words[i + 1].text, out))
+            return true;
+        for (int k = 0; k + 2 < d->word_count; k++)
+            if (strcmp(d->words[k].text, d->words[i + 1].text) == 0 && strcmp(d->words[k + 1].text, "=") == 0 &&
+                read_literal(d->words[k + 2].text, out))
+                return true;
+        return false;
+    }
+    return false;
+}
+
+// The factor of the exponent that the text writes in pow(x, shininess * factor); 0: none.
+static float find_factor(const struct declarations *d)
+{
+    for (int i = 0; i + 2 < d->word_count; i++) {
+        int depth = 0;
+        bool second = false;
+        for (int k = i + 1; strcmp(d->words[i].text, "pow") == 0 && k + 1 < d->word_count; k++) {
+            const char *text = d->words[k].text;
+            double x = 0;
+            depth += (strcmp(text, "(") == 0) - (strcmp(text, ")") == 0);
+            if (depth == 0)
+                break;
+            second = second || (depth == 1 && strcmp(text, ",") == 0);
+            if (second && read_literal(text, &x) && x > 0 && strcmp(d->words[k - 1].text, "/") == 0)
+                return (float)(1 / x);
+            if (second && read_literal(text, &x) && x > 0 &&
+                (strcmp(d->words[k - 1].text, "*") == 0 || strcmp(d->words[k + 1].text, "*") == 0))
+                return (float)x;
+        }
+    }
+    return 0;
+}
+
+// The numbers of the text that may be the exponent.
+static int find_exponents(const struct run *r, float out[MAX_EXPONENTS])
+{
+    const struct declarations *d = r->interface.vertex_lit ? &r->interface.vertex : &r->interface.fragment;
+    int count = 0;
+    if (shader_interface_uses(&r->interface, SEMANTIC_SHININESS)) {
+        out[0] = 0;
+        return 1;
+    }
+    for (int i = 0; i + 1 < d->word_count; i++) {
+        double x = 0;
+        if (strcmp(d->words[i].text, "pow") == 0 && read_exponent(d, i + 1, &x))
+            add_exponent(out, &count, x);
+    }
+    for (int i = 0; i < d->word_count && !count && uses(r, "pow"); i++) { // behind a parameter, perhaps
+        double x = 0;
+        if (read_literal(d->words[i].text, &x))
+            add_exponent(out, &count, x);
+    }
+    return count;
+}
+
+static void add_bit(struct reading *g, enum fault_bit bit) { g->set.words[bit / 64] |= (uint64_t)1 << (bit % 64); }
+
+static void add_form(const struct run *r, struct reading *g, const struct fault *form)
+{
+    if (g->form_count < MAX_FORMS && fault_is_style(form, &r->interface)) {
+        g->set = fault_set_add(&g->set, form);
+        g->forms[g->form_count++] = form;
+    }
+}
+
+// All readings of a correct shader that the text permits.
+static int list_readings(const struct run *r, struct reading out[MAX_READINGS])
+{
+    const struct fault *gate = row_of("no-gate"), *late = row_of("normal-unit-late"),
+                       *dim = row_of("ambient-attenuated");
+    const struct shader_interface *interface = &r->interface;
+    float exponents[MAX_EXPONENTS];
+    int exponent_count = find_exponents(r, exponents), count = 0;
+    bool eye = shader_interface_uses(interface, SEMANTIC_EYE_POSITION);
+    bool attenuated = shader_interface_uses(interface, SEMANTIC_ATTENUATION_LINEAR) ||
+                      shader_interface_uses(interface, SEMANTIC_ATTENUATION_QUADRATIC) || uses(r, "length") ||
+                      uses(r, "distance");
+    bool direction = shader_interface_uses(interface, SEMANTIC_LIGHT_DIRECTION) ||
+                     shader_interface_uses(interface, SEMANTIC_LIGHT_TRAVEL) || interface->defaults.has_direction ||
+                     (interface->supports & NEED_DIRECTIONAL);
+    bool gamma = declarations_uses(&interface->fragment, "2.2");
+    // reversed, falloff, viewer, phong, exponent, gate, late, dim, gamma
+    for (int k = 0; k < 2 * 3 * 2 * 2 * MAX_EXPONENTS * 2 * 2 * 2 * 2; k++) {
+        int n = k, choices[9];
+        const int sizes[9] = {2, 2, 2, 2, 3, 2, 2, 2, MAX_EXPONENTS};
+        for (int i = 0; i < 9; i++) {
+            choices[i] = n % sizes[i];
+            n /= sizes[i];
+        }
+        bool bare = choices[0], long_normal = choices[1], blinn = choices[2], dims = choices[3], reversed = choices[5];
+        int falloff = choices[4], viewer = choices[6], decoded = choices[7], exponent = choices[8];
+        bool highlight = exponent_count > 0;
+        if ((!highlight && (bare || blinn || exponent || viewer)) || (highlight && exponent >= exponent_count) ||
+            (long_normal && interface->vertex_lit) || (dims && !attenuated) || (falloff && !attenuated) ||
+            (reversed && !direction) || (viewer && eye) || (decoded && !gamma) || count == MAX_READINGS)
+            continue;
+        struct reading *g = &out[count++];
+        *g = (struct reading){.reflection = blinn ? LAM_REFLECTION_BLINN_PHONG : LAM_REFLECTION_PHONG,
+                              .has_highlight = highlight,
+                              .decoded = decoded};
+        g->set.constant = highlight ? exponents[exponent] : 0;
+        if (highlight && exponents[exponent] == 0)
+            g->set.factor = find_factor(interface->vertex_lit ? &interface->vertex : &interface->fragment);
+        if (bare)
+            add_form(r, g, gate);
+        if (long_normal)
+            add_form(r, g, late);
+        if (dims)
+            add_form(r, g, dim);
+        if (falloff)
+            add_bit(g, falloff == 1 ? BIT_INVERSE_SQUARE : BIT_INVERSE_DISTANCE);
+        if (reversed)
+            add_bit(g, BIT_DIRECTION_REVERSED);
+        if (viewer)
+            add_bit(g, BIT_VIEWER_INFINITE);
+    }
+    return count;
+}
+
+// Faults of colours, strengths and alpha are within the factors, or no matter of them.
+static bool is_geometric(const struct fault *row)
+{
+    static const enum fault_bit others[] = {BIT_KD_KS_SWAPPED,
+                                            BIT_KA_KD_SWAPPED,
+                                            BIT_SPECULAR_TINTED,
+                                            BIT_SPECULAR_AS_DIFFUSE,
+                                            BIT_BARE_KA,
+                                            BIT_BARE_KD,
+                                            BIT_BARE_KS,
+                                            BIT_WHITE_LIGHT,
+                                            BIT_SPECULAR_LIGHT_AS_DIFFUSE,
+                                            BIT_ENCODED,
+                                            BIT_ALPHA_ONE,
+                                            BIT_ALPHA_SUM,
+                                            BIT_AMBIENT_EACH_LIGHT,
+                                            BIT_NO_AMBIENT,
+                                            BIT_NO_DIFFUSE,
+                                            BIT_NO_SPECULAR,
+                                            BIT_VERTEX_CLAMPED,
+                                            BIT_FLIP,
+                                            BIT_OTHER_LOBE,
+                                            BIT_DIRECTION_REVERSED};
+    for (int i = 0; i < MAX_FAULT_BITS && row->bits[i]; i++)
+        for (size_t k = 0; k < sizeof others / sizeof *others; k++)
+            if (row->bits[i] == others[k])
+                return false;
+    return true;
+}
+
+static bool is_single(const struct fault *row)
+{
+    return is_geometric(row) && !row->style && !row->demand && !row->whole_term && !row->fit && row->factor == 0 &&
+           !row->maps;
+}
+
+static bool has_bit(const struct fault *row, enum fault_bit bit)
+{
+    for (int i = 0; i < MAX_FAULT_BITS && row->bits[i]; i++)
+        if (row->bits[i] == bit)
+            return true;
+    return false;
+}
+
+// Adds each fault to each of the readings until one explains every scene. `nearest`: the MAX_NEAREST that come nearest.
+static bool add_faults(struct fit *f, const struct reading *readings, int count, struct reading nearest[MAX_NEAREST],
+                       struct reading *best, lam_error *error)
+{
+    for (int i = 0; i < MAX_NEAREST; i++)
+        nearest[i] = (struct reading){.mean = 1e9};
+    for (int m = 0; m < fault_count && !best->fits; m++)
+        for (int i = 0; i < count && !best->fits; i++) {
+            struct reading g = readings[i];
+            bool early = fault_set_has(&g.set, BIT_LONG_NORMAL_VERTEX) && has_bit(&faults[m], BIT_LONG_NORMAL);
+            if (early || !is_single(&faults[m]) || g.mean >= 1e9 ||
+                !fault_applies(&faults[m], &f->r->interface, f->r->interface.light_frame, g.reflection, ~0u))
+                continue;
+            g.set = fault_set_add(&g.set, &faults[m]);
+            if (fault_set_equal(&g.set, &readings[i].set))
+                continue;
+            g.faults[g.fault_count++] = &faults[m];
+            if (!try_reading(f, &g, error))
+                return false;
+            if (g.fits)
+                *best = g;
+            int at = MAX_NEAREST;
+            while (at > 0 && g.mean < nearest[at - 1].mean)
+                at--;
+            if (at < MAX_NEAREST) {
+                memmove(&nearest[at + 1], &nearest[at], (size_t)(MAX_NEAREST - 1 - at) * sizeof *nearest);
+                nearest[at] = g;
+            }
+        }
+    return true;
+}
+
+// The first fault, or else two, that explain every scene with one of the readings: `best` fits.
+static bool find_faults(struct fit *f, const struct reading *readings, int count, struct reading *best,
+                        lam_error *error)
+{
+    struct reading nearest[MAX_NEAREST], unused[MAX_NEAREST];
+    return add_faults(f, readings, count, nearest, best, error) &&
+           (best->fits || add_faults(f, nearest, MAX_NEAREST, unused, best, error));
+}
+
+// --- the report
+
+// Draws the references: a correct shader of this reading, with its factors.
+static bool draw_references(struct run *r, const struct reading *g, lam_error *error)
+{
+    size_t pixels = (size_t)r->size * (size_t)r->size;
+    struct fault_shader *shader = render_cache_take_shader(r->params->cache, &r->painter, r->size, 1, error);
+    bool ok = shader;
+    for (int s = 0; ok && s < r->scene_count; s++) {
+        float *out = r->scenes[s].reference;
+        ok = draw_terms(r, shader, s, g, out, error);
+        for (size_t i = 0; ok && i < pixels; i++) {
+            float b[3];
+            memcpy(b, out + 4 * i, sizeof b);
+            for (int c = 0; c < 3; c++) {
+                const double *x = g->factors[c];
+                double y = x[0] * (double)b[0] + x[1] * (double)b[1] + x[2] * (double)b[2];
+                out[4 * i + (size_t)c] = (float)(g->decoded ? math_pow(clamped(y), 1 / 2.2) : y);
+            }
+        }
+    }
+    render_cache_keep_shader(r->params->cache, shader);
+    return ok;
+}
+
+static void report_faults(struct run *r, const struct reading *g, double before)
+{
+    r->report->findings = arena_alloc_zeroed(r->arena, MAX_FAULTS * sizeof *r->report->findings);
+    for (int i = 0; r->report->findings && i < g->fault_count; i++) {
+        const struct fault *row = g->faults[i];
+        char explanation[400], correction[400];
+        fault_text(row->explanation, &r->interface, r->interface.light_frame, g->reflection, explanation,
+                   sizeof explanation);
+        fault_text(row->correction, &r->interface, r->interface.light_frame, g->reflection, correction,
+                   sizeof correction);
+        r->report->findings[r->report->finding_count++] =
+            (lam_check_finding){.mistake = row->id,
+                                .explanation = arena_string(r->arena, explanation),
+                                .correction = arena_string(r->arena, correction),
+                                .certain = true,
+                                .mean_before = before,
+                                .mean_after = g->mean,
+                                .share = 1};
+    }
+}
+
+static void hint_forms(struct run *r, const struct reading *g)
+{
+    for (int i = 0; i < g->form_count; i++)
+        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s; the contract accepts this form",
+                        g->forms[i]->explanation);
+    if (g->set.constant > 0)
+        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
+                        "the exponent of the highlight is taken from the text: %g", (double)g->set.constant);
+}
+
+// --- the fit
+
+static int by_mean(const void *a, const void *b)
+{
+    double x = ((const struct reading *)a)->mean, y = ((const struct reading *)b)->mean;
+    return (x > y) - (x < y);
+}
+
+// The readings with which faults are tried: those that differ from the nearest one in the highlight and its forms alone. Where
+// the text has reflect(), the highlight is Phong's.
+static int choose_bases(const struct run *r, struct reading *readings, int count, const struct reading *best)
+{
+    static const enum fault_bit same[] = {BIT_VIEWER_INFINITE, BIT_INVERSE_SQUARE, BIT_INVERSE_DISTANCE,
+                                          BIT_DIRECTION_REVERSED, BIT_AMBIENT_ATTENUATED};
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        bool fits = readings[i].decoded == best->decoded &&
+                    (readings[i].reflection == LAM_REFLECTION_PHONG || !uses(r, "reflect"));
+        for (size_t k = 0; k < sizeof same / sizeof *same; k++) {
+            bool has = fault_set_has(&readings[i].set, same[k]);
+            fits = fits && (!has || fault_set_has(&best->set, same[k]));
+        }
+        if (fits)
+            readings[kept++] = readings[i];
+    }
+    qsort(readings, (size_t)kept, sizeof *readings, by_mean);
+    return kept < MAX_BASES ? kept : MAX_BASES;
+}
+
+static bool open_fit(struct fit *f, struct run *r, lam_error *error)
+{
+    *f = (struct fit){.r = r, .stride = r->size >= 96 ? (r->size + 20) / 43 : r->size >= 70 ? 2 : 1};
+    f->size = fault_shader_size(r->size, f->stride);
+    size_t small = (size_t)f->size * (size_t)f->size;
+    f->pixels = arena_array(r->arena, small, 4 * sizeof(float));
+    bool ok =
+        f->pixels && (f->shader = render_cache_take_shader(r->params->cache, &r->painter, r->size, f->stride, error));
+    for (int s = 0; ok && s < r->scene_count; s++) {
+        struct scene_comparison *scene = &r->scenes[s];
+        f->from[s] = arena_array(r->arena, small, sizeof(uint32_t));
+        f->to[s] = arena_array(r->arena, small, sizeof(uint32_t));
+        f->basis[s] = arena_array(r->arena, small, 3 * sizeof(float));
+        ok = (f->from[s] && f->to[s] && f->basis[s]) || fail_memory(error, small * 20);
+        for (size_t i = 0; ok && i < scene->inside_count; i++) {
+            int x = (int)scene->inside[i] % r->size, below = r->size - 1 - (int)scene->inside[i] / r->size;
+            if (x % f->stride || below % f->stride)
+                continue;
+            f->from[s][f->count[s]] = scene->inside[i];
+            f->to[s][f->count[s]++] = (uint32_t)((f->size - 1 - below / f->stride) * f->size + x / f->stride);
+        }
+    }
+    return ok;
+}
+
+// Finds the pixels to compare. `missing`: the least share of a scene's that the shader does not draw; one that faces away may be
+// black and transparent.
+static bool find_inside(struct run *r, double *missing, lam_error *error)
+{
+    const struct reading plain = {.reflection = LAM_REFLECTION_PHONG};
+    for (int s = 0; s < r->scene_count; s++)
+        r->scenes[s].reference_scene = shader_interface_scene(&r->interface, r->scenes[s].row);
+    if (!draw_references(r, &plain, error))
+        return false;
+    *missing = 1;
+    for (int s = 0; s < r->scene_count; s++) {
+        scene_comparison_find_inside(&r->scenes[s], r->size);
+        double share = check_missing_share(&r->scenes[s], false);
+        *missing = share < *missing ? share : *missing;
+    }
+    return true;
+}
+
+// Whether the texts are made of nothing but the words of an ambient, a diffuse and a specular term: then pictures that no reading
+// explains are wrong. Steps, cones, distances, rims and the like may be right, and are not understood.
+static bool is_plain(const struct run *r)
+{
+    static const char *const known =
+        " if for while return main normalize dot max min clamp pow reflect vec2 vec3 vec4 mat3 mat4 "
+        "float int abs sqrt inversesqrt inverse transpose location layout binding defined ";
+    const struct declarations *sides[] = {&r->interface.vertex, &r->interface.fragment};
+    if (strstr(r->interface.contract->title, "exclusion"))
+        return false;
+    for (int s = 0; s < 2; s++)
+        for (int i = 1; i + 1 < sides[s]->word_count; i++) {
+            const struct word *w = &sides[s]->words[i];
+            const char *next = w[1].text, *before = w[-1].text;
+            char padded[70];
+            double x = 0;
+            snprintf(padded, sizeof padded, " %s ", w->text);
+            bool call = strcmp(next, "(") == 0 && (isalpha((unsigned char)w->text[0]) || w->text[0] == '_');
+            bool own = false; // a function of the text: its name follows a type
+            for (int k = 1; call && k < sides[s]->word_count && !own; k++)
+                own = strcmp(sides[s]->words[k].text, w->text) == 0 && sides[s]->words[k].depth == 0 &&
+                      isalpha((unsigned char)sides[s]->words[k - 1].text[0]);
+            double divisor = 0; // a division by w is that of a projection; by a distance, it may be an attenuation
+            bool of_w = i + 3 < sides[s]->word_count && strcmp(w[2].text, ".") == 0 && strcmp(w[3].text, "w") == 0;
+            bool quotient = strcmp(w->text, "/") == 0 && !read_literal(next, &divisor) && !of_w;
+            bool number = read_literal(w->text, &x);
+            bool compared = false; // with anything but 0, outside of a loop's head
+            if (w->text[0] == '<' || w->text[0] == '>') {
+                const char *after = next[0] == '=' ? w[2].text : next;
+                double zero = 1;
+                bool in_head = false;
+                for (int k = i; k > 0 && k > i - 10; k--)
+                    in_head = in_head || strcmp(sides[s]->words[k].text, "for") == 0;
+                compared = !in_head && !((read_literal(after, &zero) || read_literal(before, &zero)) && zero == 0);
+            }
+            bool rim = number && x == 1 && strcmp(next, "-") == 0;
+            if ((call && !own && !strstr(known, padded)) || compared || rim || strcmp(w->text, "discard") == 0 ||
+                quotient || strcmp(w->text, "flat") == 0 || strcmp(w->text, "gl_FrontFacing") == 0)
+                return false;
+        }
+    return true;
+}
+
+bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reason, size_t capacity, lam_error *error)
+{
+    struct fit f = {0};
+    double missing = 0;
+    *outcome = FIT_UNKNOWN;
+    shader_interface_set_counts(&r->interface, r->drawn.group_counts);
+    if (!find_inside(r, &missing, error))
+        return false;
+    if (missing > 0.02) {
+        snprintf(reason, capacity, "%.0f %% of the model is not drawn where the check expects it", missing * 100);
+        return true;
+    }
+    struct reading *readings = arena_array(r->arena, MAX_READINGS, sizeof *readings), best = {.mean = 1e9};
+    if (!readings || !open_fit(&f, r, error))
+        return readings ? false : fail_memory(error, MAX_READINGS * sizeof *readings);
+    int count = list_readings(r, readings);
+    bool ok = true;
+    for (int i = 0; ok && i < count && !best.fits; i++) {
+        ok = try_reading(&f, &readings[i], error);
+        if (readings[i].fits || readings[i].mean < best.mean)
+            best = readings[i];
+    }
+    count = choose_bases(r, readings, count, &best);
+    struct reading correct = best;
+    double before = best.mean;
+    if (ok && count && !best.fits)
+        ok = find_faults(&f, readings, count, &best, error);
+    render_cache_keep_shader(r->params->cache, f.shader);
+    if (!ok)
+        return false;
+    bool plain = !best.fits && best.mean > min_mean && is_plain(r);
+    if (!best.fits && !plain) {
+        snprintf(reason, capacity,
+                 "its pictures are no sum of an ambient, a diffuse and a specular term that the check knows");
+        return true;
+    }
+    bool explained = best.fault_count > 0;
+    if (explained) {
+        memcpy(correct.factors, best.factors, sizeof correct.factors);
+        correct.reflection = best.reflection;
+    }
+    if (!draw_references(r, &correct, error))
+        return false;
+    check_measure(r, writes);
+    *outcome = explained ? FIT_EXPLAINED : plain ? FIT_DIFFERS : FIT_RIGHT;
+    if (r->report->verdict == LAM_CHECK_NOT_NUMBER)
+        *outcome = FIT_EXPLAINED;
+    else if ((explained || plain) == (r->report->verdict == LAM_CHECK_PASSES))
+        *outcome = FIT_UNKNOWN; // the full pictures say something else
+    if (*outcome == FIT_UNKNOWN)
+        snprintf(reason, capacity, "its pictures are near to those of a right shader, and not the same");
+    else if (explained)
+        report_faults(r, &best, before);
+    if (*outcome == FIT_RIGHT)
+        hint_forms(r, &best);
+    return true;
+}

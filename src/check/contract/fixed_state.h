@@ -1,0 +1,11 @@
+// fixed_state.h: the lights and materials of OpenGL's fixed state, as GLSL 110 and 120 read them.
+#ifndef FIXED_STATE_H
+#define FIXED_STATE_H
+
+#include <lambent/base.h>
+
+// A text that reads uniforms of its own where it read gl_LightSource, gl_FrontMaterial and the like, so that they can be given
+// values: fixed_LightSource[i].position. From malloc. `ok` false: no memory. NULL otherwise: it reads none of them.
+char *fixed_state_rewrite(const char *text, bool *ok);
+
+#endif

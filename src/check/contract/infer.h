@@ -1,0 +1,15 @@
+// infer.h: a contract made from a pair of shaders: the role of each input by its use, its type, and the words in its name.
+//
+// Nothing is certain: the contract's strengths are any, and its verdict counts only if the pictures confirm it (check_fit.c).
+#ifndef INFER_H
+#define INFER_H
+
+#include "contract.h"
+
+// The text of contract number `guess` (0, 1, …) for the shaders, from malloc; they differ in the spaces that the text leaves
+// open. NULL: no such guess; `reason` says what cannot be driven if it is the first, "" otherwise. `engine`: a contract whose
+// prefix the texts lack, or NULL.
+char *contract_infer(const struct declarations *vertex, const struct declarations *fragment,
+                     const struct contract *engine, int guess, char *reason, size_t capacity);
+
+#endif

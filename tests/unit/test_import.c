@@ -26,16 +26,29 @@ static void expect_error(const char *bytes, size_t size, const char *name, lam_c
 static void test_formats(void **unused)
 {
     (void)unused;
-    assert_string_equal(lam_model_format_name(0), "obj");
-    assert_string_equal(lam_model_format_name(1), "stl");
-    assert_string_equal(lam_model_format_name(2), "ply");
-    assert_string_equal(lam_model_format_name(3), "gltf");
-    assert_string_equal(lam_model_format_name(4), "scene");
-    assert_null(lam_model_format_name(5));
+    static const char *const known[][2] = {
+        {"obj", "obj"}, {"stl", "stl"}, {"ply", "ply"}, {"gltf", "gltf glb"}, {"scene", "json"}};
+    int count = 0, found = 0;
+    const char *name;
+    for (; (name = lam_model_format_name(count)); count++) {
+        assert_true(lam_model_format_extensions(count) && *lam_model_format_extensions(count));
+        for (int i = 0; i < count; i++)
+            assert_string_not_equal(name, lam_model_format_name(i));
+        for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+            if (strcmp(name, known[i][0]) == 0) {
+                assert_string_equal(lam_model_format_extensions(count), known[i][1]);
+                found++;
+            }
+        // Its own name asks for it, so that an error is its reader's.
+        lam_error error = {0};
+        assert_null(lam_scene_load_memory("?", 1, "a", &(lam_load_params){.format = name}, NULL, &error));
+        assert_non_null(error.text[0] ? error.text : NULL);
+        assert_null(strstr(error.text, "cannot be read"));
+    }
+    assert_int_equal(found, sizeof known / sizeof *known);
     assert_null(lam_model_format_name(-1));
-    assert_string_equal(lam_model_format_extensions(0), "obj");
-    assert_string_equal(lam_model_format_extensions(3), "gltf glb");
-    assert_null(lam_model_format_extensions(5));
+    assert_null(lam_model_format_extensions(-1));
+    assert_null(lam_model_format_extensions(count));
 }
 
 // The content decides the format; the extension only resolves ambiguity.

@@ -182,7 +182,7 @@ static const struct word shading_words[] = {
 
 // Filled by option_table_fill.
 static struct word reflection_words[LAM_REFLECTION_COUNT + 1];
-static char reflection_summary[400];
+static char reflection_summary[400], output_summary[200];
 
 static const struct word tone_words[] = {
     {"auto", LAM_TONE_AUTO, "khronos-neutral for physical materials, else none"},
@@ -291,12 +291,9 @@ static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest that 
                                         {NULL, 0, NULL}};
 
 const struct option option_table[] = {
-    {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png",
-     "Write to FILE (.png, .ppm, .pfm, .exr, .jpg, .webp; or .html), to the folder FILE/, or to standard output (-).",
-     "The extension selects the format: `.png` (8 bits, sRGB, with alpha), `.ppm` (8 bits over the background), "
-     "`.jpg` (8 bits over the background, lossy: `--quality`), `.webp` (8 bits with alpha, lossless; needs libwebp), "
-     "`.pfm` and `.exr` (linear floats, premultiplied by alpha; `.exr` needs OpenEXR's library). `-` writes a "
-     "PNG to standard output; a pipe or device whose name has no such extension also gets a PNG. Without this "
+    {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", output_summary,
+     "The extension selects the format; `lambent formats` says which numbers each holds. `-` writes a PNG to standard "
+     "output; a pipe or device whose name has no such extension also gets a PNG. Without this "
      "option the picture is written to the current folder under the model's name with the extension `.png` "
      "(`model.png` if the model comes from standard input); a file of that name that lambent did not write is "
      "never overwritten. `-o pictures/`, with a trailing slash, does the same in that folder, and makes it if it "
@@ -1136,6 +1133,12 @@ void option_table_fill(void)
             end = append(append(end, i > LAM_REFLECTION_NONE ? ", " : " "), model->word);
     }
     append(end, " or auto.");
+    end = append(output_summary, "Write to FILE (");
+    const char *name;
+    for (int i = 0; (name = lam_image_format_name(i)); i++)
+        if (lam_image_format_written(i) && end - output_summary < (int)sizeof output_summary - 100)
+            end = append(append(end, i ? ", ." : "."), name);
+    append(end, "; or .html), to the folder FILE/, or to standard output (-).");
     for (int i = 0; lam_check_contract_shipped(i) && i + 2 < CONTRACT_WORDS_MAX; i++)
         contract_words[i + 1].name = lam_check_contract_shipped(i);
 }

@@ -322,7 +322,7 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, const lam
         wanted |= lam_scene_light(scene, i)->occluded > 0;
     for (int i = 0; i < frame->rig_count; i++)
         wanted |= frame->rig[i].occluded > 0;
-    bool lit = false; // what has none all the same
+    bool lit = false; // some opaque surface is lit
     for (int i = 0; i < frame->range_count; i++)
         lit |= frame->ranges[i].reflection != LAM_REFLECTION_NONE &&
                (!frame->ranges[i].translucent || frame->draws[frame->ranges[i].draw].ground);

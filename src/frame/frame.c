@@ -180,7 +180,7 @@ static bool add_ground(struct frame *frame, const lam_draw_params *params, uint6
                        const lam_mat4 *view, const lam_mat4 *pixel, struct call_control *call, lam_error *error)
 {
     struct frame_ground *ground = &frame->ground;
-    if (!frame_ground_make(frame, call, error))
+    if (!frame_ground_make(frame, view, pixel, call, error))
         return false;
     if (next + ground->mesh.triangle_count > TRIANGLES_MAX)
         return fail(error, LAM_LIMIT, "the scene has more than %u triangles", TRIANGLES_MAX);

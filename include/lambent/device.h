@@ -370,13 +370,9 @@ LAM_API bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const 
                               const lam_draw_params *params, int width, int height, const lam_control *control,
                               double *stops, lam_error *error);
 
-// lam_camera_fit for a picture with a ground (params->ground): the camera also shows the part of the ground where the
-// scene's shadows and its occlusion of the ground fall. A shadow longer than the picture can hold is cut: the scene keeps
-// at least 0.7 of the size that lam_camera_fit gives it. Lights that stand in the camera's frame are taken as that camera
-// has them. `axis` not NULL: the scene turns about an axis through `centre`, as in lam_camera_fit_turning, and its shadows of all
-// angles count; give it the scene before it turns. Without a ground, or where the camera would see its under side, it is
-// the camera of those functions, as it is where the frame could not be drawn, and where so many lights cast shadows (some
-// 1,700 soft or 8,700 hard ones; 70 or 350 where the scene turns) that their ends would take more than 80 MB. `params` NULL:
+// lam_camera_fit for a picture with a ground (params->ground): if the view has no fill, the scene takes 0.8 of the picture,
+// and the rest is for its shadow. `axis` not NULL: the scene turns about an axis through `centre`, as in
+// lam_camera_fit_turning; give it the scene before it turns. Without a ground it is the camera of those functions. `params` NULL:
 // no ground.
 LAM_API lam_camera lam_camera_fit_ground(const lam_scene *scene, const lam_draw_params *params, int width, int height,
                                          const lam_view *view, lam_vec3 centre, const lam_vec3 *axis);

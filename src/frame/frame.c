@@ -180,7 +180,7 @@ static bool add_ground(struct frame *frame, const lam_draw_params *params, uint6
                        const lam_mat4 *view, const lam_mat4 *pixel, struct call_control *call, lam_error *error)
 {
     struct frame_ground *ground = &frame->ground;
-    if (!frame_ground_make(frame, call, error))
+    if (!frame_ground_make(frame, view, pixel, call, error))
         return false;
     if (next + ground->mesh.triangle_count > TRIANGLES_MAX)
         return fail(error, LAM_LIMIT, "the scene has more than %u triangles", TRIANGLES_MAX);
@@ -322,7 +322,7 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, const lam
         wanted |= lam_scene_light(scene, i)->occluded > 0;
     for (int i = 0; i < frame->rig_count; i++)
         wanted |= frame->rig[i].occluded > 0;
-    bool lit = false; // what has none all the same
+    bool lit = false; // some opaque surface is lit
     for (int i = 0; i < frame->range_count; i++)
         lit |= frame->ranges[i].reflection != LAM_REFLECTION_NONE &&
                (!frame->ranges[i].translucent || frame->draws[frame->ranges[i].draw].ground);

@@ -10,8 +10,6 @@
 #include "frame.h"
 
 // Where lam_draw_params do not say, pixels.
-#define STROKE_LINE_WIDTH 1.5
-#define STROKE_POINT_SIZE 3.0
 
 struct stroke_view {
     const lam_mat4 *view, *projection, *pixel; // world to eye; eye to clip space; eye to pixels (frame_draw.pixel)

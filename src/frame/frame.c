@@ -508,7 +508,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->shadows =
         wants_shadows(params) && (lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_CLIPPED);
     frame->flat_terminator = params->flat_terminator;
-    frame->shadow_samples = params->shadow_samples ? params->shadow_samples : 16;
+    frame->shadow_samples = params->shadow_samples ? params->shadow_samples : 128;
     frame->pixel_size =
         rounded(2 * (frame->orthographic ? camera->ortho_half_height : math_tan(0.5 * camera->fovy_rad)) / height);
     set_occlusion(frame, scene, params, physical);

@@ -80,8 +80,8 @@ static const lam_setting rows[] = {
      .summary = "Things cast shadows in the light of every light whose own key shadows is not false."},
     {"shadow_terminator", MEMBER(NOT_FLAG, flat_terminator),
      .summary = "Shadows follow the curved surface that the vertices' normals stand for."},
-    {"shadow_samples", MEMBER(WHOLE, shadow_samples), .min = 1, .max = 256, .standard = 16, .expected = "0 to 256",
-     .summary = "Points of a light with a radius that each lit point is tested with."},
+    {"shadow_samples", MEMBER(WHOLE, shadow_samples), .min = 1, .max = 256, .standard = 128, .expected = "0 to 256",
+     .summary = "Shadow rays to a light with a radius from each point in its penumbra."},
     {"ground", MEMBER(WORD, ground), .word = ground_word, .expected = "lam_ground",
      .summary =
          "A ground at the lowest point: shadow is clear but for shadows and occlusion; color is that of ground_color."},

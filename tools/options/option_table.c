@@ -635,10 +635,12 @@ const struct option option_table[] = {
     {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", "on",
      "Whether shadows follow the curved surface that the normals stand for: on or off.", NULL, terminator_words,
      .store = store_word_flag, .others = "terminator shadow-bias", FIELD(draw.flat_terminator)},
-    {"shadow-samples", 0, GROUP_SHADING, "N", "16",
-     "Points of a light with a radius that each lit point is tested with.",
-     "Their share that is in sight is the share of the light that arrives.", .store = store_integer,
-     .others = "soft-shadow-samples light-samples", FIELD(draw.shadow_samples)},
+    {"shadow-samples", 0, GROUP_SHADING, "N", "128",
+     "Shadow rays to a light with a radius from each point in its penumbra.",
+     "The share of them that nothing blocks is the share of the light that arrives. Above 16, points in full light or "
+     "full "
+     "shadow get 16 rays. Fewer are faster, and show steps.",
+     .store = store_integer, .others = "soft-shadow-samples light-samples", FIELD(draw.shadow_samples)},
     {"wireframe", 'w', GROUP_SHADING, NULL, NULL, "Draw the edges of all faces as lines over the picture.",
      "Edges behind surfaces are left out (`--hidden-lines`), and so are those that cut the polygons of OBJ and PLY "
      "files "

@@ -250,9 +250,13 @@ static const struct option rows[] = {
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .of_file = true, .store = store_text,
      .alias = "out", .others = "outfile file format export save write out-dir outdir directory folder f",
      FIELD(picture.output), .single = TAKES_OUTPUT},
-    {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.", NULL,
-     .brief = "pixels: 800, or 1920x1080", .store = store_size,
-     .others = "resolution width height dimensions pixels viewport window", .max = 65535, .single = TAKES_SIZE},
+    {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.",
+     "`render` and `batch` take several sizes, at most 16, such as `1024,256x128`: each model is read once, and each "
+     "picture is drawn on its own and never scaled. With several sides (`--view`) every side is drawn in every size. "
+     "Without a pattern in `-o` the size follows the model's name: `bunny-256x128.png`.",
+     .several = "sizes", .brief = "pixels: 800, or 1920x1080", .store = store_size,
+     .others = "resolution resolutions thumbnails width height dimensions pixels viewport window", .max = 65535,
+     .single = TAKES_SIZE},
     {"samples", 0, GROUP_PICTURE, "N", "8 up to 512x512 pixels, 4 above", "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges, which matters most in small pictures; each picture of a sheet has the samples "
      "of "
@@ -369,9 +373,12 @@ static const struct option rows[] = {
      "The side to view from: front, back, left, right, top, bottom, iso or three-quarter.",
      "By default the camera stands 30 degrees to the right of the front and 20 degrees above. The model always "
      "fills 92 % of the picture's tighter side. `--azimuth` and `--elevation` change the angles of a named "
-     "side.",
-     view_words, .brief = "front, back, left, right, top, bottom or iso", .store = store_word,
-     .others = "side angle orientation front back left right top bottom isometric", FIELD(view.side)},
+     "side.\n"
+     "`render` and `batch` take several sides, at most 16, such as `front,left,iso`: each model is read once and drawn "
+     "from each. Without a pattern in `-o` the side follows the model's name: `bunny-front.png`.",
+     view_words, .several = "views", .brief = "front, back, left, right, top, bottom or iso", .store = store_word,
+     .others = "side sides cameras angle angles orientation front back left right top bottom isometric",
+     FIELD(view.side)},
     {"azimuth", 0, GROUP_VIEW, "DEGREES", "30", "The camera's angle around the model; 0 is the front, 90 the right.",
      NULL, .store = store_number, .others = "yaw heading orbit", FIELD(view.azimuth_deg),
      .has_field = offsetof(struct options, view.has_azimuth), .min = -3600, .max = 3600},
@@ -762,15 +769,10 @@ static const struct option rows[] = {
      .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(limits.allow_paths),
      .single = TAKES_PICTURE_LIMITS},
 
-    {"views", 0, GROUP_BATCH, "SIDES", "that of `--view`",
-     "Draw each model from several sides, such as front,left,iso; it is read once.",
-     "At most 16. Without a pattern in `-o` the side follows the model's name: `bunny-front.png`.", view_words,
-     .store = store_views, .others = "sides angles cameras", FIELD(batch.views)},
-    {"sizes", 0, GROUP_BATCH, "SIZES", "that of `--size`",
-     "Draw each model in several sizes, such as 1024,256x128; it is read once.",
-     "At most 16, each drawn on its own and never scaled. With `--views` every side is drawn in every size. Without a "
-     "pattern in `-o` the size follows the model's name: `bunny-256x128.png`.",
-     .store = store_sizes, .others = "resolutions thumbnails", FIELD(batch.sizes), .max = 65535},
+    {"views", 0, GROUP_BATCH, "SIDES", NULL, "Several sides.", NULL, view_words, .store = store_views, .now = "view",
+     FIELD(batch.views)},
+    {"sizes", 0, GROUP_BATCH, "SIZES", NULL, "Several sizes.", NULL, .store = store_sizes, .now = "size",
+     FIELD(batch.sizes), .max = 65535},
     {"files-from", 0, GROUP_BATCH, "FILE", NULL, "Draw the models that FILE names, one on each line; repeatable.",
      "`-` is standard input. Names are those of the current folder, as on the command line; empty lines count for "
      "nothing. `batch` takes `@FILE` for the same.",

@@ -128,6 +128,9 @@ struct option {
     bool of_file;               // says where and how a file is written: see WRITES_NO_FILE
     bool loads;                 // the model is read anew where it changes
     const lam_setting *setting; // the row of the library's table that it stores; NULL: none
+    // The option that takes several values separated by commas, and is meant where a value has one; NULL: none.
+    const char *several;
+    const char *now;    // the option that has taken its place: it works as ever, and no help lists it; NULL: none
     const char *former; // the option that had this name before: a value that is one of its words means it; NULL: none
 };
 

@@ -128,7 +128,7 @@ static bool holds_bytes(int format)
 {
     char path[32];
     lam_pixel_format pixels;
-    snprintf(path, sizeof path, ".%s", lam_image_format_name(format));
+    snprintf(path, sizeof path, "a.%s", lam_image_format_name(format));
     return lam_image_format_written(format) && lam_image_format_for(path, &pixels, NULL) && pixels == LAM_RGBA8;
 }
 

@@ -316,7 +316,8 @@ const struct option option_table[] = {
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.", NULL,
      .brief = "pixels: 800, or 1920x1080", .store = store_size,
      .others = "resolution width height dimensions pixels viewport window", .max = 65535, .single = TAKES_SIZE},
-    {"samples", 0, GROUP_PICTURE, "N", "8 up to 512x512 pixels, 4 above", "Samples per pixel: 1, 2, 4, 8 or 16.",
+    {"samples", 0, GROUP_PICTURE, "N", "16 up to 256x256 pixels, 8 up to 512x512, 4 above",
+     "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges, which matters most in small pictures; each picture of a sheet has the samples "
      "of "
      "its own size. Each triangle that covers part of a pixel is lit once in that pixel.",
@@ -333,9 +334,11 @@ const struct option option_table[] = {
      "vertices by "
      "their width, so that lines on a surface are seen, and end without caps.",
      .store = store_float, .others = "linewidth stroke-width thickness", FIELD(draw.line_width)},
-    {"point-size", 0, GROUP_PICTURE, "PIXELS", "3", "The size of the points that a model has: the sides of squares.",
+    {"point-size", 0, GROUP_PICTURE, "PIXELS", "by their number", "The diameter of the points that a model has.",
      "Points of OBJ (`p`) and glTF files, and the vertices of PLY files without faces and edges, are as large at every "
-     "distance.",
+     "distance. By default they get larger the fewer there are and the larger the picture is: 3 pixels or more, at "
+     "least 8 "
+     "if there are fewer than 100.",
      .store = store_float, .others = "pointsize point-width splat-size", FIELD(draw.point_size)},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",

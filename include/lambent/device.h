@@ -174,8 +174,8 @@ LAM_API const char *lam_output_name(lam_output output);
 // Whether an output is light: the picture, its terms, and a light.
 LAM_API bool lam_output_is_light(lam_output output);
 
-// The samples per pixel of a picture of this size, where lam_draw_params do not say: 8 up to 512² pixels, whose edges show
-// steps at 4, and 4 above.
+// The samples per pixel of a picture of this size, if lam_draw_params give none: 16 up to 256² pixels, where thin wires would break
+// into dashes, 8 up to 512², and 4 above.
 LAM_API int lam_default_samples(int width, int height);
 
 // Ambient occlusion: how much of the light from all around reaches a point past the surfaces near it
@@ -279,8 +279,8 @@ typedef struct lam_draw_params {
     // 16..1048576, in place of the split sum (docs/lighting/environment.md). 0: the split sum. The CPU device alone; others
     // refuse it (LAM_UNSUPPORTED).
     int reference;
-    // The width of lines, and the sides of the squares that points are drawn as, in pixels, up to 1000. 0: 1.5 and 3. They lie
-    // nearer to the eye by their own width, as it is seen there, so that lines on a surface are not lost in it.
+    // The width of lines, and the diameter of points, in pixels, up to 1000. 0: 1.5, and for points at least 3, more the fewer
+    // there are and the larger the picture is, 8 or more for fewer than 100. Points below 4 pixels are squares. They lie nearer to the eye by their own width, as it is seen there, so that lines on a surface are not lost in it.
     float line_width, point_size;
     // Triangles between a point and a light take the light's diffuse and specular terms away, of every light that casts
     // shadows (lam_light.no_shadows): docs/lighting/shadows.md.

@@ -19,12 +19,18 @@
 
 static float rounded(double x) { return (float)x; }
 
-// Samples per pixel of pictures of up to SMALL_SIDE² pixels, and of larger ones.
-enum { SMALL_SIDE = 512, SMALL_SAMPLES = 8, LARGE_SAMPLES = 4 };
+// Samples per pixel of pictures of up to side² pixels, and of larger ones. Thin wires break into dashes with fewer.
+static const struct {
+    int side, samples;
+} small_pictures[] = {{256, 16}, {512, 8}};
+enum { LARGE_SAMPLES = 4 };
 
 int lam_default_samples(int width, int height)
 {
-    return (int64_t)width * height <= SMALL_SIDE * SMALL_SIDE ? SMALL_SAMPLES : LARGE_SAMPLES;
+    for (size_t i = 0; i < sizeof small_pictures / sizeof *small_pictures; i++)
+        if ((int64_t)width * height <= small_pictures[i].side * small_pictures[i].side)
+            return small_pictures[i].samples;
+    return LARGE_SAMPLES;
 }
 
 // Sets the planes to enclose all objects, with a margin. With perspective the near distance is at least 1/10000 of the
@@ -395,7 +401,9 @@ static bool build_draws(struct frame *frame, const lam_scene *scene, const struc
     uint64_t next = 0;
     for (int i = 0; i < scene->objects.count; i++) {
         const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
-        uint64_t triangles = mesh_is_strokes(mesh) ? 2 * (uint64_t)mesh_items(mesh) : mesh->triangle_count;
+        uint64_t triangles = mesh_is_strokes(mesh)
+                                 ? stroke_triangles(mesh, strokes->point_corners) * (uint64_t)mesh_items(mesh)
+                                 : mesh->triangle_count;
         if (!triangles || (frame->settings.no_surfaces && !mesh_is_strokes(mesh)))
             continue;
         if (next + triangles > TRIANGLES_MAX)
@@ -457,10 +465,9 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up);
     frame_ground_place(frame, scene, camera, &view);
     double near_plane = camera->near_plane, far_plane = camera->far_plane, aspect = (double)width / height;
-    struct stroke_view stroke_view = {.view = &view,
-                                      .orthographic = frame->orthographic,
-                                      .line_width = (double)settings->line_width,
-                                      .point_size = (double)settings->point_size};
+    struct stroke_view stroke_view = {.view = &view, .orthographic = frame->orthographic};
+    frame_strokes_size(&stroke_view, scene, settings, width, height);
+    frame->point_triangles = (int)stroke_view.point_corners - 2;
     if (near_plane == 0 && far_plane == 0) {
         fit_planes(scene, &view, frame->orthographic, &near_plane, &far_plane);
         if (frame->ground.kind)
@@ -478,7 +485,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     stroke_view.projection = &projection;
     stroke_view.pixel = &pixel;
     stroke_view.near_plane = near_plane;
-    if (!frame_strokes_reserve(frame, scene, call, error))
+    if (!frame_strokes_reserve(frame, scene, &stroke_view, call, error))
         return false;
     if (!build_draws(frame, scene, &stroke_view, call, error))
         return false;

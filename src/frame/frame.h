@@ -112,6 +112,7 @@ struct frame {
     // (frame_draw_range.reflection); a light_cutoff of 0 skips no light. edge_angle_rad and occlusion_radius stay as given.
     lam_draw_params settings;
     float exposure;            // 2^stops
+    int point_triangles;       // of each point (frame_strokes.h)
     double eye_to_world[3][4]; // with rays only
     bool draws_edges;          // then `edges` is set
     struct frame_edges edges;

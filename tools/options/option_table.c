@@ -257,7 +257,8 @@ static const struct option rows[] = {
      .several = "sizes", .brief = "pixels: 800, or 1920x1080", .store = store_size,
      .others = "resolution resolutions thumbnails width height dimensions pixels viewport window", .max = 65535,
      .single = TAKES_SIZE},
-    {"samples", 0, GROUP_PICTURE, "N", "8 up to 512x512 pixels, 4 above", "Samples per pixel: 1, 2, 4, 8 or 16.",
+    {"samples", 0, GROUP_PICTURE, "N", "16 up to 256x256 pixels, 8 up to 512x512, 4 above",
+     "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges, which matters most in small pictures; each picture of a sheet has the samples "
      "of "
      "its own size. Each triangle that covers part of a pixel is lit once in that pixel.",
@@ -273,9 +274,11 @@ static const struct option rows[] = {
      "vertices by "
      "their width, so that lines on a surface are seen, and end without caps.",
      .others = "linewidth stroke-width thickness"},
-    {"point-size", 0, GROUP_PICTURE, "PIXELS", NULL, NULL,
+    {"point-size", 0, GROUP_PICTURE, "PIXELS", "by their number", NULL,
      "Points of OBJ (`p`) and glTF files, and the vertices of PLY files without faces and edges, are as large at every "
-     "distance.",
+     "distance. By default they get larger the fewer there are and the larger the picture is: 3 pixels or more, at "
+     "least 8 "
+     "if there are fewer than 100.",
      .others = "pointsize point-width splat-size"},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",

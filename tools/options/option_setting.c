@@ -70,29 +70,29 @@ static const struct {
     [LAM_SETTING_WORDS] = {store_words, "WORDS"},      [LAM_SETTING_RGBA] = {NULL, NULL},
 };
 
-static struct option *row_of(const lam_setting *setting, int rows)
+static struct option *row_of(const lam_setting *setting, struct option *table, int rows)
 {
     for (int i = 0; i < rows; i++)
-        if (is_named(option_table[i].name, setting->key))
-            return &option_table[i];
+        if (is_named(table[i].name, setting->key))
+            return &table[i];
     return NULL;
 }
 
-int option_settings_fill(int rows)
+int option_settings_fill(struct option *table, int rows)
 {
     static char names[LAM_SETTINGS_MAX][NAME_SIZE], standards[LAM_SETTINGS_MAX][NAME_SIZE];
     const lam_setting *setting;
     int count = rows;
     pool_used = 0;
     for (int i = 0; (setting = lam_draw_setting(i)); i++) {
-        struct option *o = row_of(setting, rows);
+        struct option *o = row_of(setting, table, rows);
         if (!o && !kinds[setting->type].store)
             continue; // a colour is set by another option: it depends on --color-mode
         if (!o) {
             snprintf(names[i], NAME_SIZE, "%s", setting->key);
             for (char *c = names[i]; *c; c++)
                 *c = *c == '_' ? '-' : *c;
-            o = &option_table[count++];
+            o = &table[count++];
             *o = (struct option){.name = names[i], .group = GROUP_SHADING, .value = kinds[setting->type].value};
         }
         o->setting = setting;

@@ -1043,7 +1043,7 @@ static char *append(char *to, const char *text)
 void option_table_fill(void)
 {
     memcpy(option_table, rows, sizeof rows);
-    option_settings_fill(ROWS);
+    option_settings_fill(option_table, ROWS);
     char *end = append(reflection_summary, "The reflection model:");
     for (int i = 0; i < LAM_REFLECTION_COUNT; i++) {
         const lam_reflection_info *model = lam_reflection_describe((lam_reflection)i);

@@ -123,7 +123,7 @@ static const lam_setting rows[] = {
     {"line_width", MEMBER(NUMBER, line_width), .min = 0.01, .max = 1000, .standard = 1.5,
      .expected = "pixels from 0 to 1000", .summary = "The width of the lines that a model has."},
     {"point_size", MEMBER(NUMBER, point_size), .min = 0.01, .max = 1000, .expected = "pixels from 0 to 1000",
-     .summary = "The diameter of the points that a model has, in pixels; by default larger the fewer there are."},
+     .summary = "The diameter of the points that a model has: by default larger the fewer there are."},
     {"wireframe", MEMBER(FLAG, wireframe), .summary = "Draw the edges of all faces as lines over the picture."},
     {"wireframe_width", MEMBER(NUMBER, wireframe_width), .min = 0.01, .max = 1000, .standard = 1,
      .expected = "pixels from 0 to 1000", .summary = "The width of the wireframe's lines."},

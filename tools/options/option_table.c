@@ -274,9 +274,7 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "linewidth stroke-width thickness"},
     {"point-size", 0, GROUP_PICTURE, "PIXELS", "by their number", NULL,
      "Points of OBJ (`p`) and glTF files, and the vertices of PLY files without faces and edges, are as large at every "
-     "distance. By default they get larger the fewer there are and the larger the picture is: 3 pixels or more, at "
-     "least 8 "
-     "if there are fewer than 100.",
+     "distance. By default: 3 pixels or more, and at least 8 if there are fewer than 100.",
      .others = "pointsize point-width splat-size"},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
@@ -573,7 +571,7 @@ struct option option_table[OPTIONS_MAX] = {
      "colour and width: light, exposure, tone and distance do not change them. `docs/edges.md` has pictures.",
      .others = "wire mesh mesh-lines show-edges polygons topology", .loads = true},
     {"wireframe-width", 0, GROUP_SHADING, "PIXELS", .others = "wire-width"},
-    {"wireframe-color", 0, GROUP_SHADING, "COLOR", NULL, NULL, "An alpha below 1 lets the surfaces through.",
+    {"wireframe-color", 0, GROUP_SHADING, "COLOR", "black", NULL, "An alpha below 1 lets the surfaces through.",
      .kind = VALUE_COLOR, .store = store_color, .others = "wire-color", FIELD(shading.wireframe_color)},
     {"edges", 0, GROUP_SHADING, "KINDS", "none", NULL,
      "`crease`: two faces meet at more than `--edge-angle`, or more than two faces meet; `boundary`: a surface ends; "
@@ -582,7 +580,7 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "edge feature-edges outline outlines contour toon lineart line-art", .loads = true},
     {"edge-angle", 0, GROUP_SHADING, "DEGREES", .others = "feature-angle sharp-angle"},
     {"edge-width", 0, GROUP_SHADING, "PIXELS", .others = "outline-width"},
-    {"edge-color", 0, GROUP_SHADING, "COLOR", NULL, NULL, NULL, .kind = VALUE_COLOR, .store = store_color,
+    {"edge-color", 0, GROUP_SHADING, "COLOR", "black", NULL, NULL, .kind = VALUE_COLOR, .store = store_color,
      .others = "outline-color", FIELD(shading.edge_color)},
     {"hidden-lines", 0, GROUP_SHADING, "HOW", NULL, NULL,
      "What is hidden is decided by rays from each edge to the eye: exact, so that no line is broken where it runs "

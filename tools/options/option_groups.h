@@ -220,6 +220,7 @@ struct check_options {
     double stop_after_s;
     int search_limit;               // lam_check_params.max_pictures
     const char *class_folder, *csv; // NULL: none
+    const char *moodle, *gradescope, *submitty, *write_contract; // files; NULL: none
     bool list;
 };
 

@@ -39,6 +39,8 @@ static int state_at(const char *text, const char *at)
     return -1;
 }
 
+bool fixed_state_has(const char *name) { return state_at(name, name) >= 0; }
+
 char *fixed_state_rewrite(const char *text, bool *ok)
 {
     char declarations[MAX_DECLARATIONS] = "";

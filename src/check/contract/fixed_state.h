@@ -8,4 +8,7 @@
 // values: fixed_LightSource[i].position. From malloc. `ok` false: no memory. NULL otherwise: it reads none of them.
 char *fixed_state_rewrite(const char *text, bool *ok);
 
+// Whether a name is one of these, or a member of one: gl_LightSource[].position.
+bool fixed_state_has(const char *name);
+
 #endif

@@ -389,8 +389,8 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     unsigned scenes = 0;
     const struct contract *contract = NULL;
     bool readable[2] = {true, true};
-    char *vertex = params->vertex ? fixed_state_rewrite(params->vertex, &readable[0]) : NULL,
-         *fragment = params->fragment ? fixed_state_rewrite(params->fragment, &readable[1]) : NULL;
+    char *vertex = params->vertex ? fixed_state_rewrite(params->vertex, params->fragment, &readable[0]) : NULL,
+         *fragment = params->fragment ? fixed_state_rewrite(params->fragment, params->vertex, &readable[1]) : NULL;
     own.vertex = vertex ? vertex : params->vertex;
     own.fragment = fragment ? fragment : params->fragment;
     bool ok = ((readable[0] && readable[1]) || fail_memory(error, 1)) && check_params(&r, error) &&

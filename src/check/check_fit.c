@@ -361,6 +361,8 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
         snprintf(reason, capacity, "its pictures are near to those of a right shader, and not the same");
     else if (explained)
         report_faults(r, &best, before);
+    if (*outcome == FIT_DIFFERS)
+        check_describe(r);
     if (*outcome == FIT_RIGHT)
         hint_forms(r, &best);
     return true;

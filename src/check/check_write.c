@@ -18,8 +18,9 @@ static const struct {
     const char *role, *correct;
 } corrections[] = {
     {"zero", "gets 0, since its role is not known or it is not used; give it a role if it matters"},
-    {"factor", "its value is free. If the exercise prescribes it: a role such as color, light_color, diffuse_strength, and "
-               "\"strengths\": \"given\""},
+    {"factor",
+     "its value is free. If the exercise prescribes it: a role such as color, light_color, diffuse_strength, and "
+     "\"strengths\": \"given\""},
     {"light_position", "correct `space` if the program gives it in another one"},
     {"light_direction", "it points to the light; if it points away from it, light_travel. Correct `space` too"},
     {"light_travel", "it points away from the light; if it points to it, light_direction. Correct `space` too"},
@@ -31,8 +32,10 @@ static const struct {
 static const char *const root_comment[] = {
     "Written by `lambent check --write-contract`; docs/check/contract-file.md explains every key and every role.",
     "Correct `name` and `title` first, then `space`: eye or world, where the shaders light.",
-    "\"strengths\": \"any\" accepts every colour and strength. With \"given\", each name needs a role, and mistakes in colours are found.",
-    "If the exercise demands them, add \"gate\": \"required\", \"unit_normals\": \"required\", \"bare_ambient\": \"required\".",
+    "\"strengths\": \"any\" accepts every colour and strength. With \"given\", each name needs a role, and mistakes in "
+    "colours are found.",
+    "If the exercise demands them, add \"gate\": \"required\", \"unit_normals\": \"required\", \"bare_ambient\": "
+    "\"required\".",
     "`weights` says how many points a scene is worth: {\"gate\": 2}. Comments may be removed."};
 
 static const char *meaning_of(const char *role)
@@ -160,8 +163,9 @@ static bool write_contract(const char *contract, const char *found, lam_bytes *o
     }
     json_t *undeclared = json_object_get(root, "undeclared");
     if (undeclared && !json_object_get(undeclared, "comment"))
-        json_object_set_new(undeclared, "comment",
-                            json_string("values of what a shader has no name for, because the exercise writes it as a number"));
+        json_object_set_new(
+            undeclared, "comment",
+            json_string("values of what a shader has no name for, because the exercise writes it as a number"));
     size_t i = 0, count = json_object_size(root);
     put(&t, "{\n", 2);
     json_object_foreach(root, key, value)
@@ -194,10 +198,11 @@ bool lam_check_contract_write(const lam_check_params *params, const lam_check_re
     if (report)
         return write_contract(report->contract_text, "", out, error);
     if (!params->vertex || !params->fragment)
-        return fail(error, LAM_BAD_ARGUMENT, "a contract is written for a fragment shader and its vertex shader; one is missing");
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "a contract is written for a fragment shader and its vertex shader; one is missing");
     bool readable[2] = {true, true};
-    char *vertex = fixed_state_rewrite(params->vertex, &readable[0]),
-         *fragment = fixed_state_rewrite(params->fragment, &readable[1]), why[300] = "";
+    char *vertex = fixed_state_rewrite(params->vertex, params->fragment, &readable[0]),
+         *fragment = fixed_state_rewrite(params->fragment, params->vertex, &readable[1]), why[300] = "";
     struct complete_texts texts = {.vertex = vertex ? vertex : params->vertex,
                                    .fragment = fragment ? fragment : params->fragment};
     struct declarations sides[2] = {{0}};

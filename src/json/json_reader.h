@@ -12,7 +12,8 @@
 
 struct json_reader {
     const char *file; // its name, for messages
-    lam_error *error; // LAM_CANNOT_READ with "FILE: PLACE: sentence", or "FILE:LINE: PLACE: sentence" if there is a text
+    lam_error
+        *error; // LAM_CANNOT_READ with "FILE: PLACE: sentence", or "FILE:LINE: PLACE: sentence" if there is a text
     const char *text; // the file's, of `size` bytes; NULL: errors name no line
     size_t size;
 };

@@ -135,7 +135,7 @@ struct contract {
     // Of GLSL 110 and 120: names of gl_LightSource and the like; the texts are rewritten (fixed_state.h).
     bool fixed_state;
     const double *weights; // the points of each reference scene
-    bool printed;            // shaders of `lambent shader`, whose loops name the kinds of lights
+    bool printed;          // shaders of `lambent shader`, whose loops name the kinds of lights
 };
 
 // A contract that owns its memory.

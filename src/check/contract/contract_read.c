@@ -84,9 +84,8 @@ static void complete_defaults(struct contract *c)
     const struct {
         enum uniform_semantic strength;
         struct default_number *value;
-    } strengths[] = {{SEMANTIC_KA, &d->ambient_strength},
-                     {SEMANTIC_KD, &d->diffuse_strength},
-                     {SEMANTIC_KS, &d->specular_strength}};
+    } strengths[] = {
+        {SEMANTIC_KA, &d->ambient_strength}, {SEMANTIC_KD, &d->diffuse_strength}, {SEMANTIC_KS, &d->specular_strength}};
     bool attenuated = d->has_attenuation;
     for (size_t i = 0; i < sizeof attenuations / sizeof *attenuations; i++)
         attenuated = attenuated || has(c, attenuations[i]);
@@ -149,11 +148,11 @@ static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
 
 static bool read_root(struct contract_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"contract",   "name",         "title",        "glsl",      "space",
-                                       "terms",      "highlight",    "alpha",        "two_sided", "printed",
-                                       "attributes", "uniforms",     "built_ins",    "varyings",  "outputs",
-                                       "constants",  "undeclared",   "prefix",       "physical",  "maps",
-                                       "gate",       "unit_normals", "bare_ambient", "strengths", "comment", "weights", NULL};
+    static const char *const keys[] = {
+        "contract",     "name",         "title",      "glsl",       "space",    "terms",     "highlight",
+        "alpha",        "two_sided",    "printed",    "attributes", "uniforms", "built_ins", "varyings",
+        "outputs",      "constants",    "undeclared", "prefix",     "physical", "maps",      "gate",
+        "unit_normals", "bare_ambient", "strengths",  "comment",    "weights",  NULL};
     static const struct json_choice highlights[] = {{"phong", LAM_REFLECTION_PHONG},
                                                     {"blinn-phong", LAM_REFLECTION_BLINN_PHONG},
                                                     {"metallic-roughness", LAM_REFLECTION_GGX},
@@ -200,10 +199,10 @@ static bool read_root(struct contract_reader *r, const json_t *root)
     const json_t *outputs = json_object_get(root, "outputs");
     if (outputs && !contract_read_list(r, KEY_OF(NULL, "outputs"), outputs, " ", true, true, &c->outputs))
         return false;
-    return contract_check_comment(r, NULL, root) && read_weights(r, root) && read_terms(r, root) && read_demands(r, root) && contract_read_names(r, root) &&
-           contract_read_varyings(r, root) && contract_read_defaults(r, root) && contract_read_constants(r, root) &&
-           contract_read_prefix(r, root) && contract_read_physical(r, root) && contract_read_maps(r, root) &&
-           complete(r, alpha, two_sided);
+    return contract_check_comment(r, NULL, root) && read_weights(r, root) && read_terms(r, root) &&
+           read_demands(r, root) && contract_read_names(r, root) && contract_read_varyings(r, root) &&
+           contract_read_defaults(r, root) && contract_read_constants(r, root) && contract_read_prefix(r, root) &&
+           contract_read_physical(r, root) && contract_read_maps(r, root) && complete(r, alpha, two_sided);
 }
 
 lam_check_contract *lam_check_contract_read(const char *text, size_t size, const char *file, lam_error *error)
@@ -215,9 +214,10 @@ lam_check_contract *lam_check_contract_read(const char *text, size_t size, const
         return NULL;
     }
     arena_start(&out->arena, NULL);
-    struct contract_reader r = {.json = {.file = file ? file : "contract", .error = error ? error : &unused, .text = text, .size = size},
-                                .arena = &out->arena,
-                                .contract = &out->contract};
+    struct contract_reader r = {
+        .json = {.file = file ? file : "contract", .error = error ? error : &unused, .text = text, .size = size},
+        .arena = &out->arena,
+        .contract = &out->contract};
     json_t *root = json_parse(text, size, r.json.file, NULL, r.json.error);
     bool ok = root && ((out->contract.text = arena_string_of(&out->arena, text, size)) || contract_no_memory(&r));
     ok = ok && read_root(&r, root);

@@ -94,10 +94,22 @@ static bool read_number(struct contract_reader *r, const struct place *place, co
 
 bool contract_read_defaults(struct contract_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"ambient_color",    "diffuse_color",     "specular_color",  "ambient_strength",
-                                       "diffuse_strength", "specular_strength", "shininess",       "light_color",
-                                       "light_specular",   "light_ambient",     "light_direction", "light_position",
-                                       "light_space",      "attenuation",       "spot_exponent",   "comment",
+    static const char *const keys[] = {"ambient_color",
+                                       "diffuse_color",
+                                       "specular_color",
+                                       "ambient_strength",
+                                       "diffuse_strength",
+                                       "specular_strength",
+                                       "shininess",
+                                       "light_color",
+                                       "light_specular",
+                                       "light_ambient",
+                                       "light_direction",
+                                       "light_position",
+                                       "light_space",
+                                       "attenuation",
+                                       "spot_exponent",
+                                       "comment",
                                        NULL};
     const json_t *object = json_object_get(root, "undeclared");
     const struct place *place = KEY_OF(NULL, "undeclared");

@@ -5,23 +5,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-// MAX_LIGHTS: as many as the reference scenes have.
+// Lists have as many elements as the reference scenes have lights.
 static const struct {
-    const char *name, *declaration;
+    const char *name, *elements;
+    const char *members[13]; // each with its type; ends with NULL
 } states[] = {
-    {"gl_LightSource", "struct fixed_Light { vec4 ambient, diffuse, specular, position, halfVector; vec3 "
-                       "spotDirection; float spotExponent, "
-                       "spotCutoff, spotCosCutoff, constantAttenuation, linearAttenuation, quadraticAttenuation; };\n"
-                       "uniform fixed_Light fixed_LightSource[4];\n"},
-    {"gl_FrontMaterial", "struct fixed_Material { vec4 emission, ambient, diffuse, specular; float shininess; };\n"
-                         "uniform fixed_Material fixed_FrontMaterial;\n"},
-    {"gl_LightModel", "struct fixed_Model { vec4 ambient; };\nuniform fixed_Model fixed_LightModel;\n"},
-    {"gl_FrontLightModelProduct",
-     "struct fixed_Scene { vec4 sceneColor; };\nuniform fixed_Scene fixed_FrontLightModelProduct;\n"},
-    {"gl_FrontLightProduct", "struct fixed_Product { vec4 ambient, diffuse, specular; };\n"
-                             "uniform fixed_Product fixed_FrontLightProduct[4];\n"},
+    {"gl_LightSource",
+     "[4]",
+     {"vec4 ambient", "vec4 diffuse", "vec4 specular", "vec4 position", "vec4 halfVector", "vec3 spotDirection",
+      "float spotExponent", "float spotCutoff", "float spotCosCutoff", "float constantAttenuation",
+      "float linearAttenuation", "float quadraticAttenuation"}},
+    {"gl_FrontMaterial", "", {"vec4 emission", "vec4 ambient", "vec4 diffuse", "vec4 specular", "float shininess"}},
+    {"gl_LightModel", "", {"vec4 ambient"}},
+    {"gl_FrontLightModelProduct", "", {"vec4 sceneColor"}},
+    {"gl_FrontLightProduct", "[4]", {"vec4 ambient", "vec4 diffuse", "vec4 specular"}},
 };
-enum { STATES = sizeof states / sizeof *states, MAX_DECLARATIONS = 1024 };
+enum { STATES = sizeof states / sizeof *states, MAX_DECLARATIONS = 2048 };
 
 static bool is_name(char c)
 {
@@ -39,9 +38,34 @@ static int state_at(const char *text, const char *at)
     return -1;
 }
 
+// Whether a text has a word.
+static bool has_word(const char *text, const char *word)
+{
+    size_t length = strlen(word);
+    for (const char *at = text ? strstr(text, word) : NULL; at; at = strstr(at + 1, word))
+        if ((at == text || !is_name(at[-1])) && !is_name(at[length]))
+            return true;
+    return false;
+}
+
+// Declares a state with the members that one of the texts uses, the same in both: what is not declared is not expected.
+static void declare(int state, const char *text, const char *other, char out[MAX_DECLARATIONS])
+{
+    size_t at = strlen(out);
+    const char *name = states[state].name + 3;
+    at += (size_t)snprintf(out + at, MAX_DECLARATIONS - at, "struct fixed_%s_ {", name);
+    for (const char *const *member = states[state].members; *member; member++) {
+        const char *word = strchr(*member, ' ') + 1;
+        if (has_word(text, word) || has_word(other, word))
+            at += (size_t)snprintf(out + at, MAX_DECLARATIONS - at, " %s;", *member);
+    }
+    snprintf(out + at, MAX_DECLARATIONS - at, " };\nuniform fixed_%s_ fixed_%s%s;\n", name, name,
+             states[state].elements);
+}
+
 bool fixed_state_has(const char *name) { return state_at(name, name) >= 0; }
 
-char *fixed_state_rewrite(const char *text, bool *ok)
+char *fixed_state_rewrite(const char *text, const char *other, bool *ok)
 {
     char declarations[MAX_DECLARATIONS] = "";
     size_t names = 0;
@@ -51,7 +75,7 @@ char *fixed_state_rewrite(const char *text, bool *ok)
         int state = state_at(text, at);
         names += state >= 0;
         if (state >= 0 && !(used >> state & 1))
-            strcat(declarations, states[state].declaration); // all of them have room
+            declare(state, text, other, declarations); // all of them have room
         used |= state >= 0 ? 1u << state : 0;
     }
     if (!names)

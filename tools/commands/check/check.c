@@ -125,7 +125,9 @@ static bool open_tables(struct check_command *c, lam_error *error)
     bool of_one = o->gradescope || o->submitty || o->write_contract;
     if (of_one && (c->batch.count > 1 || c->batch.in_class))
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' is for one submission, found %s",
-                        o->gradescope ? "gradescope" : o->submitty ? "submitty" : "write-contract",
+                        o->gradescope ? "gradescope"
+                        : o->submitty ? "submitty"
+                                      : "write-contract",
                         c->batch.in_class ? "a class" : "several");
     for (int i = 0; i < CHECK_TABLES; i++) {
         struct check_table *table = &c->batch.tables[i];

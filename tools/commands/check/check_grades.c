@@ -65,9 +65,10 @@ int check_gradescope(FILE *file, const struct check_result *result)
     const lam_check_report *r = &result->report;
     struct json json = {.file = file};
     json_open(&json, NULL, '{');
-    json_text(&json, "output", result->error.code ? result->error.text
-                               : r->finding_count || r->verdict == LAM_CHECK_PASSES ? check_says(r)
-                                                                                    : check_verdict_text(r->verdict));
+    json_text(&json, "output",
+              result->error.code                                   ? result->error.text
+              : r->finding_count || r->verdict == LAM_CHECK_PASSES ? check_says(r)
+                                                                   : check_verdict_text(r->verdict));
     if (result->error.code || !r->scene_count)
         json_number(&json, "score", 0);
     json_open(&json, "tests", '[');
@@ -100,9 +101,10 @@ int check_submitty(FILE *file, const struct check_result *result)
     json_text(&json, "status", "success"); // of the check itself
     json_open(&json, "data", '{');
     json_number(&json, "score", share);
-    json_text(&json, "message", result->error.code ? result->error.text
-                                : passes           ? check_verdict_text(r->verdict)
-                                                   : check_says(r));
+    json_text(&json, "message",
+              result->error.code ? result->error.text
+              : passes           ? check_verdict_text(r->verdict)
+                                 : check_says(r));
     json_text(&json, "status", passes ? "success" : share > 0 ? "warning" : "failure");
     json_close(&json, '}');
     json_close(&json, '}');

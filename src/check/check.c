@@ -3,9 +3,9 @@
 #include "check_draw.h"
 #include "compiler_hints.h"
 #include "default_vertex_shader.h"
-#include "fixed_state.h"
 #include "gl_painter.h"
 #include "infer.h"
+#include "own_texts.h"
 #include "recognise.h"
 #include "shader_diagnostics.h"
 
@@ -388,13 +388,11 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     r.painter = params->painter ? *params->painter : gl_painter(params->gl_device);
     unsigned scenes = 0;
     const struct contract *contract = NULL;
-    bool readable[2] = {true, true};
-    char *vertex = params->vertex ? fixed_state_rewrite(params->vertex, params->fragment, &readable[0]) : NULL,
-         *fragment = params->fragment ? fixed_state_rewrite(params->fragment, params->vertex, &readable[1]) : NULL;
-    own.vertex = vertex ? vertex : params->vertex;
-    own.fragment = fragment ? fragment : params->fragment;
-    bool ok = ((readable[0] && readable[1]) || fail_memory(error, 1)) && check_params(&r, error) &&
-              choose_contract(&r, &contract, error);
+    struct own_texts texts;
+    bool readable = own_texts_make(params->vertex, params->fragment, &texts, error);
+    own.vertex = texts.vertex;
+    own.fragment = texts.fragment;
+    bool ok = readable && check_params(&r, error) && choose_contract(&r, &contract, error);
     if (ok && contract)
         ok = prepare(&r, contract, &scenes, error) && draw(&r, scenes, error);
     if (ok && contract && (params->contract || suits_contract(&r)))
@@ -419,8 +417,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     lam_check_contract_free(r.inferred);
     free(r.vertex);
     lam_bytes_free(&r.bytes);
-    free(vertex);
-    free(fragment);
+    own_texts_free(&texts);
     if (!ok)
         lam_check_report_free(report);
     return ok;

@@ -10,6 +10,7 @@
 #include "fail.h"
 #include "fixed_state.h"
 #include "infer.h"
+#include "own_texts.h"
 #include "json_parse.h"
 #include "prefix.h"
 
@@ -200,19 +201,16 @@ bool lam_check_contract_write(const lam_check_params *params, const lam_check_re
     if (!params->vertex || !params->fragment)
         return fail(error, LAM_BAD_ARGUMENT,
                     "a contract is written for a fragment shader and its vertex shader; one is missing");
-    bool readable[2] = {true, true};
-    char *vertex = fixed_state_rewrite(params->vertex, params->fragment, &readable[0]),
-         *fragment = fixed_state_rewrite(params->fragment, params->vertex, &readable[1]), why[300] = "";
-    struct complete_texts texts = {.vertex = vertex ? vertex : params->vertex,
-                                   .fragment = fragment ? fragment : params->fragment};
+    struct own_texts own;
+    char why[300] = "";
+    bool ok = own_texts_make(params->vertex, params->fragment, &own, error);
+    struct complete_texts texts = {.vertex = own.vertex, .fragment = own.fragment};
     struct declarations sides[2] = {{0}};
-    bool ok = ((readable[0] && readable[1]) || fail_memory(error, 1)) && prefix_read(&texts, true, &sides[0], error) &&
-              prefix_read(&texts, false, &sides[1], error);
+    ok = ok && prefix_read(&texts, true, &sides[0], error) && prefix_read(&texts, false, &sides[1], error);
     char *text = ok ? contract_infer(&sides[0], &sides[1], NULL, 0, true, why, sizeof why) : NULL;
     ok = ok && (text ? write_contract(text, why, out, error) : fail(error, LAM_BAD_ARGUMENT, "no contract: %s", why));
     free(text);
-    free(vertex);
-    free(fragment);
+    own_texts_free(&own);
     declarations_free(&sides[0]);
     declarations_free(&sides[1]);
     return ok;

@@ -74,28 +74,48 @@ static bool has(const struct contract *c, enum uniform_semantic semantic)
     return false;
 }
 
-// What a shader has no name for because the contract has none either: no attenuation, and strengths of 1. Roles of a term's
-// product have its strength in them.
+static bool has_any(const struct contract *c, const enum uniform_semantic *list)
+{
+    for (; *list != SEMANTIC_NONE; list++)
+        if (has(c, *list))
+            return true;
+    return false;
+}
+
+// What a shader has no name for because the contract has none either: no attenuation, strengths of 1, white colours. Products of
+// colours have strengths in them.
 static void complete_defaults(struct contract *c)
 {
     static const enum uniform_semantic attenuations[] = {SEMANTIC_ATTENUATION, SEMANTIC_ATTENUATION_CONSTANT,
-                                                         SEMANTIC_ATTENUATION_LINEAR, SEMANTIC_ATTENUATION_QUADRATIC};
+                                                         SEMANTIC_ATTENUATION_LINEAR, SEMANTIC_ATTENUATION_QUADRATIC,
+                                                         SEMANTIC_NONE};
     struct contract_defaults *d = &c->defaults;
+    const struct {
+        struct default_color *color;
+        enum uniform_semantic names[5];
+    } colors[] = {
+        {&d->ambient_color, {SEMANTIC_AMBIENT, SEMANTIC_AMBIENT_PRODUCT, SEMANTIC_LIGHT_AMBIENT_PRODUCT}},
+        {&d->diffuse_color, {SEMANTIC_DIFFUSE, SEMANTIC_DIFFUSE_PRODUCT, SEMANTIC_COLOR}},
+        {&d->specular_color, {SEMANTIC_SPECULAR, SEMANTIC_SPECULAR_PRODUCT, SEMANTIC_SPECULAR_COLOR}},
+        {&d->light_color, {SEMANTIC_LIGHT_COLOR, SEMANTIC_DIFFUSE_PRODUCT}},
+        {&d->light_specular, {SEMANTIC_LIGHT_SPECULAR, SEMANTIC_SPECULAR_PRODUCT}},
+        {&d->light_ambient,
+         {SEMANTIC_LIGHT_AMBIENT, SEMANTIC_AMBIENT_LIGHT, SEMANTIC_AMBIENT_PRODUCT, SEMANTIC_LIGHT_AMBIENT_PRODUCT}}};
     const struct {
         enum uniform_semantic strength;
         struct default_number *value;
     } strengths[] = {
         {SEMANTIC_KA, &d->ambient_strength}, {SEMANTIC_KD, &d->diffuse_strength}, {SEMANTIC_KS, &d->specular_strength}};
-    bool attenuated = d->has_attenuation;
-    for (size_t i = 0; i < sizeof attenuations / sizeof *attenuations; i++)
-        attenuated = attenuated || has(c, attenuations[i]);
-    if (!attenuated) {
+    if (!d->has_attenuation && !has_any(c, attenuations)) {
         d->has_attenuation = true;
         d->attenuation[0] = 1;
     }
     for (size_t i = 0; i < sizeof strengths / sizeof *strengths; i++)
         if (!has(c, strengths[i].strength) && !strengths[i].value->given)
             *strengths[i].value = (struct default_number){true, 1};
+    for (size_t i = 0; i < sizeof colors / sizeof *colors; i++)
+        if (colors[i].color->source == COLOR_OF_SCENE && !has_any(c, colors[i].names))
+            *colors[i].color = (struct default_color){COLOR_GIVEN, {1, 1, 1}};
 }
 
 // What follows from the names.

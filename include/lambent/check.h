@@ -298,7 +298,8 @@ typedef struct lam_check_scene {
     const char *looks_like;
     // The terms that the scene shows, bits of lam_check_term; 0: it is black, since none of its terms is asked for.
     unsigned terms;
-    double weight; // the points that the scene is worth (`weights` of the contract): 1 unless it says otherwise
+    // The points that the scene is worth, `weights` of the contract: 1 unless it says otherwise.
+    double weight;
     LAM_RESERVED(6);
 } lam_check_scene;
 

@@ -138,10 +138,12 @@ static void test_errors(void **state)
     bad(GOOD LIGHT "}, \"physical\": {\"masking\": \"smth\"}}",
         "my.json:1: physical.masking: found \"smth\", expected smith or schlick; did you mean 'smith'?");
     bad(GOOD LIGHT "}, \"highlight\": \"metallic-roughness\"}",
-        "my.json:1: uniforms: found no name with the role metallic or roughness, which the highlight metallic-roughness "
+        "my.json:1: uniforms: found no name with the role metallic or roughness, which the highlight "
+        "metallic-roughness "
         "needs");
     bad("{\"contract\": 1, \"name\": \"x\", \"highlight\": \"fong\"}",
-        "my.json:1: highlight: found \"fong\", expected phong, blinn-phong or metallic-roughness; did you mean 'phong'?");
+        "my.json:1: highlight: found \"fong\", expected phong, blinn-phong or metallic-roughness; did you mean "
+        "'phong'?");
     bad("{\"contract\": 1, \"name\": \"x\", \"terms\": []}", "my.json:1: terms: found a list of 0, expected a list of");
     bad("{\"contract\": 1, \"name\": \"x\", \"terms\": [\"shiny\"]}", "my.json:1: terms[0]: found \"shiny\", expected");
     bad(GOOD END, "my.json:1: uniforms: found no light: expected a name with the role light_position");

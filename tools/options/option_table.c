@@ -994,8 +994,9 @@ const struct option option_table[] = {
      "Without it a correct one is generated, which recognises varyings by name and type (`docs/check.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.vertex)},
     {"contract", 0, GROUP_CHECK, "NAME", "auto", "The names that the shaders use: a contract's name, or its file.",
-     "The contracts that are built in, which `auto` recognises, are printed by `--list`. A file of your own is JSON "
-     "(`docs/check.md`).",
+     "`auto` recognises the built-in contracts by their names, and else the use of each input; `--list` prints them. A "
+     "file "
+     "of your own is JSON (`docs/check/contract-file.md`).",
      contract_words, .kind = VALUE_FILE, .store = store_text, FIELD(check.contract)},
     {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's", "The space of light positions: object or camera.", NULL,
      light_frame_words, .store = store_word, FIELD(check.light_frame)},
@@ -1021,17 +1022,16 @@ const struct option option_table[] = {
      "fragment shader and the vertex shader of the same name beside it. With `-o FOLDER/` there is a page for the "
      "whole class, `index.html`, and a sheet of each submission.",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.class_folder)},
-    {"csv", 0, GROUP_CHECK, "FILE", NULL, "Also write a line for each shader: points by scene and term, mistakes.",
-     NULL, .kind = VALUE_FILE, .store = store_text, .others = "grades marks table", FIELD(check.csv)},
-    {"moodle", 0, GROUP_CHECK, "FILE", NULL, "Also write grades and feedback as a grading worksheet of Moodle (CSV).",
+    {"csv", 0, GROUP_CHECK, "FILE", NULL, "A line for each shader: points and mistakes.", NULL, .kind = VALUE_FILE,
+     .store = store_text, .others = "grades marks table", FIELD(check.csv)},
+    {"moodle", 0, GROUP_CHECK, "FILE", NULL, "Grades as a worksheet of Moodle (CSV).",
      "Folders that Moodle names after their participants are recognised.", .kind = VALUE_FILE, .store = store_text,
      FIELD(check.moodle)},
-    {"gradescope", 0, GROUP_CHECK, "FILE", NULL, "Also write the result of one submission as Gradescope's results.json.",
-     NULL, .kind = VALUE_FILE, .store = store_text, FIELD(check.gradescope)},
-    {"submitty", 0, GROUP_CHECK, "FILE", NULL,
-     "Also write the result of one submission as Submitty's validation_results.json.", NULL, .kind = VALUE_FILE,
-     .store = store_text, FIELD(check.submitty)},
-    {"write-contract", 0, GROUP_CHECK, "FILE", NULL, "Also write a contract file for these shaders, with comments.",
+    {"gradescope", 0, GROUP_CHECK, "FILE", NULL, "One submission's results.json for Gradescope.", NULL,
+     .kind = VALUE_FILE, .store = store_text, FIELD(check.gradescope)},
+    {"submitty", 0, GROUP_CHECK, "FILE", NULL, "One submission's result for Submitty.",
+     "The file is its validation_results.json.", .kind = VALUE_FILE, .store = store_text, FIELD(check.submitty)},
+    {"write-contract", 0, GROUP_CHECK, "FILE", NULL, "Write a commented contract for the shaders.",
      "It is the contract that was recognised, or the roles that the inputs have by their use: correct it, and check "
      "with `--contract FILE` (`docs/check/contract-file.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.write_contract)},

@@ -63,6 +63,12 @@ static bool is_lit_from_behind(const struct run *r, int i)
     return eye.x * way.x + eye.y * way.y + eye.z * way.z < 0;
 }
 
+static bool has_bumps(const struct run *r, int i)
+{
+    lam_vec3 bump = scene_of(r, i)->bump;
+    return bump.x != 0 || bump.y != 0 || bump.z != 0;
+}
+
 static bool is_flat(const struct run *r, int i) { return scene_of(r, i)->flat; }
 static bool has_two_sides(const struct run *r, int i) { return r->scenes[i].row->needs & NEED_TWO_SIDES; }
 static bool is_translucent(const struct run *r, int i) { return r->scenes[i].alpha; }
@@ -89,23 +95,26 @@ static const struct {
     {"only spots differ", has_spot},
     {"different where the light is attenuated, and right where it is not", is_attenuated},
     {"different where the light comes from behind, and right where it comes from the front", is_lit_from_behind},
+    {"only scenes with a normal map differ that is not flat: look at tangent, bitangent and the texel", has_bumps},
     {"only flat shading differs", is_flat},
     {"only the scene of back faces differs", has_two_sides},
     {"only the scene of a translucent material differs: look at alpha", is_translucent},
     {"only small highlights differ: look at the exponent", is_glossy},
 };
 
-// The number of scenes with a property that all scenes that differ have. 0: it does not set these apart.
+// The number of scenes with a property, if all scenes that differ have it and nearly all that have it differ. 0: it does not set
+// these apart.
 static int count_with(const struct run *r, bool (*has)(const struct run *r, int scene))
 {
-    int with = 0;
+    int with = 0, failed = 0;
     for (int i = 0; i < r->scene_count; i++) {
         bool found = has(r, i);
         with += found;
+        failed += found && !r->scenes[i].passes;
         if (!found && !r->scenes[i].passes)
             return 0;
     }
-    return with < r->scene_count ? with : 0;
+    return with < r->scene_count && 4 * failed >= 3 * with ? with : 0;
 }
 
 // The factor by which every picture is too bright. False: it is no factor.

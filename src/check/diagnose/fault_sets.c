@@ -164,13 +164,18 @@ bool sets_try(struct state *t, struct candidate *best, lam_error *error)
     struct candidate beam[BEAM];
     int beam_count = 0;
     for (int m = 0; m < fault_count; m++) {
-        const struct outcome *o = &t->outcomes[m];
+        struct outcome *o = &t->outcomes[m];
         if (!o->applies || (o->spoils_known && o->spoils))
             continue;
         struct candidate c = {.members = {o->fault}, .count = 1, .mean = o->mean, .score = o->score};
         memcpy(c.parts, o->parts, sizeof c.parts);
         candidate_rebuild(&c);
-        beam_insert(beam, &beam_count, &c);
+        // One that spoils a scene is no part of an explanation, and takes no place of one that may be.
+        bool near = beam_count < BEAM || is_better(&c, &beam[BEAM - 1]);
+        if (near && !outcome_find_spoils(t, o, error))
+            return false;
+        if (near && !o->spoils)
+            beam_insert(beam, &beam_count, &c);
     }
     for (int depth = 2; depth <= MAX_FOUND_FAULTS && beam_count > 0; depth++) {
         struct candidate next[BEAM];

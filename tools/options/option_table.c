@@ -903,8 +903,9 @@ struct option option_table[OPTIONS_MAX] = {
      "Without it a correct one is generated, which recognises varyings by name and type (`docs/check.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.vertex)},
     {"contract", 0, GROUP_CHECK, "NAME", "auto", "The names that the shaders use: a contract's name, or its file.",
-     "The contracts that are built in, which `auto` recognises, are printed by `--list`. A file of your own is JSON "
-     "(`docs/check.md`).",
+     "`auto` recognises the built-in contracts by their names, and else the use of each input; `--list` prints them. A "
+     "file "
+     "of your own is JSON (`docs/check/contract-file.md`).",
      contract_words, .kind = VALUE_FILE, .store = store_text, FIELD(check.contract)},
     {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's", "The space of light positions: object or camera.", NULL,
      light_frame_words, .store = store_word, FIELD(check.light_frame)},
@@ -930,8 +931,19 @@ struct option option_table[OPTIONS_MAX] = {
      "fragment shader and the vertex shader of the same name beside it. With `-o FOLDER/` there is a page for the "
      "whole class, `index.html`, and a sheet of each submission.",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.class_folder)},
-    {"csv", 0, GROUP_CHECK, "FILE", NULL, "Also write a line for each shader: points by scene and term, mistakes.",
-     NULL, .kind = VALUE_FILE, .store = store_text, .others = "grades marks table", FIELD(check.csv)},
+    {"csv", 0, GROUP_CHECK, "FILE", NULL, "A line for each shader: points and mistakes.", NULL, .kind = VALUE_FILE,
+     .store = store_text, .others = "grades marks table", FIELD(check.csv)},
+    {"moodle", 0, GROUP_CHECK, "FILE", NULL, "Grades as a worksheet of Moodle (CSV).",
+     "Folders that Moodle names after their participants are recognised.", .kind = VALUE_FILE, .store = store_text,
+     FIELD(check.moodle)},
+    {"gradescope", 0, GROUP_CHECK, "FILE", NULL, "One submission's results.json for Gradescope.", NULL,
+     .kind = VALUE_FILE, .store = store_text, FIELD(check.gradescope)},
+    {"submitty", 0, GROUP_CHECK, "FILE", NULL, "One submission's result for Submitty.",
+     "The file is its validation_results.json.", .kind = VALUE_FILE, .store = store_text, FIELD(check.submitty)},
+    {"write-contract", 0, GROUP_CHECK, "FILE", NULL, "Write a commented contract for the shaders.",
+     "It is the contract that was recognised, or the roles that the inputs have by their use: correct it, and check "
+     "with `--contract FILE` (`docs/check/contract-file.md`).",
+     .kind = VALUE_FILE, .store = store_text, FIELD(check.write_contract)},
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
      .store = store_switch, FIELD(check.list)},
     {"glsl", 0, GROUP_SHADER, "VERSION", "330", "The version of GLSL: 330, 120 or 300es.",

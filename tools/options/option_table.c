@@ -6,8 +6,6 @@
 
 #include <lambent/check.h>
 
-#include <string.h>
-
 // Degrees of --fov, and of --camera with fovy alone.
 #define FOV_MIN 0.1
 #define FOV_MAX 179.9
@@ -230,7 +228,7 @@ static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest that 
                                         {"wasm", LAM_ISA_WASM, "WebAssembly's SIMD128, 4 lanes"},
                                         {NULL, 0, NULL}};
 
-static const struct option rows[] = {
+struct option option_table[OPTIONS_MAX] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", output_summary,
      "The extension selects the format; `lambent formats` says which numbers each holds. `-` writes a PNG to standard "
      "output; a pipe or device whose name has no such extension also gets a PNG. Without this "
@@ -573,7 +571,7 @@ static const struct option rows[] = {
      "colour and width: light, exposure, tone and distance do not change them. `docs/edges.md` has pictures.",
      .others = "wire mesh mesh-lines show-edges polygons topology", .loads = true},
     {"wireframe-width", 0, GROUP_SHADING, "PIXELS", .others = "wire-width"},
-    {"wireframe-color", 0, GROUP_SHADING, "COLOR", NULL, NULL, "An alpha below 1 lets the surfaces through.",
+    {"wireframe-color", 0, GROUP_SHADING, "COLOR", "black", NULL, "An alpha below 1 lets the surfaces through.",
      .kind = VALUE_COLOR, .store = store_color, .others = "wire-color", FIELD(shading.wireframe_color)},
     {"edges", 0, GROUP_SHADING, "KINDS", "none", NULL,
      "`crease`: two faces meet at more than `--edge-angle`, or more than two faces meet; `boundary`: a surface ends; "
@@ -582,7 +580,7 @@ static const struct option rows[] = {
      .others = "edge feature-edges outline outlines contour toon lineart line-art", .loads = true},
     {"edge-angle", 0, GROUP_SHADING, "DEGREES", .others = "feature-angle sharp-angle"},
     {"edge-width", 0, GROUP_SHADING, "PIXELS", .others = "outline-width"},
-    {"edge-color", 0, GROUP_SHADING, "COLOR", NULL, NULL, NULL, .kind = VALUE_COLOR, .store = store_color,
+    {"edge-color", 0, GROUP_SHADING, "COLOR", "black", NULL, NULL, .kind = VALUE_COLOR, .store = store_color,
      .others = "outline-color", FIELD(shading.edge_color)},
     {"hidden-lines", 0, GROUP_SHADING, "HOW", NULL, NULL,
      "What is hidden is decided by rays from each edge to the eye: exact, so that no line is broken where it runs "
@@ -1037,11 +1035,6 @@ static const struct option rows[] = {
      "`lambent help TOPIC` explains a subject, a command or an option.", .store = store_switch, .others = "? usage",
      FIELD(report.help), .letter_field = offsetof(struct options, report.brief_help)},
 };
-enum { ROWS = sizeof rows / sizeof *rows };
-_Static_assert(ROWS + LAM_SETTINGS_MAX < OPTIONS_MAX, "more options than struct options has marks for");
-
-struct option option_table[OPTIONS_MAX];
-
 static char *append(char *to, const char *text)
 {
     while (*text)
@@ -1052,8 +1045,7 @@ static char *append(char *to, const char *text)
 // Runs at every start of the program, so it avoids printf.
 void option_table_fill(void)
 {
-    memcpy(option_table, rows, sizeof rows);
-    option_settings_fill(ROWS);
+    option_settings_fill(option_table);
     char *end = append(reflection_summary, "The reflection model:");
     for (int i = 0; i < LAM_REFLECTION_COUNT; i++) {
         const lam_reflection_info *model = lam_reflection_describe((lam_reflection)i);

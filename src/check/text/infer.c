@@ -380,12 +380,11 @@ static bool find_role(struct inference *f, const struct declaration *item)
 
 static bool find_uniform(struct inference *f, const struct declaration *item)
 {
-    static const char *const types = " float int bool vec2 vec3 vec4 mat3 mat4 sampler2D ";
     char padded[70];
+    snprintf(padded, sizeof padded, " %.64s ", item->type);
     if (find_role(f, item))
         return true;
-    snprintf(padded, sizeof padded, " %.64s ", item->type);
-    if (f->all && strstr(types, padded))
+    if (f->all && strstr(" float int bool vec2 vec3 vec4 mat3 mat4 sampler2D ", padded))
         give(f->uniforms, item->name, "zero", item->type, NULL);
     return f->all;
 }
@@ -569,14 +568,10 @@ static json_t *lines_of(const char *text)
 char *contract_infer(const struct declarations *vertex, const struct declarations *fragment,
                      const struct contract *engine, int guess, bool all, char *reason, size_t capacity)
 {
-    struct inference f = {.vertex = vertex,
-                          .fragment = fragment,
-                          .reason = reason,
-                          .capacity = capacity,
-                          .engine = engine != NULL,
-                          .all = all};
+    struct inference f = {.vertex = vertex, .fragment = fragment, .reason = reason, .capacity = capacity, .all = all};
     char *text = NULL;
     reason[0] = 0;
+    f.engine = engine != NULL;
     f.attributes = json_object();
     f.uniforms = json_object();
     f.undeclared = json_object();

@@ -48,7 +48,7 @@ struct importer {
     bool (*load_stream)(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
 };
 
-extern const struct importer importer_obj, importer_stl, importer_ply, importer_gltf, importer_scene;
+extern const struct importer importer_obj, importer_stl, importer_ply, importer_gltf, importer_3mf, importer_scene;
 
 // The crease angle for scene_prepare, of a load with these parameters (0: the default). Flat normals are those of facets.
 static inline double importer_crease(const struct importer *importer, lam_normals normals, double crease_angle_rad)

@@ -8,8 +8,8 @@
 #include <string.h>
 #include <strings.h>
 
-static const struct importer *const importers[] = {&importer_obj, &importer_stl, &importer_ply, &importer_gltf,
-                                                   &importer_scene};
+static const struct importer *const importers[] = {&importer_obj,  &importer_stl, &importer_ply,
+                                                   &importer_gltf, &importer_3mf, &importer_scene};
 enum { IMPORTERS = sizeof importers / sizeof *importers };
 
 const char *lam_model_format_name(int format)

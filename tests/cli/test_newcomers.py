@@ -22,12 +22,12 @@ class Sentences(Case):
         (self.folder / "folder").mkdir()
         (self.folder / "noise.step").write_text("hello there\n")
         self.given |= {"folder", "noise.step"}
-        reads = "lambent reads .obj, .stl, .ply, .gltf, .glb and scene files (.json)"
+        reads = "lambent reads .obj, .stl, .ply, .gltf, .glb, .3mf and scene files (.json)"
         self.check({
             "folder": (2, "lambent batch folder", "lambent view folder"),
             "https://example.com/a.glb": (2, "download it first", reads),
             "https://example.com/a.fbx": (2, "download it first", reads, "export the model as .glb"),
-            "a.fbx": (2, reads, "export the model as .glb"), "a.blend": (2, reads, ".glb"), "a.3mf": (2, reads, "as .stl"),
+            "a.fbx": (2, reads, "export the model as .glb"), "a.blend": (2, reads, ".glb"), "a.amf": (2, reads, "as .stl"),
             "a.step": (2, reads, "as .stl"), "noise.step": (3, "this is a STEP file", reads, "as .stl"),
             "cub.obj": (2, "did you mean 'cube.obj'?"), "cube.OBJ": (2, "did you mean 'cube.obj'?"),
             r"C:\models\cube.obj": (2, "folders are separated by /"), "640": (2, SIZE), "open": (2, "did you mean 'view'?"),

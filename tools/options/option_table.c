@@ -163,7 +163,7 @@ static const struct word projection_words[] = {{"perspective", 0, "a vertical fi
                                                {"orthographic", 1, "parallel, as in a drawing"},
                                                {NULL, 0, NULL}};
 
-static const struct word up_words[] = {{"auto", LAM_UP_AUTO, "by format: z for STL, y for the others"},
+static const struct word up_words[] = {{"auto", LAM_UP_AUTO, "by format: z for STL and 3MF, y for the others"},
                                        {"x", LAM_UP_X, NULL},
                                        {"y", LAM_UP_Y, "the model's front is +Z"},
                                        {"z", LAM_UP_Z, "the model's front is -Y"},
@@ -457,7 +457,7 @@ const struct option option_table[] = {
      FIELD(view.projection)},
     {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z, -x, -y, -z or auto.",
      "The camera and the lights attached to it follow the axis; the model's coordinates do not change. STL "
-     "files are read as Z up, as in CAD and 3D printing; other formats as Y up. Capitals and a plus (`+Z`) are "
+     "and 3MF files are read as Z up, as in CAD and 3D printing; other formats as Y up. Capitals and a plus (`+Z`) are "
      "accepted.",
      up_words, .brief = "what is up in the file: y, z, -z ...", .store = store_up,
      .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up)},

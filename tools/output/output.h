@@ -31,7 +31,10 @@ bool output_check(const char *path, const char *model, enum output_given given, 
 // True if the picture is written directly to `path` as a PNG: "-", or a pipe or device without a picture's extension.
 bool output_is_stream(const char *path);
 
-// The pixels of the format that the extension of `path` selects; bytes for a stream. Error: LAM_UNSUPPORTED.
+// The ending of the format that is written to `path`, as "jpg": "png" of a stream and of a name without an ending.
+const char *output_ending(const char *path);
+
+// The pixels of that format; bytes for a stream. Error: LAM_UNSUPPORTED.
 bool output_format(const char *path, lam_pixel_format *format, lam_error *error);
 
 // True if the name ends like a file of a model format. Scene files (.json) do not count: most JSON files are not one.

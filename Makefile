@@ -15,7 +15,7 @@ all: $(build)/lambent
 
 help:
 	@echo 'make            builds $(build)/lambent (missing Debian packages are installed first)'
-	@echo 'make demo       builds and renders the Utah teapot to out/demo.png'
+	@echo 'make demo       builds and renders a textured cow with a glaze to out/demo.png'
 	@echo 'make web        builds the WebAssembly module and the page, in build-web/'
 	@echo 'make site       writes README and docs/ as pages, in build-site/; figures open in the Lab'
 	@echo 'make test       builds with gcc, and with clang and sanitizers, and runs the tests of every change (docs/testing.md)'

@@ -174,8 +174,8 @@ LAM_API const char *lam_output_name(lam_output output);
 // Whether an output is light: the picture, its terms, and a light.
 LAM_API bool lam_output_is_light(lam_output output);
 
-// The samples per pixel of a picture of this size, where lam_draw_params do not say: 8 up to 512² pixels, whose edges show
-// steps at 4, and 4 above.
+// The samples per pixel of a picture of this size, if lam_draw_params give none: 16 up to 256² pixels, where thin wires would break
+// into dashes, 8 up to 512², and 4 above.
 LAM_API int lam_default_samples(int width, int height);
 
 // Ambient occlusion: how much of the light from all around reaches a point past the surfaces near it
@@ -285,8 +285,8 @@ typedef struct lam_draw_params {
     // 16..1048576, in place of the split sum (docs/lighting/environment.md). 0: the split sum. The CPU device alone; others
     // refuse it (LAM_UNSUPPORTED).
     int reference;
-    // The width of lines, and the sides of the squares that points are drawn as, in pixels, up to 1000. 0: 1.5 and 3. They lie
-    // nearer to the eye by their own width, as it is seen there, so that lines on a surface are not lost in it.
+    // The width of lines, and the diameter of points, in pixels, up to 1000. 0: 1.5, and for points at least 3, more the fewer
+    // there are and the larger the picture is, 8 or more for fewer than 100. Points below 4 pixels are squares. They lie nearer to the eye by their own width, as it is seen there, so that lines on a surface are not lost in it.
     float line_width, point_size;
     // Triangles between a point and a light take the light's diffuse and specular terms away, of every light that casts
     // shadows (lam_light.no_shadows): docs/lighting/shadows.md.
@@ -294,7 +294,8 @@ typedef struct lam_draw_params {
     // Shadow rays start on the flat triangles themselves. By default they start where the vertices' normals say that the
     // curved surface lies, or the terminator of a coarse smooth mesh would show its triangles.
     bool flat_terminator;
-    // Points of a light with a radius that are tested for each lit point, 1..256; 0: 16.
+    // Shadow rays to a light with a radius from each point in its penumbra, 1..256; 0: 128. Above 16, points in full light or
+    // full shadow get 16 rays.
     int shadow_samples;
     lam_occlusion occlusion; // LAM_BAD_ARGUMENT: SCREEN or RAYS without Phong shading
     // How far away surfaces occlude, as a share of half the diagonal of the scene's box, above 0 … 10. 0: 0.1.
@@ -376,13 +377,9 @@ LAM_API bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const 
                               const lam_draw_params *params, int width, int height, const lam_control *control,
                               double *stops, lam_error *error);
 
-// lam_camera_fit for a picture with a ground (params->ground): the camera also shows the part of the ground where the
-// scene's shadows and its occlusion of the ground fall. A shadow longer than the picture can hold is cut: the scene keeps
-// at least 0.7 of the size that lam_camera_fit gives it. Lights that stand in the camera's frame are taken as that camera
-// has them. `axis` not NULL: the scene turns about an axis through `centre`, as in lam_camera_fit_turning, and its shadows of all
-// angles count; give it the scene before it turns. Without a ground, or where the camera would see its under side, it is
-// the camera of those functions, as it is where the frame could not be drawn, and where so many lights cast shadows (some
-// 1,700 soft or 8,700 hard ones; 70 or 350 where the scene turns) that their ends would take more than 80 MB. `params` NULL:
+// lam_camera_fit for a picture with a ground (params->ground): if the view has no fill, the scene takes 0.8 of the picture,
+// and the rest is for its shadow. `axis` not NULL: the scene turns about an axis through `centre`, as in
+// lam_camera_fit_turning; give it the scene before it turns. Without a ground it is the camera of those functions. `params` NULL:
 // no ground.
 LAM_API lam_camera lam_camera_fit_ground(const lam_scene *scene, const lam_draw_params *params, int width, int height,
                                          const lam_view *view, lam_vec3 centre, const lam_vec3 *axis);

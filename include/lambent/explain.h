@@ -250,7 +250,7 @@ typedef struct lam_explained_fragment {
     // The kind of the ground where the triangle belongs to it; NONE: the triangle is the scene's.
     lam_ground ground;
     // LAM_GROUND_SHADOW: the luminance that the point sends to the eye, and that it would send with nothing in the way of light.
-    // What is missing is its opacity: 1 − received / unobstructed, times that to which it has faded out.
+    // The missing share is its opacity: 1 − received / unobstructed, times that to which it has faded out.
     float received, unobstructed;
     // 4: the triangle's corners, and the point with the weights above. NULL: a line or a point, which has no corners in a mesh.
     const lam_explained_place *places;

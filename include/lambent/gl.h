@@ -35,8 +35,8 @@ typedef struct lam_gl_params {
     // framebuffers of its own and restores every state that it changes.
     lam_gl_get_proc *get_proc_address;
     void *user; // passed to `get_proc_address`
-    // Collects the driver's debug messages (KHR_debug): an error, or a warning about speed, fails the draw with
-    // LAM_UNSUPPORTED and the driver's sentence. For tests; slower.
+    // Collects the driver's debug messages (KHR_debug): an error fails the draw with LAM_UNSUPPORTED and the driver's sentence.
+    // For tests; slower.
     bool debug;
     // Path of the EGL library that is loaded without a window. NULL: "libEGL.so.1".
     const char *library;

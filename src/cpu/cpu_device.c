@@ -201,7 +201,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     if (frame_has_rays(frame) &&
         !(cpu.shade.hierarchy = hierarchy_of_frame(&base->hierarchy, frame, device->pool, call, &built, error)))
         return false;
-    if (frame->shadows && device->light_pattern.count != frame->shadow_samples)
+    if (frame->shadows && device->light_pattern.all.count != frame->shadow_samples)
         light_pattern_fill(&device->light_pattern, frame->shadow_samples);
     cpu.shade.light_pattern = &device->light_pattern;
     base->report.hierarchy_ms += built ? milliseconds_since(&clock) : 0;

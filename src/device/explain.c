@@ -203,7 +203,7 @@ static void complete(struct recorder *recorder, const lam_scene *scene, const la
         }
         fragment->corners = mesh->line_count ? 2 : mesh->point_count ? 1 : 3;
         if (mesh_is_strokes(mesh))
-            fragment->triangle /= 2;
+            fragment->triangle /= mesh->point_count ? (uint32_t)frame->point_triangles : 2;
         complete_places(recorder, fragment, frame);
         if (fragment->places)
             complete_matrices(recorder, fragment, object, camera, frame);

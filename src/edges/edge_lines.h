@@ -6,7 +6,7 @@
 
 #include "loop_status.h"
 
-// What all edges of a frame have in common.
+// The view that all edges of a frame share.
 struct edge_view {
     const struct frame *frame;
     const struct hierarchy *hierarchy;

@@ -12,16 +12,32 @@ static bool is_inner(const lam_mesh *mesh, uint32_t corner)
     return mesh->inner_edges && mesh->inner_edges[corner / 3] >> (corner % 3) & 1;
 }
 
-// The edge of `count` corners that lead along it.
+// The third vertex of the triangle whose edge leads from a corner.
+static uint32_t apex_of(const struct corner_weld *weld, uint32_t corner)
+{
+    return weld->of[corner - corner % 3 + (corner % 3 + 2) % 3];
+}
+
+// The edge of `count` corners that lead along it. Triangles with the same three vertices are one face: files may contain each face
+// twice, once for either side. Of such twins the corner counts that leads against the first face's.
 static struct mesh_edge edge_of(const lam_mesh *mesh, const struct corner_weld *weld, const uint64_t *keys,
                                 uint32_t count)
 {
-    struct mesh_edge edge = {.corner = (uint32_t)keys[0], .other = (uint32_t)keys[count > 1 ? 1 : 0]};
+    struct mesh_edge edge = {.corner = (uint32_t)keys[0], .other = (uint32_t)keys[0]};
+    uint32_t apexes[2] = {apex_of(weld, edge.corner), UINT32_MAX}, faces = 1;
     bool inner = true;
-    for (uint32_t i = 0; i < count; i++)
-        inner &= is_inner(mesh, (uint32_t)keys[i]);
-    edge.kind = (inner ? EDGE_INNER : 0) | (count == 1 ? EDGE_OPEN : 0) | (count > 2 ? EDGE_SHARED : 0);
-    if (count == 2 && weld->of[edge.corner] == weld->of[edge.other])
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t corner = (uint32_t)keys[i], apex = apex_of(weld, corner);
+        inner &= is_inner(mesh, corner);
+        if (apex == apexes[0])
+            continue;
+        if (faces == 1 || (apex == apexes[1] && weld->of[corner] != weld->of[edge.corner]))
+            edge.other = corner;
+        if (faces == 1 || apex != apexes[1])
+            apexes[1] = faces++ == 1 ? apex : apexes[1];
+    }
+    edge.kind = (inner ? EDGE_INNER : 0) | (faces == 1 ? EDGE_OPEN : 0) | (faces > 2 ? EDGE_SHARED : 0);
+    if (faces == 2 && weld->of[edge.corner] == weld->of[edge.other])
         edge.kind |= EDGE_ALIKE;
     return edge;
 }

@@ -8,9 +8,9 @@
 
 enum {
     EDGE_INNER = 1,  // every triangle at it says so (lam_mesh.inner_edges): no edge of a polygon of the file
-    EDGE_OPEN = 2,   // one triangle is at it
+    EDGE_OPEN = 2,   // one face is at it. Triangles with the same three vertices are one face
     EDGE_SHARED = 4, // more than two are
-    EDGE_ALIKE = 8,  // both of its triangles run along it in the same direction: they are wound differently
+    EDGE_ALIKE = 8,  // both of its faces run along it in the same direction: they are wound differently
 };
 
 // An edge that leads from a corner of a triangle to the triangle's next corner, and where another triangle has it.

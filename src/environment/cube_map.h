@@ -48,7 +48,7 @@ struct picture_source {
 };
 
 // An environment of one picture or of six faces (`count`), read one after the other within a call. `call` may be NULL.
-// What the environment holds stays charged.
+// The environment's memory stays charged.
 struct lam_environment *environment_read(const struct picture_source *source, int count, lam_color_mode color,
                                          struct call_control *call, lam_error *error);
 

@@ -36,8 +36,8 @@ static const struct {
     {0},          {96, 1.0, 2.6}, {112, 0.8, 1.8}, {80, 0.8, 1.8}, {56, 0.35, 1.6}, {40, 0.35, 1.4},
     {.size = 32}, {.size = 24},   {.size = 16},    {.size = 16},   {.size = 16},    {.size = 16}};
 
-// What the far part of a lobe adds changes slowly: it is summed for a cube of a quarter of the size. Far is more than
-// FAR_TEXELS of that cube's texels away.
+// The far part of a lobe changes slowly: it is summed for a cube of a quarter of the size. Far is more than FAR_TEXELS of
+// that cube's texels away.
 enum { FAR_SHRINK = 4 };
 #define FAR_TEXELS 1.5
 static int far_size(int level) { return levels[level].growth > 0 ? levels[level].size / FAR_SHRINK : 0; }

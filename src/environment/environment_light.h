@@ -29,7 +29,7 @@ struct environment_light {
 };
 enum { ENVIRONMENT_LIGHT_ALL = (2 << ENVIRONMENT_LEVELS) - 1 };
 
-// What roughnesses between two levels read: the irradiance, these levels and those between and next to them.
+// The parts that roughnesses between two levels read: the irradiance, these levels, and the levels between and next to them.
 unsigned environment_light_parts(float first, float last);
 
 int prefiltered_size(int level); // texels on a side of levels 1 and up

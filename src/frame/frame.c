@@ -18,12 +18,18 @@
 
 static float rounded(double x) { return (float)x; }
 
-// Samples per pixel of pictures of up to SMALL_SIDE² pixels, and of larger ones.
-enum { SMALL_SIDE = 512, SMALL_SAMPLES = 8, LARGE_SAMPLES = 4 };
+// Samples per pixel of pictures of up to side² pixels, and of larger ones. Thin wires break into dashes with fewer.
+static const struct {
+    int side, samples;
+} small_pictures[] = {{256, 16}, {512, 8}};
+enum { LARGE_SAMPLES = 4 };
 
 int lam_default_samples(int width, int height)
 {
-    return (int64_t)width * height <= SMALL_SIDE * SMALL_SIDE ? SMALL_SAMPLES : LARGE_SAMPLES;
+    for (size_t i = 0; i < sizeof small_pictures / sizeof *small_pictures; i++)
+        if ((int64_t)width * height <= small_pictures[i].side * small_pictures[i].side)
+            return small_pictures[i].samples;
+    return LARGE_SAMPLES;
 }
 
 // Sets the planes to enclose all objects, with a margin. With perspective the near distance is at least 1/10000 of the
@@ -180,7 +186,7 @@ static bool add_ground(struct frame *frame, const lam_draw_params *params, uint6
                        const lam_mat4 *view, const lam_mat4 *pixel, struct call_control *call, lam_error *error)
 {
     struct frame_ground *ground = &frame->ground;
-    if (!frame_ground_make(frame, call, error))
+    if (!frame_ground_make(frame, view, pixel, call, error))
         return false;
     if (next + ground->mesh.triangle_count > TRIANGLES_MAX)
         return fail(error, LAM_LIMIT, "the scene has more than %u triangles", TRIANGLES_MAX);
@@ -322,7 +328,7 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, const lam
         wanted |= lam_scene_light(scene, i)->occluded > 0;
     for (int i = 0; i < frame->rig_count; i++)
         wanted |= frame->rig[i].occluded > 0;
-    bool lit = false; // what has none all the same
+    bool lit = false; // some opaque surface is lit
     for (int i = 0; i < frame->range_count; i++)
         lit |= frame->ranges[i].reflection != LAM_REFLECTION_NONE &&
                (!frame->ranges[i].translucent || frame->draws[frame->ranges[i].draw].ground);
@@ -399,7 +405,9 @@ static bool build_draws(struct frame *frame, const lam_scene *scene, const lam_d
     uint64_t next = 0;
     for (int i = 0; i < scene->objects.count; i++) {
         const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
-        uint64_t triangles = mesh_is_strokes(mesh) ? 2 * (uint64_t)mesh_items(mesh) : mesh->triangle_count;
+        uint64_t triangles = mesh_is_strokes(mesh)
+                                 ? stroke_triangles(mesh, strokes->point_corners) * (uint64_t)mesh_items(mesh)
+                                 : mesh->triangle_count;
         if (!triangles || (params->no_surfaces && !mesh_is_strokes(mesh)))
             continue;
         if (next + triangles > TRIANGLES_MAX)
@@ -463,11 +471,9 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up);
     frame_ground_place(frame, scene, camera, params, &view);
     double near_plane = camera->near_plane, far_plane = camera->far_plane, aspect = (double)width / height;
-    struct stroke_view stroke_view = {
-        .view = &view,
-        .orthographic = frame->orthographic,
-        .line_width = params->line_width > 0 ? (double)params->line_width : STROKE_LINE_WIDTH,
-        .point_size = params->point_size > 0 ? (double)params->point_size : STROKE_POINT_SIZE};
+    struct stroke_view stroke_view = {.view = &view, .orthographic = frame->orthographic};
+    frame_strokes_size(&stroke_view, scene, params, width, height);
+    frame->point_triangles = (int)stroke_view.point_corners - 2;
     if (near_plane == 0 && far_plane == 0) {
         fit_planes(scene, &view, frame->orthographic, &near_plane, &far_plane);
         if (frame->ground.kind)
@@ -485,7 +491,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     stroke_view.projection = &projection;
     stroke_view.pixel = &pixel;
     stroke_view.near_plane = near_plane;
-    if (!frame_strokes_reserve(frame, scene, call, error))
+    if (!frame_strokes_reserve(frame, scene, &stroke_view, call, error))
         return false;
     if (!build_draws(frame, scene, params, &stroke_view, call, error))
         return false;
@@ -508,7 +514,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->shadows =
         wants_shadows(params) && (lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_CLIPPED);
     frame->flat_terminator = params->flat_terminator;
-    frame->shadow_samples = params->shadow_samples ? params->shadow_samples : 16;
+    frame->shadow_samples = params->shadow_samples ? params->shadow_samples : 128;
     frame->pixel_size =
         rounded(2 * (frame->orthographic ? camera->ortho_half_height : math_tan(0.5 * camera->fovy_rad)) / height);
     set_occlusion(frame, scene, params, physical);

@@ -125,6 +125,7 @@ struct frame {
     bool shadows; // a light casts shadows, and the output shows it
     bool flat_terminator;
     int shadow_samples;        // of a light with a radius
+    int point_triangles;       // of each point (frame_strokes.h)
     double eye_to_world[3][4]; // with rays only
     bool draws_edges;          // then `edges` is set
     struct frame_edges edges;

@@ -58,15 +58,15 @@ static bool rules_check(const lam_draw_params *params, lam_error *error)
     if (params->cavity == LAM_CAVITY_ON && params->occlusion == LAM_OCCLUSION_RAYS)
         return fail(
             error, LAM_BAD_ARGUMENT,
-            "cavity is found on the screen: it goes with the ambient occlusion 'screen' or 'off', not with 'rays'");
+            "the cavity is computed on the screen: it needs the ambient occlusion 'screen' or 'off', not 'rays'");
     const char *shading = params->shading == LAM_SHADING_FLAT ? "flat" : "Gouraud";
     bool pixels = params->occlusion > LAM_OCCLUSION_OFF || params->cavity == LAM_CAVITY_ON;
     if (pixels && params->shading != LAM_SHADING_PHONG)
-        return fail(error, LAM_BAD_ARGUMENT,
-                    "ambient occlusion is found for pixels: it goes with Phong shading, not with %s", shading);
+        return fail(error, LAM_BAD_ARGUMENT, "%s is computed for each pixel: it needs Phong shading, not %s",
+                    params->occlusion > LAM_OCCLUSION_OFF ? "ambient occlusion" : "the cavity", shading);
     if (params->ground && params->shading != LAM_SHADING_PHONG)
         return fail(error, LAM_BAD_ARGUMENT,
-                    "shadows on a ground are found for pixels: a ground goes with Phong shading, not with %s", shading);
+                    "the shadow on a ground is computed for each pixel: a ground needs Phong shading, not %s", shading);
     if (params->shading == LAM_SHADING_PHONG &&
         (params->stage == LAM_STAGE_APPLICATION || params->stage == LAM_STAGE_VERTEX))
         return fail(error, LAM_BAD_ARGUMENT,

@@ -5,13 +5,19 @@
 #include "up_axis.h"
 #include "view_extents.h"
 
-// In radii of the scene's sphere: up to where the ground is whole, and where it ends.
-#define WHOLE 3.0
-#define END   6.0
+// In radii of the scene's sphere: up to where the ground is opaque, and where it ends. A catcher shows its shadow alone.
+#define WHOLE       3.0
+#define END         6.0
+#define CATCHER_END 4.0
+// In shares of half the picture's size from its middle: a catcher fades from here to there, so that no shadow is cut off
+// at the border. The model of a fitted camera lies inside (FILL_ON_GROUND in camera_fit.c).
+#define BORDER_FIRST 0.8
+#define BORDER_LAST  0.95
 // How far below the lowest point it lies, in radii: a flat underside would else have the very depth of the ground.
 #define DROP 0x1p-14
-// The side of a square without a pattern, in shares of the ground's radius.
-#define PLAIN_SQUARE 0.0625
+// The sides of squares without a pattern: in shares of the ground's radius, and for a catcher.
+#define PLAIN_SQUARE   0.0625
+#define CATCHER_SQUARE 0.015625
 // The brightness of a checker's dark squares relative to its bright ones.
 #define DARK_SQUARE 0.45f
 
@@ -61,9 +67,11 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
     if (!above)
         return;
     ground->kind = params->ground;
-    ground->whole = WHOLE * radius;
-    ground->end = END * radius;
-    ground->square = params->ground == LAM_GROUND_CHECKER ? round_number(0.5 * radius) : PLAIN_SQUARE * ground->end;
+    bool catcher = params->ground == LAM_GROUND_SHADOW;
+    ground->whole = (catcher ? 0.5 * CATCHER_END : WHOLE) * radius;
+    ground->end = (catcher ? CATCHER_END : END) * radius;
+    ground->square = params->ground == LAM_GROUND_CHECKER ? round_number(0.5 * radius)
+                                                          : (catcher ? CATCHER_SQUARE : PLAIN_SQUARE) * ground->end;
     lam_vec3 middle = mat4_point(view, ground->middle), up = mat4_vector(view, ground->up);
     ground->eye_up[0] = (float)up.x;
     ground->eye_up[1] = (float)up.y;
@@ -87,12 +95,24 @@ void frame_ground_planes(const struct frame_ground *ground, const lam_mat4 *view
         *near_plane = *far_plane * 1e-4;
 }
 
-// The opacity at a distance from the middle.
-static float fade(const struct frame_ground *ground, double x, double y)
+// 1 up to `first`, 0 from `last` on.
+static double fade(double x, double first, double last)
 {
-    double distance = math_sqrt(x * x + y * y), t = (ground->end - distance) / (ground->end - ground->whole);
+    double t = (last - x) / (last - first);
     t = t < 0 ? 0 : t > 1 ? 1 : t;
-    return (float)(t * t * (3 - 2 * t));
+    return t * t * (3 - 2 * t);
+}
+
+// The opacity of a catcher at a point, by its distance from the picture's border; 0 behind the eye.
+static double border_fade(const struct frame *frame, const lam_mat4 *to_pixel, lam_vec3 at)
+{
+    double p[4];
+    for (int i = 0; i < 4; i++)
+        p[i] = to_pixel->m[i][0] * at.x + to_pixel->m[i][1] * at.y + to_pixel->m[i][2] * at.z + to_pixel->m[i][3];
+    if (!(p[3] > 0))
+        return 0;
+    double x = 2 * p[0] / (p[3] * frame->width) - 1, y = 2 * p[1] / (p[3] * frame->height) - 1;
+    return fade(x < 0 ? -x : x, BORDER_FIRST, BORDER_LAST) * fade(y < 0 ? -y : y, BORDER_FIRST, BORDER_LAST);
 }
 
 static int64_t whole_number(double x)
@@ -103,9 +123,14 @@ static int64_t whole_number(double x)
     return n - ((double)n > x);
 }
 
-bool frame_ground_make(struct frame *frame, struct call_control *call, lam_error *error)
+bool frame_ground_make(struct frame *frame, const lam_mat4 *view, const lam_mat4 *pixel, struct call_control *call,
+                       lam_error *error)
 {
     struct frame_ground *ground = &frame->ground;
+    lam_mat4 place = mat4_translate(ground->middle.x, ground->middle.y, ground->middle.z),
+             to_pixel = mat4_mul(view, &place);
+    to_pixel = mat4_mul(pixel, &to_pixel);
+    bool catcher = ground->kind == LAM_GROUND_SHADOW;
     // A checker's squares begin at multiples of their side in world space, so that a model that turns has the same ground.
     bool checker = ground->kind == LAM_GROUND_CHECKER;
     double at_x = v3_dot(ground->middle, ground->right), at_y = v3_dot(ground->middle, ground->front);
@@ -134,7 +159,10 @@ bool frame_ground_make(struct frame *frame, struct call_control *call, lam_error
                 p[3 * k + 1] = (float)at.y;
                 p[3 * k + 2] = (float)at.z;
                 c[4 * k] = c[4 * k + 1] = c[4 * k + 2] = dark ? DARK_SQUARE : 1;
-                c[4 * k + 3] = fade(ground, x, y);
+                double opacity = fade(math_sqrt(x * x + y * y), ground->whole, ground->end);
+                if (catcher && opacity > 0)
+                    opacity *= border_fade(frame, &to_pixel, at);
+                c[4 * k + 3] = (float)opacity;
                 any = c[4 * k + 3] > any ? c[4 * k + 3] : any;
             }
             if (any == 0)

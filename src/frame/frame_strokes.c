@@ -1,4 +1,4 @@
-// frame_strokes.c: lines and points as rectangles that face the eye (frame_strokes.h).
+// frame_strokes.c: lines and points as polygons that face the eye (frame_strokes.h).
 #include "frame_strokes.h"
 
 #include "linear.h"
@@ -6,10 +6,10 @@
 
 #include <string.h>
 
-enum { CORNERS = 4, TRIANGLE_CORNERS = 6 };
+enum { LINE_CORNERS = 4, POINT_CORNERS_MAX = 16 };
 
-// The arrays of the rectangles of one mesh, in the order of their alignment; a member is NULL where the mesh lacks the
-// attribute. Corners 0 and 3 lie at the first end of a line, 1 and 2 at the second.
+// The arrays of the polygons of one mesh, in the order of their alignment; a member is NULL where the mesh lacks the
+// attribute. Corners 0 and 3 of a line lie at its first end, 1 and 2 at the second.
 struct stroke_arrays {
     lam_part *parts;
     float *positions, *normals, *tangents, *texcoords, *second_texcoords;
@@ -19,10 +19,43 @@ struct stroke_arrays {
 
 static size_t color_size(const lam_mesh *mesh) { return mesh->colors_format == LAM_COLORS_LINEAR_F32 ? 16 : 4; }
 
-// Divides memory among the arrays, and returns their size in bytes; `at` NULL: the size alone.
-static size_t divide(const lam_mesh *mesh, char *at, struct stroke_arrays *out)
+static size_t corners_of(const lam_mesh *mesh, size_t point_corners)
 {
-    size_t vertices = CORNERS * (size_t)mesh_items(mesh), size = 0;
+    return mesh->line_count ? LINE_CORNERS : point_corners;
+}
+
+size_t stroke_triangles(const lam_mesh *mesh, size_t point_corners) { return corners_of(mesh, point_corners) - 2; }
+
+// In shares of the picture's smaller side: the size of one point, which shrinks with the square root of their number.
+#define POINT_SHARE 0.16
+// The sizes in pixels: the least; the least of few points; the most of few, in shares of the picture's smaller side.
+#define POINT_LEAST 3.0
+#define FEW_LEAST   8.0
+#define FEW_MOST    0.025
+enum { FEW = 100 };
+// The sizes from which points are octagons, and have 16 corners.
+#define ROUND_FROM   4.0
+#define ROUNDER_FROM 12.0
+
+void frame_strokes_size(struct stroke_view *view, const struct lam_scene *scene, const lam_draw_params *params,
+                        int width, int height)
+{
+    double points = 0, side = width < height ? width : height;
+    for (int i = 0; i < scene->objects.count; i++)
+        points += scene_mesh(scene, scene_object(scene, i)->mesh)->point_count;
+    double least = points < FEW ? FEW_LEAST : POINT_LEAST, most = FEW_MOST * side;
+    double size = POINT_SHARE * side / math_sqrt(points > 1 ? points : 1);
+    size = size > most ? most : size;
+    size = size < least ? least : size;
+    view->line_width = params->line_width > 0 ? (double)params->line_width : STROKE_LINE_WIDTH;
+    view->point_size = params->point_size > 0 ? (double)params->point_size : size;
+    view->point_corners = view->point_size < ROUND_FROM ? 4 : view->point_size < ROUNDER_FROM ? 8 : POINT_CORNERS_MAX;
+}
+
+// Divides memory among the arrays, and returns their size in bytes; `at` NULL: the size alone.
+static size_t divide(const lam_mesh *mesh, size_t point_corners, char *at, struct stroke_arrays *out)
+{
+    size_t corners = corners_of(mesh, point_corners), items = mesh_items(mesh), vertices = corners * items, size = 0;
     const struct {
         bool there;
         size_t bytes;
@@ -33,7 +66,7 @@ static size_t divide(const lam_mesh *mesh, char *at, struct stroke_arrays *out)
                   {mesh->texcoords != NULL, vertices * 2 * sizeof(float)},
                   {mesh->second_texcoords != NULL, vertices * 2 * sizeof(float)},
                   {mesh->colors != NULL, vertices * color_size(mesh)},
-                  {true, TRIANGLE_CORNERS * (size_t)mesh_items(mesh) * sizeof(uint32_t)}};
+                  {true, 3 * (corners - 2) * items * sizeof(uint32_t)}};
     void *arrays[8] = {NULL};
     for (int i = 0; i < 8; i++) {
         arrays[i] = at && wanted[i].there ? at + size : NULL;
@@ -44,14 +77,14 @@ static size_t divide(const lam_mesh *mesh, char *at, struct stroke_arrays *out)
     return size;
 }
 
-bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, struct call_control *call,
-                           lam_error *error)
+bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, const struct stroke_view *view,
+                           struct call_control *call, lam_error *error)
 {
     struct stroke_arrays unused;
     size_t bytes = 0;
     for (int i = 0; i < scene->objects.count; i++) {
         const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
-        bytes += mesh_is_strokes(mesh) ? divide(mesh, NULL, &unused) : 0;
+        bytes += mesh_is_strokes(mesh) ? divide(mesh, view->point_corners, NULL, &unused) : 0;
     }
     frame->stroke_mesh_count = 0;
     frame->strokes_used = 0;
@@ -146,7 +179,7 @@ static void interpolate_color(const lam_mesh *mesh, size_t item, struct place pl
     }
 }
 
-// --- one rectangle
+// --- one polygon
 
 struct builder {
     const lam_mesh *from;
@@ -158,7 +191,9 @@ struct builder {
     double nearer;       // the share of its distance by which a stroke lies nearer; orthographic: the distance
     double near_plane;   // where that leaves it at the near plane
     double half;         // of a width, pixels
-    double bitangent;    // the sign that mirroring transforms give
+    size_t corners;      // of a polygon
+    double corner[POINT_CORNERS_MAX][2]; // of the polygon of a point, pixels from its middle
+    double bitangent;                    // the sign that mirroring transforms give
 };
 
 static lam_vec3 eye_position(const struct builder *b, size_t corner)
@@ -213,18 +248,19 @@ static void store_attributes(const struct builder *b, size_t item, size_t vertex
 // Stores the corners of a rectangle: first `right` of the ends and then left of them, (x, y) in pixels, y up.
 static void store_corners(const struct builder *b, size_t item, const lam_vec3 ends[2], double x, double y)
 {
-    for (size_t corner = 0; corner < CORNERS; corner++) {
+    for (size_t corner = 0; corner < LINE_CORNERS; corner++) {
         lam_vec3 p = ends[corner == 1 || corner == 2];
         double side = corner < 2 ? -w_of(b, p) : w_of(b, p);
-        store_position(b, CORNERS * item + corner, v3(p.x + side * x * b->scale[0], p.y + side * y * b->scale[1], p.z));
+        store_position(b, LINE_CORNERS * item + corner,
+                       v3(p.x + side * x * b->scale[0], p.y + side * y * b->scale[1], p.z));
     }
 }
 
 static void store_nothing(const struct builder *b, size_t item, struct place place)
 {
-    for (size_t corner = 0; corner < CORNERS; corner++) {
-        store_position(b, CORNERS * item + corner, v3(0, 0, 0));
-        store_attributes(b, item, CORNERS * item + corner, place);
+    for (size_t corner = 0; corner < b->corners; corner++) {
+        store_position(b, b->corners * item + corner, v3(0, 0, 0));
+        store_attributes(b, item, b->corners * item + corner, place);
     }
 }
 
@@ -237,12 +273,11 @@ static void build_point(const struct builder *b, size_t item)
         return;
     }
     p = moved_nearer(b, p);
-    double w = w_of(b, p), x = w * b->half * b->scale[0], y = w * b->half * b->scale[1];
-    const lam_vec3 corners[CORNERS] = {v3(p.x - x, p.y - y, p.z), v3(p.x + x, p.y - y, p.z), v3(p.x + x, p.y + y, p.z),
-                                       v3(p.x - x, p.y + y, p.z)};
-    for (size_t corner = 0; corner < CORNERS; corner++) {
-        store_position(b, CORNERS * item + corner, corners[corner]);
-        store_attributes(b, item, CORNERS * item + corner, place);
+    double w = w_of(b, p), x = w * b->scale[0], y = w * b->scale[1];
+    for (size_t corner = 0; corner < b->corners; corner++) {
+        const double *to = b->corner[corner];
+        store_position(b, b->corners * item + corner, v3(p.x + to[0] * x, p.y + to[1] * y, p.z));
+        store_attributes(b, item, b->corners * item + corner, place);
     }
 }
 
@@ -274,11 +309,22 @@ static void build_line(const struct builder *b, size_t item)
         store_corners(b, item, p, -dy / length * b->half, dx / length * b->half);
     else // seen along its length
         store_corners(b, item, p, 0, 0);
-    for (size_t corner = 0; corner < CORNERS; corner++)
-        store_attributes(b, item, CORNERS * item + corner, places[corner == 1 || corner == 2]);
+    for (size_t corner = 0; corner < LINE_CORNERS; corner++)
+        store_attributes(b, item, LINE_CORNERS * item + corner, places[corner == 1 || corner == 2]);
 }
 
 // --- all of a mesh
+
+// A square with the size as its side, or a regular polygon with the area of a disc of that diameter.
+static void set_corners(struct builder *b)
+{
+    double step = 2 * PI / (double)b->corners;
+    double radius = b->corners == 4 ? b->half * math_sqrt(2) : b->half * math_sqrt(step / math_sin(step));
+    for (size_t i = 0; i < b->corners; i++) {
+        b->corner[i][0] = -radius * math_sin(step * ((double)i + 0.5));
+        b->corner[i][1] = -radius * math_cos(step * ((double)i + 0.5));
+    }
+}
 
 static void start(struct builder *b, const struct frame *frame, const lam_mat4 *transform)
 {
@@ -289,6 +335,8 @@ static void start(struct builder *b, const struct frame *frame, const lam_mat4 *
     double width = mesh->line_count ? view->line_width : view->point_size, largest = 0;
     b->eye = mat4_mul(view->view, &world);
     b->half = width / 2;
+    b->corners = corners_of(mesh, view->point_corners);
+    set_corners(b);
     b->scale[0] = 2 / (view->projection->m[0][0] * frame->width);
     b->scale[1] = 2 / (view->projection->m[1][1] * frame->height);
     b->nearer = nearer_by(view, width, b->scale[1]);
@@ -308,23 +356,27 @@ static lam_mesh mesh_of(const struct builder *b)
 {
     const lam_mesh *from = b->from;
     size_t items = mesh_items(from);
-    uint32_t vertices = (uint32_t)(CORNERS * items);
-    for (size_t i = 0; i < items; i++) {
-        // Both triangles end at the second end of the line: flat shading takes its attributes, as OpenGL does for lines.
-        static const uint32_t corners[TRIANGLE_CORNERS] = {3, 0, 1, 3, 1, 2};
-        for (size_t k = 0; k < TRIANGLE_CORNERS; k++)
-            b->to.indices[TRIANGLE_CORNERS * i + k] = (uint32_t)(CORNERS * i) + corners[k];
-    }
+    size_t triangles = b->corners - 2;
+    uint32_t vertices = (uint32_t)(b->corners * items), *to = b->to.indices;
+    // A fan around the last corner. Both triangles of a line end at its second end: flat shading takes its attributes, as
+    // OpenGL does for lines.
+    for (size_t i = 0; i < items; i++)
+        for (size_t k = 0; k < triangles; k++) {
+            uint32_t first = (uint32_t)(b->corners * i);
+            *to++ = first + (uint32_t)b->corners - 1;
+            *to++ = first + (uint32_t)k;
+            *to++ = first + (uint32_t)k + 1;
+        }
     for (uint32_t i = 0; i < from->part_count; i++) {
         b->to.parts[i] = from->parts[i];
-        b->to.parts[i].first_triangle *= 2;
-        b->to.parts[i].triangle_count *= 2;
+        b->to.parts[i].first_triangle *= (uint32_t)triangles;
+        b->to.parts[i].triangle_count *= (uint32_t)triangles;
     }
     return (lam_mesh){.name = from->name,
                       .positions = b->to.positions,
                       .vertex_count = vertices,
                       .indices = b->to.indices,
-                      .triangle_count = (uint32_t)(2 * items),
+                      .triangle_count = (uint32_t)(triangles * items),
                       .normals = b->to.normals,
                       .normal_count = b->to.normals ? vertices : 0,
                       .tangents = b->to.tangents,
@@ -356,7 +408,8 @@ void frame_strokes_build(struct frame *frame, struct frame_draw *draw, const lam
                          const struct stroke_view *view)
 {
     struct builder b = {.from = draw->mesh, .view = view};
-    frame->strokes_used += divide(b.from, (char *)frame->strokes.data + frame->strokes_used, &b.to);
+    frame->strokes_used +=
+        divide(b.from, view->point_corners, (char *)frame->strokes.data + frame->strokes_used, &b.to);
     start(&b, frame, transform);
     for (size_t i = 0; i < mesh_items(b.from); i++) {
         if (b.from->line_count)

@@ -1,7 +1,7 @@
-// frame_strokes.h: lines and points as rectangles that face the eye, so that devices draw triangles alone.
+// frame_strokes.h: lines and points as polygons that face the eye, so that devices draw triangles alone.
 //
 // A line becomes the rectangle around its picture: its ends, moved to both sides at right angles to it in the window, each at its own
-// depth. A point becomes a square. Both are planar in space and in the window, so depth and attributes run along a line as
+// depth. A point becomes a square or, if that can be seen, a regular polygon of 8 or 16 corners. Both are planar in space and in the window, so depth and attributes run along a line as
 // they do along the edge of a triangle. Each lies nearer to the eye than its vertices, by its
 // width as it is seen there: half of a line that follows a slanted surface would be behind it. Line ends are cut off without caps, also where lines meet.
 #ifndef FRAME_STROKES_H
@@ -11,14 +11,22 @@
 
 // Where lam_draw_params do not say, pixels.
 #define STROKE_LINE_WIDTH 1.5
-#define STROKE_POINT_SIZE 3.0
 
 struct stroke_view {
     const lam_mat4 *view, *projection, *pixel; // world to eye; eye to clip space; eye to pixels (frame_draw.pixel)
     double near_plane;
     bool orthographic;
     double line_width, point_size; // pixels
+    size_t point_corners;          // of the polygon that a point becomes
 };
+
+// Sets the width of lines and the size of points to those of the parameters. Without a size, points get larger the fewer there are
+// and the larger the picture is: 3 pixels or more, and at least 8 if there are fewer than 100.
+void frame_strokes_size(struct stroke_view *view, const struct lam_scene *scene, const lam_draw_params *params,
+                        int width, int height);
+
+// The triangles of each item of a mesh of lines or points.
+size_t stroke_triangles(const lam_mesh *mesh, size_t point_corners);
 
 // Moves a near plane that was fitted to the scene so far forward that it cuts off no line or point, which lie nearer than
 // their vertices.
@@ -26,10 +34,10 @@ void frame_strokes_near(const struct lam_scene *scene, const lam_camera *camera,
                         int height, double *near_plane);
 
 // Reserves memory for all lines and points of a scene, and starts with none.
-bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, struct call_control *call,
-                           lam_error *error);
+bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, const struct stroke_view *view,
+                           struct call_control *call, lam_error *error);
 
-// Replaces the mesh of a draw, one of lines or points, by their rectangles: two triangles for each, in order. One that is
+// Replaces the mesh of a draw, one of lines or points, by their polygons: stroke_triangles for each, in order. One that is
 // before the near plane has no area.
 void frame_strokes_build(struct frame *frame, struct frame_draw *draw, const lam_mat4 *transform,
                          const struct stroke_view *view);

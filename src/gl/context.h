@@ -26,8 +26,8 @@ int gl_platforms(const struct egl *egl, struct gl_platform *platforms);
 
 // Debug messages of the driver.
 struct gl_messages {
-    int errors, slow; // number of errors and undefined behaviour; of performance warnings
-    char first[256];  // text of the first of them
+    int errors;      // number of errors and of undefined behaviour
+    char first[256]; // text of the first of them
 };
 
 // A context and its functions. `context` is EGL_NO_CONTEXT for the caller's own context.

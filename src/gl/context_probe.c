@@ -29,11 +29,9 @@ static void APIENTRY on_debug_message(GLenum source, GLenum type, GLuint id, GLe
     if (source == GL_DEBUG_SOURCE_SHADER_COMPILER)
         return;
     bool error = type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR;
-    bool slow = type == GL_DEBUG_TYPE_PERFORMANCE;
-    if ((error || slow) && !messages->errors && !messages->slow)
+    if (error && !messages->errors)
         snprintf(messages->first, sizeof messages->first, "%.250s", text);
     messages->errors += error;
-    messages->slow += slow;
 }
 
 static bool collect_messages(struct gl_context *context, lam_error *error)
@@ -88,8 +86,8 @@ bool gl_context_probe(struct gl_context *context, lam_error *error)
 bool gl_messages_clean(const struct gl_context *context, const char *doing, lam_error *error)
 {
     const struct gl_messages *messages = &context->messages;
-    if (!messages->errors && !messages->slow)
+    if (!messages->errors)
         return true;
-    return fail(error, LAM_UNSUPPORTED, "OpenGL: %s: the driver reports %d errors and %d slow calls; the first: %s",
-                doing, messages->errors, messages->slow, messages->first);
+    return fail(error, LAM_UNSUPPORTED, "OpenGL: %s: the driver reports %d errors; the first: %s", doing,
+                messages->errors, messages->first);
 }

@@ -16,7 +16,6 @@ static const char *const uniform_names[UNIFORM_COUNT] = {
     [UNIFORM_SHADOW_MATRIX] = "shadow_matrix",
     [UNIFORM_SHADOW_PLACES] = "shadow_places",
     [UNIFORM_SHADOW_ROUNDING] = "shadow_rounding",
-    [UNIFORM_SHADOW_SAMPLES] = "shadow_samples",
     [UNIFORM_FIRST_PRODUCT] = "first_product",
     [UNIFORM_BACK_FIRST_PRODUCT] = "back_first_product",
     [UNIFORM_FIRST_TRIANGLE] = "first_triangle",

@@ -78,7 +78,6 @@ static void pack_triangle(float *out, const struct gl_frame *f, const struct ray
 {
     const struct frame *frame = f->frame;
     const struct frame_draw *draw = &frame->draws[frame->ranges[frame_range_of(frame, t->number)].draw];
-    const uint32_t *indices = draw->mesh->indices;
     bool curved = draw->mesh->normals && frame_draw_casts(draw);
     for (uint32_t k = 0; k < 3; k++) {
         for (int i = 0; i < 3; i++)
@@ -86,7 +85,6 @@ static void pack_triangle(float *out, const struct gl_frame *f, const struct ray
         uint32_t corner = 3 * (t->number - draw->first_id) + k;
         if (curved)
             pack_normal(out + 4 * (3 + k), draw, corner);
-        out[4 * (3 + k) + 3] = (float)(indices ? indices[corner] : corner);
     }
     out[3] = (float)t->twin;
     out[7] = !frame_draw_casts(draw) ? KIND_APART : curved ? KIND_CURVED : KIND_FLAT;
@@ -156,8 +154,8 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
 void shadows_use(struct gl_frame *f, struct gl_program *program)
 {
     const struct hierarchy *h = &f->device->hierarchy.hierarchy;
-    float matrix[16] = {0},
-          places[4] = {f->device->shadow_places[0], f->device->shadow_places[1], f->frame->flat_terminator ? 0 : 1, 0};
+    float matrix[16] = {0}, places[4] = {f->device->shadow_places[0], f->device->shadow_places[1],
+                                         f->frame->flat_terminator ? 0 : 1, (float)f->frame->shadow_samples};
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++)
             matrix[4 * j + i] = (float)(f->frame->eye_to_world[i][j] * h->scale);
@@ -167,9 +165,7 @@ void shadows_use(struct gl_frame *f, struct gl_program *program)
     gl_use_texture(f->device, UNIT_SHADOW_TREE, GL_TEXTURE_2D, f->device->shadow_texture);
     program_set(f, program, UNIFORM_SHADOW_MATRIX, matrix, 16);
     program_set(f, program, UNIFORM_SHADOW_PLACES, places, 4);
-    float samples[4] = {(float)f->frame->shadow_samples, (float)h->scale, (float)f->left, (float)f->top};
-    program_set(f, program, UNIFORM_SHADOW_SAMPLES, samples, 4);
-    float rounding[4] = {(float)h->rounding[0], (float)h->rounding[1], (float)h->rounding[2], 0};
+    float rounding[4] = {(float)h->rounding[0], (float)h->rounding[1], (float)h->rounding[2], (float)h->scale};
     program_set(f, program, UNIFORM_SHADOW_ROUNDING, rounding, 4);
 }
 

@@ -133,7 +133,7 @@ static int rest_terms(const struct glsl_facts *f)
     return f->separate_reflection && rest & TERM_REFLECTION ? rest ^ (TERM_REFLECTION | TERM_WITHOUT_MATTE) : rest;
 }
 
-// What the material is at the point.
+// Writes the output of the material at the point, such as its base colour or roughness.
 static void add_output_material(struct text *text, const struct glsl_facts *f)
 {
     lam_output output = f->choices->output;
@@ -174,7 +174,7 @@ static void add_output_vector(struct text *text, const struct glsl_facts *f)
                c->output == LAM_OUTPUT_N_L ? "l" : "halfway3(l, s.v)");
 }
 
-// What becomes of the opacity `light.a` of the fragment.
+// Writes how the alpha mode turns `light.a` into the fragment's opacity.
 static void add_alpha_rule(struct text *text, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;

@@ -153,7 +153,7 @@ size_t glsl_lights_bytes(const struct glsl_choices *c)
     return (all ? all : 4) * sizeof(float);
 }
 
-// What shaders with shadows read in place of w 1, and of the position of a light that has none.
+// Shaders with shadows read this in place of w 1, and in place of the position if the light has none.
 static void pack_shadow(float position[4], const struct frame_light *light)
 {
     position[3] = light->casts_shadows ? (float)light->radius : -1;

@@ -3,9 +3,8 @@
 
 uniform sampler2D shadow_tree; // nodes of the hierarchy, its triangles, and the place of each triangle by its number
 uniform mat4 shadow_matrix;    // eye space to the hierarchy's, where all triangles lie within -1...1
-uniform vec4 shadow_places;    // first texel of the triangles, and of the places; 1: the terminator is cured
-uniform vec4 shadow_rounding;  // hierarchy.rounding: how far a corner may have been moved, along each axis
-uniform vec4 shadow_samples;   // rays to a light with a radius; world units to the hierarchy's; the picture's pixel at the target's corner
+uniform vec4 shadow_places;    // first texel of the triangles, and of the places; 1: the terminator is cured; rays to a light with a radius
+uniform vec4 shadow_rounding;  // hierarchy.rounding: how far a corner may have been moved, along each axis; world units to the hierarchy's
 
 int lit_triangle = 0; // number in the frame of the triangle that the fragment shows, or that has the vertex
 //@if from_vertices
@@ -14,9 +13,6 @@ int lit_corner = 0; // of its corners that which is lit
 vec3 ray_origin;
 vec3 ray_point; // of the surface that rays leave: their origin, unless that was moved off the surface
 float ray_twin; // of the triangle that rays start on; -1: they start at a vertex
-//@if from_vertices
-uvec2 ray_turn; // of the pattern: the vertex's element
-//@end
 
 vec4 tree_texel(int i) { return texelFetch(shadow_tree, ivec2(i % 1024, i / 1024), 0); }
 
@@ -35,7 +31,6 @@ void start_rays(vec3 p, int number, float side)
     ray_origin = apart ? (shadow_matrix * vec4(p, 1.0)).xyz : tree_texel(at + lit_corner).xyz;
     ray_point = ray_origin;
     ray_twin = -1.0;
-    ray_turn = uvec2(uint(tree_texel(at + 3 + lit_corner).w), 0u);
 }
 //@else
 
@@ -298,34 +293,38 @@ bool through_point(vec3 a, vec3 b, vec3 c)
     return passed;
 }
 
-// light_turn of light_pattern.h: the product of its two numbers has more than 32 bits, of which 40 to 47 are the turn.
-float turn_of_rays()
+const int LIGHT_PROBES = 16; // light_pattern.h
+const int LIGHT_RIM_PROBES = 10;
+
+// The light that passes along a ray to a point of a light's disc around p + d.
+@passed@ passed_point(vec3 d, vec3 u, vec3 v, float distance, float angle, float end)
 {
-//@if from_vertices
-    uvec2 at = ray_turn;
-//@else
-    uvec2 at = uvec2(gl_FragCoord.xy) + uvec2(shadow_samples.zw);
-//@end
-    uint part = at.x * 0x112e0be8u + at.y * 0x017e8cd9u;
-    uint low = part & 0xffffu;
-    uint high = part >> 16u;
-    uint middle = high * 64417u + (low * 64417u >> 16u);
-    uint upper = high * 52u + (middle >> 16u) + ((middle & 0xffffu) + low * 52u >> 16u);
-    return float(upper >> 8u & 255u) * (6.28318531 / 256.0);
+    return passed_ray(d + distance * (u * cos(angle) + v * sin(angle)), end);
 }
 
-// The light that passes along N rays to the points of a light's disc around p + d (light_pattern.h). `across` has the length of its radius.
+// The light that passes along N rays to the points of a light's disc around p + d (light_pattern.h). `across` has the length of its
+// radius. If N is above LIGHT_PROBES and these rays agree, the others are not traced.
 @passed@ passed_disc(vec3 d, vec3 across, float end, int count)
 {
     vec3 along = normalize(d);
     vec3 u = normalize(across - along * dot(along, across)) * length(across);
     vec3 v = cross(along, u);
-    float turn = turn_of_rays();
+    if (count > LIGHT_PROBES) {
+        @passed@ first = passed_point(d, u, v, 1.0, 0.0, end);
+        bool agree = true;
+        for (int i = 1; agree && i < LIGHT_PROBES; i++) {
+            bool rim = i < LIGHT_RIM_PROBES;
+            float turn = rim ? float(i) / float(LIGHT_RIM_PROBES)
+                             : (float(i - LIGHT_RIM_PROBES) + 0.5) / float(LIGHT_PROBES - LIGHT_RIM_PROBES);
+            agree = passed_point(d, u, v, rim ? 1.0 : 0.5, 6.28318531 * turn, end) == first;
+        }
+        if (agree) {
+            return first;
+        }
+    }
     @passed@ sum = @passed@(0.0);
     for (int i = 0; i < count; i++) {
-        float angle = 6.28318531 * fract(float(i) * 0.381966011) + turn;
-        float distance = sqrt((float(i) + 0.5) / float(count));
-        sum = sum + passed_ray(d + distance * (u * cos(angle) + v * sin(angle)), end);
+        sum = sum + passed_point(d, u, v, sqrt((float(i) + 0.5) / float(count)), 6.28318531 * fract(float(i) * 0.381966011), end);
     }
     return sum / float(count);
 }
@@ -359,8 +358,8 @@ vec3 least_axis(vec3 d)
     if (place.w == 0.0) {
         return passed_ray(d, end);
     }
-    vec3 across = directional ? place.xyz * place.w : least_axis(d) * (place.w * shadow_samples.y);
-    int count = int(shadow_samples.x);
+    vec3 across = directional ? place.xyz * place.w : least_axis(d) * (place.w * shadow_rounding.w);
+    int count = int(shadow_places.w);
     return passed_disc(d, across, end, count);
 }
 //@if tints_rays

@@ -81,7 +81,7 @@ FN vec3 divide3(vec3 a, vec3 b) { return vec3_of(a.x / b.x, a.y / b.y, a.z / b.z
 FN vec3 grey3(num x) { return vec3_of(x, x, x); }
 FN num fifth_power(num x) { return x * x * (x * x) * x; }
 
-// What a boundary reflects along its normal: ((a - b) / (a + b))^2.
+// The share that a boundary between two indices of refraction reflects along its normal: ((a - b) / (a + b))^2.
 FN num boundary_f0(num a, num b)
 {
     num ratio = (a - b) / (a + b);
@@ -439,8 +439,7 @@ FN vec3 layered_surroundings(surface s, layered m, vec3 kd, surroundings e, surr
     return light;
 }
 
-// What a surface lets through of the light behind it, straight ahead: (1 - max F_d) transmission base, times the volume's
-// attenuation, under sheen and coat.
+// The transmittance straight ahead: (1 - max F_d) transmission base, times the volume's attenuation, under sheen and coat.
 FN vec3 layered_transmittance(surface s, layered m, layer_values given, int set)
 {
     num c = eye_cosine(s);

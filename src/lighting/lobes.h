@@ -213,7 +213,7 @@ FN num schlick_weight(vec3 v, vec3 l)
     return square * square * m;
 }
 
-// What a dielectric reflects along the normal: index of refraction 1.5.
+// The reflectance of a dielectric along its normal, for an index of refraction of 1.5.
 #define DIELECTRIC_F0 0.04f
 
 // The mirrors' visibility times 2 n.l: n.l / (n.l root(...) + |n.v| root(...)).
@@ -287,7 +287,7 @@ FN num schlick_scattering(num n_dot_v, num roughness)
     return upper + (lower - upper) * p.down;
 }
 
-// What light between the mirrors adds to what they return at once, for f0 = 1.
+// The light that is scattered more than once, over the light that is scattered once, for f0 = 1.
 FN num scattering_gain(surface s, num roughness) { return 1.0f / single_scattering(eye_cosine(s), roughness) - 1.0f; }
 
 // The level of a prefiltered environment for a roughness: 0 at ROUGHNESS_MIN, PREFILTERED_LAST at 1, even in its fourth

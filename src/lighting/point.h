@@ -44,5 +44,5 @@ FN vec3 along_surface(vec3 n, vec3 tangent, num x, num y)
     return unit3(add3(scale3(tangent, x), scale3(cross3(n, tangent), y)));
 }
 
-// What ambient occlusion leaves of a light whose share `occluded` is light from all around, of which `share` arrives.
+// The factor of ambient occlusion for a light: the share `occluded` of it comes from all around, and `share` of that arrives.
 FN num unoccluded_light(num occluded, num share) { return 1.0f - occluded * (1.0f - share); }

@@ -19,7 +19,7 @@ FN surroundings surroundings_of(SCENE surface s, num roughness)
     return e;
 }
 
-// What layered_surroundings takes: around the base, whose mirror image of the eye may be stretched, and around the coat.
+// The surroundings of both boundaries: of the base, whose mirror image of the eye may be stretched, and of the coat.
 STRUCT(layered_around)
 {
     surroundings base;

@@ -66,7 +66,7 @@ FN vec3 khronos_neutral_tone(vec3 c)
     return pick3(peak < NEUTRAL_START, base, bright);
 }
 
-// What a curve takes: not below 0, not infinite.
+// The range of a tone curve's argument: not below 0, not infinite.
 FN num tone_limit(num x) { return min_of(positive(x), num_of(1.0e6f)); }
 
 FN vec3 tone_input(vec3 c) { return vec3_of(tone_limit(c.x), tone_limit(c.y), tone_limit(c.z)); }

@@ -45,8 +45,8 @@ void occlusion_pattern_fill(struct occlusion_pattern *pattern, int count)
         pattern->x[i] = pattern->y[i] = pattern->length[i] = 0;
         pattern->z[i] = 1;
     }
-    for (int i = 0; i < LIGHT_TURNS; i++) {
-        pattern->cosine[i] = math_cos(2 * PI * i / LIGHT_TURNS);
-        pattern->sine[i] = math_sin(2 * PI * i / LIGHT_TURNS);
+    for (int i = 0; i < OCCLUSION_TURNS; i++) {
+        pattern->cosine[i] = math_cos(2 * PI * i / OCCLUSION_TURNS);
+        pattern->sine[i] = math_sin(2 * PI * i / OCCLUSION_TURNS);
     }
 }

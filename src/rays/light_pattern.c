@@ -3,17 +3,21 @@
 
 #include "linear.h"
 
+static void add_point(struct light_points *points, double radius, double angle)
+{
+    points->x[points->count] = radius * math_cos(angle);
+    points->y[points->count++] = radius * math_sin(angle);
+}
+
 void light_pattern_fill(struct light_pattern *pattern, int count)
 {
     static const double golden_angle = 2.39996322972865332;
-    pattern->count = count;
-    for (int i = 0; i < count; i++) {
-        double radius = math_sqrt((i + 0.5) / count);
-        pattern->x[i] = radius * math_cos(golden_angle * i);
-        pattern->y[i] = radius * math_sin(golden_angle * i);
-    }
-    for (int i = 0; i < LIGHT_TURNS; i++) {
-        pattern->cosine[i] = math_cos(2 * PI * i / LIGHT_TURNS);
-        pattern->sine[i] = math_sin(2 * PI * i / LIGHT_TURNS);
-    }
+    const int inner = LIGHT_PROBES - LIGHT_RIM_PROBES;
+    pattern->probes.count = pattern->all.count = 0;
+    for (int i = 0; i < LIGHT_RIM_PROBES && count > LIGHT_PROBES; i++)
+        add_point(&pattern->probes, 1, 2 * PI * i / LIGHT_RIM_PROBES);
+    for (int i = 0; i < inner && count > LIGHT_PROBES; i++)
+        add_point(&pattern->probes, 0.5, 2 * PI * (i + 0.5) / inner);
+    for (int i = 0; i < count; i++)
+        add_point(&pattern->all, math_sqrt((i + 0.5) / count), golden_angle * i);
 }

@@ -9,11 +9,10 @@
 
 #include <stdlib.h>
 
-// Where LANES rays start: their rows in ray_lanes, and the turns of the pattern of lights with a size (light_turn).
+// Where LANES rays start: their rows in ray_lanes.
 struct ray_starts {
     const double *origin[3], *point[3];
     const int32_t *own;
-    const uint32_t *turn;
 };
 
 struct light_rays {
@@ -156,40 +155,65 @@ static void across(const double d[3], double u[3], double v[3])
         v[i] = n[j] * u[k] - n[k] * u[j];
 }
 
+// The rays to point n of a disc with the axes u and v.
+LANE_FN void aim_at_point(struct ray_lanes *ray, const struct ray_lanes *centre, const struct light_points *points,
+                          int n, double u[3][LANES], double v[3][LANES])
+{
+    *ray = *centre;
+    for (int k = 0; k < 3; k++)
+        for (int part = 0; part < LANES; part += DLANES)
+            dnum_store(ray->direction[k] + part,
+                       dnum_load(centre->direction[k] + part) +
+                           (points->x[n] * dnum_load(u[k] + part) + points->y[n] * dnum_load(v[k] + part)));
+}
+
+// Stores the light along the first ray, and returns the lanes for which another ray finds a different light: those in a
+// penumbra.
+static unsigned trace_probes(struct light_rays *r, const struct ray_lanes *centre, double u[3][LANES],
+                             double v[3][LANES], unsigned active, float passed[3][LANES])
+{
+    const struct light_points *points = &r->pattern->probes;
+    _Alignas(64) float one[3][LANES];
+    struct ray_lanes ray;
+    unsigned agree = active;
+    for (int n = 0; n < points->count && agree; n++) {
+        aim_at_point(&ray, centre, points, n, u, v);
+        trace(r, &ray, agree, n ? one : passed);
+        for (int c = 0; c < passed_channels(r->frame) && n > 0; c++)
+            agree &= mask_bits(num_load(one[c]) == num_load(passed[c]));
+    }
+    return active & ~agree;
+}
+
 // The mean over the points of a light with a size.
-static void trace_disc(struct light_rays *r, const uint32_t turns[LANES], const struct frame_light *light,
-                       const struct ray_lanes *centre, unsigned active, float passed[3][LANES])
+static void trace_disc(struct light_rays *r, const struct frame_light *light, const struct ray_lanes *centre,
+                       unsigned active, float passed[3][LANES])
 {
     const struct light_pattern *pattern = r->pattern;
-    bool directional = light->kind == LIGHT_DIRECTIONAL;
-    double radius = directional ? light->radius : light->radius * r->hierarchy->scale;
+    double radius = light->kind == LIGHT_DIRECTIONAL ? light->radius : light->radius * r->hierarchy->scale;
     _Alignas(64) float one[3][LANES], sum[3][LANES] = {{0}};
     int channels = passed_channels(r->frame);
     double u[3][LANES], v[3][LANES];
     for (int i = 0; i < LANES; i++) {
         double own_u[3], own_v[3];
-        uint32_t turn = turns[i];
-        double c = pattern->cosine[turn] * radius, s = pattern->sine[turn] * radius;
         across((const double[3]){centre->direction[0][i], centre->direction[1][i], centre->direction[2][i]}, own_u,
                own_v);
         for (int k = 0; k < 3; k++) {
-            u[k][i] = c * own_u[k] + s * own_v[k];
-            v[k][i] = c * own_v[k] - s * own_u[k];
+            u[k][i] = radius * own_u[k];
+            v[k][i] = radius * own_v[k];
         }
     }
-    for (int n = 0; n < pattern->count; n++) {
-        struct ray_lanes ray = *centre;
-        for (int k = 0; k < 3; k++)
-            for (int part = 0; part < LANES; part += DLANES)
-                dnum_store(ray.direction[k] + part,
-                           dnum_load(centre->direction[k] + part) +
-                               (pattern->x[n] * dnum_load(u[k] + part) + pattern->y[n] * dnum_load(v[k] + part)));
-        trace(r, &ray, active, one);
+    unsigned penumbra = pattern->probes.count ? trace_probes(r, centre, u, v, active, passed) : active;
+    for (int n = 0; n < pattern->all.count && penumbra; n++) {
+        struct ray_lanes ray;
+        aim_at_point(&ray, centre, &pattern->all, n, u, v);
+        trace(r, &ray, penumbra, one);
         for (int c = 0; c < channels; c++)
             num_store(sum[c], num_load(sum[c]) + num_load(one[c]));
     }
-    for (int c = 0; c < channels; c++)
-        num_store(passed[c], num_load(sum[c]) / (float)pattern->count);
+    for (int c = 0; c < channels && penumbra; c++)
+        num_store(passed[c],
+                  pick(mask_of_bits(penumbra), num_load(sum[c]) / (float)pattern->all.count, num_load(passed[c])));
 }
 
 LANE_FN void rays_from(struct ray_lanes *ray, const struct ray_starts *from)
@@ -225,7 +249,7 @@ LANE_FN void trace_light(struct light_rays *r, const struct ray_starts *from, co
     struct ray_lanes ray;
     rays_to_light(&ray, r, from, light);
     if (light->radius > 0)
-        trace_disc(r, from->turn, light, &ray, active, passed);
+        trace_disc(r, light, &ray, active, passed);
     else
         trace(r, &ray, active, passed);
 }

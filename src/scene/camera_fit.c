@@ -1,5 +1,5 @@
 // camera_fit.c: placing the camera so that a scene fills the picture.
-#include "camera_fit.h"
+#include <lambent/device.h>
 
 #include "fail.h"
 #include "float_state.h"
@@ -7,6 +7,10 @@
 #include "scene_internal.h"
 #include "up_axis.h"
 #include "view_extents.h"
+
+// The share of the picture's width or height that the scene takes. On a ground the rest is for its shadow.
+#define FILL           0.92
+#define FILL_ON_GROUND 0.8
 
 static struct view_axes axes_of(const lam_scene *scene, const lam_view *view, lam_vec3 centre)
 {
@@ -124,7 +128,7 @@ static lam_camera fit(const struct fitting *fitting, const struct view_points *p
 
 // The camera of a view: false: a field of the view is unknown, or the scene has no triangles, and `camera` says so.
 static bool start(struct fitting *fitting, const lam_scene *scene, int width, int height, const lam_view *view,
-                  const struct camera_points *also, lam_camera *camera)
+                  double fill, lam_camera *camera)
 {
     static const lam_view defaults = {0};
     if (!view)
@@ -140,13 +144,12 @@ static bool start(struct fitting *fitting, const lam_scene *scene, int width, in
     *fitting = (struct fitting){
         .axes = axes_of(scene, view, centre),
         .aspect = (double)(width > 1 ? width : 1) / (height > 1 ? height : 1),
-        .fill = view->fill > 0 ? view->fill : 0.92,
+        .fill = view->fill > 0 ? view->fill : fill,
         .fovy = view->fovy_rad > 0 && view->fovy_rad < PI ? view->fovy_rad : math_radians(30),
         .zoom = view->zoom > 0 ? view->zoom : 1,
         .orthographic = view->orthographic,
     };
-    struct view_points points = {
-        .scene = scene, .axes = &fitting->axes, .axes_count = 1, .also = also->points, .also_count = also->count};
+    struct view_points points = {.scene = scene, .axes = &fitting->axes, .axes_count = 1};
     *camera = fit(fitting, &points, fitting->fill);
     return true;
 }
@@ -190,16 +193,14 @@ static bool holds(const struct fitting *fitting, const lam_camera *camera, const
 
 // Replaces the camera where it does not hold the scene at every angle by one that does.
 static void fit_turning(const struct fitting *fitting, const lam_scene *scene, lam_vec3 centre, lam_vec3 axis,
-                        const struct camera_points *also, lam_camera *camera)
+                        lam_camera *camera)
 {
     struct view_axes axes[TURNS];
     bool any_axis = v3_length(axis) == 0;
     struct view_points points = {.scene = scene,
                                  .axes = axes,
                                  .axes_count = any_axis ? 1 : TURNS,
-                                 .ball_radius = any_axis ? scene_radius(scene, centre) : 0,
-                                 .also = also->points,
-                                 .also_count = also->count};
+                                 .ball_radius = any_axis ? scene_radius(scene, centre) : 0};
     for (int i = 0; i < points.axes_count; i++) { // the scene turns one way, or the view the other way
         lam_mat4 turn = mat4_rotate(any_axis ? 0 : 2 * PI * i / TURNS, any_axis ? v3(0, 0, 1) : axis);
         axes[i] = (struct view_axes){.right = mat4_vector(&turn, fitting->axes.right),
@@ -212,15 +213,16 @@ static void fit_turning(const struct fitting *fitting, const lam_scene *scene, l
         *camera = fit(fitting, &points, fitting->fill);
 }
 
-lam_camera camera_fit(const lam_scene *scene, int width, int height, const lam_view *view, lam_vec3 centre,
-                      const lam_vec3 *axis, const struct camera_points *also)
+// lam_camera_fit, or with an axis lam_camera_fit_turning, with this fill where the view has none.
+static lam_camera fit_view(const lam_scene *scene, int width, int height, const lam_view *view, lam_vec3 centre,
+                           const lam_vec3 *axis, double fill)
 {
     uint64_t state = float_state_enter();
     struct fitting fitting;
     lam_camera camera;
-    if (start(&fitting, scene, width, height, view, also, &camera)) {
+    if (start(&fitting, scene, width, height, view, fill, &camera)) {
         if (axis && v3_finite(centre) && v3_finite(*axis))
-            fit_turning(&fitting, scene, centre, *axis, also, &camera);
+            fit_turning(&fitting, scene, centre, *axis, &camera);
         apply_zoom(&fitting, &camera);
     }
     float_state_leave(state);
@@ -229,11 +231,19 @@ lam_camera camera_fit(const lam_scene *scene, int width, int height, const lam_v
 
 lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view)
 {
-    return camera_fit(scene, width, height, view, v3(0, 0, 0), NULL, &(struct camera_points){.count = 0});
+    return fit_view(scene, width, height, view, v3(0, 0, 0), NULL, FILL);
 }
 
 lam_camera lam_camera_fit_turning(const lam_scene *scene, lam_vec3 centre, lam_vec3 axis, int width, int height,
                                   const lam_view *view)
 {
-    return camera_fit(scene, width, height, view, centre, &axis, &(struct camera_points){.count = 0});
+    return fit_view(scene, width, height, view, centre, &axis, FILL);
+}
+
+lam_camera lam_camera_fit_ground(const lam_scene *scene, const lam_draw_params *params, int width, int height,
+                                 const lam_view *view, lam_vec3 centre, const lam_vec3 *axis)
+{
+    bool lines_alone = params && params->no_surfaces && params->output == LAM_OUTPUT_PICTURE; // they have no ground
+    bool ground = params && params->ground && !lines_alone;
+    return fit_view(scene, width, height, view, centre, axis, ground ? FILL_ON_GROUND : FILL);
 }

@@ -174,20 +174,6 @@ static void find_ball(double radius, struct view_extents *extents, int d)
     extents->point[d] = v3_scale(v3_unit(direction[d]), radius);
 }
 
-static void take_point(const struct view_axes *axes, lam_vec3 point, struct view_extents *extents, int first, int end)
-{
-    lam_vec3 p = v3_sub(point, axes->centre), direction[EXTENT_DIRECTIONS];
-    p = v3(v3_dot(axes->right, p), v3_dot(axes->above, p), v3_dot(axes->back, p));
-    set_across(extents, direction);
-    for (int d = first; d < end; d++) {
-        double value = v3_dot(direction[d], p);
-        if (value > extents->value[d]) {
-            extents->value[d] = value;
-            extents->point[d] = p;
-        }
-    }
-}
-
 static void search(const struct view_points *points, struct view_extents *extents, int first, int end)
 {
     for (int d = first; d < end; d++) {
@@ -199,8 +185,6 @@ static void search(const struct view_points *points, struct view_extents *extent
     for (int a = 0; a < points->axes_count && !(points->ball_radius > 0); a++)
         for (int i = 0; i < points->scene->objects.count; i++)
             search_object(points->scene, scene_object(points->scene, i), &points->axes[a], extents, first, end);
-    for (int i = 0; i < points->also_count; i++)
-        take_point(&points->axes[0], points->also[i], extents, first, end);
 }
 
 bool view_extents_centre(const lam_scene *scene, lam_vec3 *centre)

@@ -19,9 +19,6 @@ struct view_points {
     const struct view_axes *axes;
     int axes_count;
     double ball_radius; // > 0: a ball around the axes' centre in place of the scene
-    // World points that count as well, as seen along the first axes.
-    const lam_vec3 *also;
-    int also_count;
 };
 
 // The maxima over all points of ±x + kx·z, ±y + ky·z and z, in the axes of the view. k = 0: the bounding box.

@@ -85,8 +85,8 @@ LANE_FN inum side_at(int side, inum level)
     return imax_of(floor_of((float)side * num_of_bits(shift_left(127 - level, 23))), inum_of(1));
 }
 
-// What is read at places of the picture (mesh coordinates that went through the map's transform) at levels of detail
-// (OpenGL 4.6, section 8.14).
+// The texels and weights to read at texture coordinates (after the map's transform) and levels of detail (OpenGL 4.6,
+// section 8.14).
 LANE_FN struct taps_lanes taps_of(const lam_texture_map *map, num s, num t, num detail)
 {
     const struct texture_level *base = &map->texture->levels[0];

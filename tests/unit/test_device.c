@@ -49,8 +49,8 @@ static void test_default_samples(void **state)
     (void)state;
     static const struct {
         int width, height, samples;
-    } cases[] = {{512, 512, 8},  {513, 512, 4}, {512, 513, 4},    {2048, 128, 8},
-                 {2048, 129, 4}, {1, 1, 8},     {65535, 65535, 4}};
+    } cases[] = {{512, 512, 8}, {513, 512, 4},     {512, 513, 4},  {2048, 128, 8}, {2048, 129, 4},
+                 {1, 1, 16},    {65535, 65535, 4}, {256, 256, 16}, {257, 256, 8}};
     struct demo demo = make_demo("sphere-phong");
     lam_device *device = make_device(1);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

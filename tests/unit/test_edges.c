@@ -519,6 +519,36 @@ static void mistakes(void **state)
     lam_scene_free(scene);
 }
 
+// --- faces twice
+
+// A file that contains each face twice, once for either side, has the lines of the faces.
+static void twins(void **state)
+{
+    (void)state;
+    uint32_t twice[72];
+    for (int i = 0; i < 12; i++)
+        for (int k = 0; k < 3; k++) {
+            twice[6 * i + k] = cube_indices[3 * i + k];
+            twice[6 * i + 3 + k] = cube_indices[3 * i + 2 - k];
+        }
+    lam_mesh one = cube(), both = cube();
+    both.indices = twice;
+    both.triangle_count = 24;
+    lam_camera camera = camera_at(2, 3, 7);
+    for (int kind = LAM_EDGES_CREASE; kind <= LAM_EDGES_SILHOUETTE; kind <<= 1) {
+        lam_scene *scene = scene_of(&one), *doubled = scene_of(&both);
+        lam_image plain = draw(scene, &camera, (lam_draw_params){.edges = (unsigned)kind});
+        uint64_t count = drawn();
+        lam_image image = draw(doubled, &camera, (lam_draw_params){.edges = (unsigned)kind});
+        assert_int_equal(drawn(), count);
+        assert_memory_equal(image.pixels, plain.pixels, (size_t)SIDE * SIDE * 16);
+        lam_image_free(&plain);
+        lam_image_free(&image);
+        lam_scene_free(scene);
+        lam_scene_free(doubled);
+    }
+}
+
 // --- polygons of files
 
 // Edges that the meshes of a file have as a wireframe.
@@ -556,7 +586,7 @@ int main(void)
         cmocka_unit_test(cubes),      cmocka_unit_test(widths), cmocka_unit_test(silhouettes),
         cmocka_unit_test(surfaces),   cmocka_unit_test(hiding), cmocka_unit_test(near_plane),
         cmocka_unit_test(same_bytes), cmocka_unit_test(colors), cmocka_unit_test(mistakes),
-        cmocka_unit_test(polygons),
+        cmocka_unit_test(polygons),   cmocka_unit_test(twins),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -62,11 +62,10 @@ lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct 
                                  turns ? &axis : NULL);
 }
 
-// Keeps the lights as they are before those of the options come, where these come again: for each view's camera, and where a
-// camera is fitted to their shadows.
+// Keeps the lights as they are before the options add theirs, if these are added again for each view's camera.
 static bool keep_lights(struct job *job, lam_error *error)
 {
-    if ((job->view_count <= 1 && !job->options->draw.ground) || !job->options->lighting.lights.count)
+    if (job->view_count <= 1 || !job->options->lighting.lights.count)
         return true;
     job->light_count = lam_scene_light_count(job->scene);
     free(job->lights);
@@ -95,12 +94,8 @@ static void fit_camera(struct job *job, const struct model_sphere *sphere, bool 
         return;
     if (scene_settings_has_camera(job) && !side_is_given)
         job->camera = job->settings.camera;
-    else if (!o->view.camera) {
+    else if (!o->view.camera)
         job->camera = job_fit_camera(job->scene, sphere->centre, o, job->rig);
-        lam_error unused; // of a light's text, which job_light meets again
-        if (job->lights && o->draw.ground && job_light_again(job, &unused))
-            job->camera = job_fit_camera(job->scene, sphere->centre, o, job->rig);
-    }
 }
 
 bool job_place_camera(struct job *job, lam_error *error)

@@ -317,7 +317,8 @@ const struct option option_table[] = {
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.", NULL,
      .brief = "pixels: 800, or 1920x1080", .store = store_size,
      .others = "resolution width height dimensions pixels viewport window", .max = 65535, .single = TAKES_SIZE},
-    {"samples", 0, GROUP_PICTURE, "N", "8 up to 512x512 pixels, 4 above", "Samples per pixel: 1, 2, 4, 8 or 16.",
+    {"samples", 0, GROUP_PICTURE, "N", "16 up to 256x256 pixels, 8 up to 512x512, 4 above",
+     "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges, which matters most in small pictures; each picture of a sheet has the samples "
      "of "
      "its own size. Each triangle that covers part of a pixel is lit once in that pixel.",
@@ -334,9 +335,11 @@ const struct option option_table[] = {
      "vertices by "
      "their width, so that lines on a surface are seen, and end without caps.",
      .store = store_float, .others = "linewidth stroke-width thickness", FIELD(draw.line_width)},
-    {"point-size", 0, GROUP_PICTURE, "PIXELS", "3", "The size of the points that a model has: the sides of squares.",
+    {"point-size", 0, GROUP_PICTURE, "PIXELS", "by their number", "The diameter of the points that a model has.",
      "Points of OBJ (`p`) and glTF files, and the vertices of PLY files without faces and edges, are as large at every "
-     "distance.",
+     "distance. By default they get larger the fewer there are and the larger the picture is: 3 pixels or more, at "
+     "least 8 "
+     "if there are fewer than 100.",
      .store = store_float, .others = "pointsize point-width splat-size", FIELD(draw.point_size)},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
@@ -636,10 +639,12 @@ const struct option option_table[] = {
     {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", "on",
      "Whether shadows follow the curved surface that the normals stand for: on or off.", NULL, terminator_words,
      .store = store_word_flag, .others = "terminator shadow-bias", FIELD(draw.flat_terminator)},
-    {"shadow-samples", 0, GROUP_SHADING, "N", "16",
-     "Points of a light with a radius that each lit point is tested with.",
-     "Their share that is in sight is the share of the light that arrives.", .store = store_integer,
-     .others = "soft-shadow-samples light-samples", FIELD(draw.shadow_samples)},
+    {"shadow-samples", 0, GROUP_SHADING, "N", "128",
+     "Shadow rays to a light with a radius from each point in its penumbra.",
+     "The share of them that nothing blocks is the share of the light that arrives. Above 16, points in full light or "
+     "full "
+     "shadow get 16 rays. Fewer are faster, and show steps.",
+     .store = store_integer, .others = "soft-shadow-samples light-samples", FIELD(draw.shadow_samples)},
     {"wireframe", 'w', GROUP_SHADING, NULL, NULL, "Draw the edges of all faces as lines over the picture.",
      "Edges behind surfaces are left out (`--hidden-lines`), and so are those that cut the polygons of OBJ and PLY "
      "files "

@@ -25,7 +25,7 @@ bool page_model_list(const struct job *job, struct page_model *model, lam_error 
 bool page_model_add_environment(const struct options *options, struct page_model *model, lam_error *error);
 void page_model_free(struct page_model *model);
 
-// What the page cannot read of them, as a sentence for each kind, from 0; NULL: nothing more.
+// Why the page cannot read some of them, as a sentence for each kind, from 0; NULL: nothing more.
 const char *page_model_lacks(const struct page_model *model, const lam_file_info *info, int index);
 
 // Whether an option belongs to the picture: those that the page has controls for. A look is in the options that it sets.

@@ -55,7 +55,7 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
 enum { SANDBOX_TEXT_SIZE = 160 };
 const char *sandbox_text(const struct sandbox_state *state, char out[SANDBOX_TEXT_SIZE]);
 
-// What the seccomp filter permits a process: bits.
+// The system calls that the seccomp filter permits a process: bits.
 enum sandbox_filter {
     SANDBOX_DRAWS = 0, // read and draw: no other process, no socket, and files are opened for reading alone
     SANDBOX_SERVES =

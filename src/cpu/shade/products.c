@@ -92,7 +92,7 @@ struct material_products *products_make(struct buffer *storage, const struct fra
     return products;
 }
 
-// What a roughness reads that is the material's number alone, or times a map's. A mesh without texture coordinates reads no map.
+// The levels that a roughness reads: the material's number alone, or times a map's. A mesh without texture coordinates reads no map.
 static unsigned parts_of_number(const struct material_products *m, lam_map slot, float factor, bool stretched)
 {
     const float margin = 1e-4f; // for the rounding of filtered texels

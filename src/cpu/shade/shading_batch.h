@@ -92,7 +92,6 @@ struct vertex_cache {
 struct shadow_rows {
     double origin[3][BATCH_ROW], point[3][BATCH_ROW];
     int32_t own[BATCH_ROW];
-    uint32_t turn[BATCH_ROW]; // of the pattern of lights with a size (light_pattern.h)
 };
 
 // Scratch memory of one thread's shading, and its counters.

@@ -5,7 +5,7 @@
 
 #include "corner_weld.h"
 
-// What decides about groups, as bits.
+// The properties of a triangle that decide about its group, as bits.
 enum triangle_flags {
     TRIANGLE_PRESERVING = 1,  // the texture is not mirrored
     TRIANGLE_JOINS_ANY = 2,   // without a direction and, until a group has reached it, without an orientation

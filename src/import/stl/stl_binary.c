@@ -12,6 +12,7 @@
 #include "stl.h"
 #include "parallel_rows.h"
 #include "fail.h"
+#include "srgb.h"
 
 #include <string.h>
 
@@ -112,8 +113,8 @@ static bool color_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-// Whether the file has colours; sets dialect and fallback. With "COLOR=" in the header it has; if all words are zero,
-// all facets have the header's colour (*uniform). Without "COLOR=" it has if some words have bit 15 set and the others
+// Whether facets have colours; sets dialect and fallback. With "COLOR=" in the header they have, unless all words are zero:
+// the header's colour is that of the whole file then (*uniform). Without "COLOR=" it has if some words have bit 15 set and the others
 // are zero or equal, a default; more varied words are not colours.
 static bool colors_of(struct reader *reader, const struct words *words, bool *uniform)
 {
@@ -128,9 +129,22 @@ static bool colors_of(struct reader *reader, const struct words *words, bool *un
         memcpy(reader->fallback, header + at + KEY, 3);
         reader->magics = true;
         *uniform = !words->any;
-        return true;
+        return !*uniform;
     }
     return words->marked > 0 && words->unmarked_values < 2;
+}
+
+// The colour of the whole file is the default material's, so that options replace it.
+static bool set_material(struct reader *reader, struct lam_scene *scene, lam_error *error)
+{
+    bool raw = reader->source->params->color == LAM_COLOR_RAW;
+    float rgb[3];
+    for (int i = 0; i < 3; i++)
+        rgb[i] = (float)(raw ? reader->fallback[i] / 255.0 : srgb_linear(reader->fallback[i] / 255.0));
+    lam_material material = *lam_scene_default_material(scene);
+    material.ambient = (lam_rgb){rgb[0], rgb[1], rgb[2]};
+    material.diffuse = (lam_rgba){rgb[0], rgb[1], rgb[2], 1};
+    return lam_scene_set_default_material(scene, &material, error);
 }
 
 static bool read_colors(struct reader *reader, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
@@ -147,16 +161,12 @@ static bool read_colors(struct reader *reader, struct lam_scene *scene, lam_mesh
     }
     bool uniform = false;
     if (!colors_of(reader, &all, &uniform))
-        return true;
+        return !uniform || set_material(reader, scene, error);
     reader->colors = arena_array(&scene->arena, reader->count, 4);
     if (!reader->colors)
         return call_memory_error(reader->source->call, 4 * reader->count, error);
-    if (uniform) {
-        for (size_t i = 0; i < reader->count; i++)
-            memcpy(reader->colors + 4 * i, reader->fallback, 4);
-    } else if (!parallel_rows_run(reader->source, parallel_rows_count(reader->count), color_piece, reader, error)) {
+    if (!parallel_rows_run(reader->source, parallel_rows_count(reader->count), color_piece, reader, error))
         return false;
-    }
     mesh->colors = reader->colors;
     mesh->color_count = (uint32_t)reader->count;
     mesh->colors_format = reader->source->params->color == LAM_COLOR_RAW ? LAM_COLORS_LINEAR8 : LAM_COLORS_SRGB8;

@@ -21,7 +21,7 @@ struct sampler {
     size_t keys, width;
 };
 
-// What a channel sets.
+// The property that a channel animates.
 enum path { TRANSLATION, ROTATION, SCALE, WEIGHTS };
 
 static bool take_times(struct gltf *gltf, const struct place *place, const json_t *object, struct sampler *sampler)

@@ -118,7 +118,19 @@ def mistakes(program, _):
         yield "| `%s` | %s | %s | %s |" % (row["mistake"], row["wrong"], row["looks"], row["needs"] or "")
 
 
-SECTIONS = {"rigs": rigs, "explained": explained, "roles": roles, "settings": settings, "mistakes": mistakes}
+def formats(program, _):
+    """The formats of models and pictures, from `lambent formats`."""
+    written, read = re.findall(r"(?m)^  (\w+) +((?:\.\w+ ?)+(?:\w+)?)(?:  (.*))?$", output(program, "formats")), output(program, "formats").splitlines()[-1]
+    yield "| format | endings | |"
+    yield "|---|---|---|"
+    for name, endings, numbers in written:
+        yield "| `%s` | %s | %s |" % (name, ", ".join("`.%s`" % ending.strip(".") for ending in endings.split()),
+                                      "a picture that is written: " + numbers if numbers else "a model that is read")
+    yield ""
+    yield "Pictures are read from: %s." % read.strip()
+
+
+SECTIONS = {"formats": formats, "rigs": rigs, "explained": explained, "roles": roles, "settings": settings, "mistakes": mistakes}
 
 
 def pages_with_sections(program):

@@ -195,9 +195,6 @@ typedef enum lam_occlusion {
     LAM_OCCLUSION_COUNT
 } lam_occlusion;
 
-// The name of a kind of occlusion: "auto", "screen". A static string; NULL out of range.
-LAM_API const char *lam_occlusion_name(lam_occlusion occlusion);
-
 // Ambient occlusion at a small radius, 0.05 of half the diagonal of the scene's box and at least three cells of the
 // picture, so that letters, holes and seams can be seen. On scenes whose colours come from no texture, ridges become lighter by the same
 // measure as valleys become darker (docs/lighting/occlusion.md).
@@ -244,9 +241,6 @@ typedef enum lam_hidden_lines {
     LAM_HIDDEN_LINES_SHOW,       // as if the surfaces were not there
     LAM_HIDDEN_LINES_COUNT
 } lam_hidden_lines;
-
-// The name of a treatment of hidden lines: "remove", "dash". A static string; NULL out of range.
-LAM_API const char *lam_hidden_lines_name(lam_hidden_lines lines);
 
 // How a frame is drawn. All zero is the default.
 typedef struct lam_draw_params {

@@ -123,6 +123,13 @@ LAM_API bool lam_image_save_layers(const lam_layer *layers, int count, const cha
 // LAM_UNSUPPORTED for another ending, naming those that can be written.
 LAM_API bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error);
 
+// The picture formats, from 0: the name, which is the ending of file names too ("png"); another ending (NULL: none); and one line
+// that says which numbers a file holds ("8 bits, sRGB, with alpha"; NULL: the format is only read). Every format is read. Static
+// strings; NULL out of range.
+LAM_API const char *lam_image_format_name(int format);
+LAM_API const char *lam_image_format_alias(int format);
+LAM_API const char *lam_image_format_written(int format);
+
 // Reads a picture: PNG, JPEG (CMYK without its profile), WebP (LAM_UNSUPPORTED without libwebp), BMP, TGA and binary PPM into
 // LAM_RGBA8 (16 bits are cut to 8, grey and palettes become RGB), PFM, EXR (scanlines; the first part) and Radiance (.hdr)
 // into LAM_RGBA32F, with alpha 1 where the file has none. Content decides the format; of a TGA with a wrong header the ending

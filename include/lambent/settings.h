@@ -1,5 +1,5 @@
 // lambent/settings.h: the table of the settings of lam_draw_params that scene files and options have. Scene files are
-// read and written, their schema is made, and options are applied from its rows.
+// read and written, their schema is made, and options are made and applied from its rows.
 #ifndef LAMBENT_SETTINGS_H
 #define LAMBENT_SETTINGS_H
 
@@ -36,13 +36,17 @@ typedef struct lam_setting {
     bool zero_is_negative;
     // The words of WORD and WORDS: the one with this index and its value; NULL past the end. Of several words for one value the
     // first is written.
+    // NOT_FLAG: the words of its option, whose values are those of the member.
     const char *(*word)(int index, int *value);
     const char *summary; // one sentence
     const char *member;  // its name in lam_draw_params
     // WHOLE, NUMBER and ANGLE: the values that an error about another one names. WORD and WORDS: the enumeration (lam_…), or the members that
     // share an error.
     const char *expected;
-    LAM_RESERVED(6);
+    // One phrase about the word with this index; NULL: scene files alone have the word, and its option has not. A function of NULL:
+    // every word says enough.
+    const char *(*word_summary)(int index);
+    LAM_RESERVED(5);
 } lam_setting;
 
 // The most rows of the table: lam_picture_settings has a bit for each.

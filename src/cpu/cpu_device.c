@@ -143,14 +143,14 @@ static void fill_report(lam_frame_report *report, const struct cpu_device *devic
 static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
 {
     const struct frame *frame = cpu->shade.frame;
-    if (!frame->reference) {
+    if (!frame->settings.reference) {
         cpu->shade.environment_light = (frame->lamp_apart ? environment_light_without_lamp : environment_light)(
             frame->environment, environment_parts_of(&cpu->shade), cpu->pool, cpu->call, error);
         return cpu->shade.environment_light != NULL;
     }
     cpu->shade.reference = &memory->samples;
-    return environment_samples_make(&memory->samples, frame->environment, frame->to_environment, frame->reference,
-                                    &memory->reference, cpu->call, error);
+    return environment_samples_make(&memory->samples, frame->environment, frame->to_environment,
+                                    frame->settings.reference, &memory->reference, cpu->call, error);
 }
 
 // Pictures that are smaller than this count as so large: they take little time with any number of layers.
@@ -172,7 +172,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     lam_image working = {.width = image->width, .height = image->height, .format = working_format(image->format)};
     struct cpu_frame cpu = {
         .raster = {.frame = frame,
-                   .pattern = sample_pattern(frame->samples),
+                   .pattern = sample_pattern(frame->settings.samples),
                    .work = &cpu.work,
                    .tiles_across = (image->width + TILE - 1) / TILE,
                    .tiles_down = (image->height + TILE - 1) / TILE,
@@ -201,12 +201,12 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     if (frame_has_rays(frame) &&
         !(cpu.shade.hierarchy = hierarchy_of_frame(&base->hierarchy, frame, device->pool, call, &built, error)))
         return false;
-    if (frame->shadows && device->light_pattern.all.count != frame->shadow_samples)
-        light_pattern_fill(&device->light_pattern, frame->shadow_samples);
+    if (frame->settings.shadows && device->light_pattern.all.count != frame->settings.shadow_samples)
+        light_pattern_fill(&device->light_pattern, frame->settings.shadow_samples);
     cpu.shade.light_pattern = &device->light_pattern;
     base->report.hierarchy_ms += built ? milliseconds_since(&clock) : 0;
     cpu.kernels->resolve_empty(&cpu.target);
-    if (!lam_output_is_light(frame->output))
+    if (!lam_output_is_light(frame->settings.output))
         output_empty(&cpu.target);
 
     clock = now_ns();

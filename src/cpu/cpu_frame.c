@@ -26,7 +26,7 @@ static void *suballocate(struct suballocator *from, size_t count, size_t size)
 
 static void lay_out_shading(struct suballocator *from, struct shading *shading, const struct frame *frame)
 {
-    size_t vertices = 3 * ((size_t)tile_samples_count(frame->samples) + LANES_MAX), slots = 64;
+    size_t vertices = 3 * ((size_t)tile_samples_count(frame->settings.samples) + LANES_MAX), slots = 64;
     while (slots < 2 * vertices)
         slots *= 2;
     ARRAY(shading->vertices.table, slots);
@@ -48,12 +48,12 @@ static void lay_out_shading(struct suballocator *from, struct shading *shading, 
 static void lay_out_thread(struct suballocator *from, struct thread_state *thread, const struct resolve_target *target)
 {
     const struct frame *frame = target->frame;
-    size_t samples = (size_t)tile_samples_count(frame->samples);
+    size_t samples = (size_t)tile_samples_count(frame->settings.samples);
     size_t fragments = (frame->translucent && samples < LAYERS_MAX ? (size_t)LAYERS_MAX : samples) + LANES_MAX;
     ARRAY(thread->samples.keys, samples);
     ARRAY(thread->samples.ids, samples);
     thread->samples.counts = NULL;
-    if (frame->output == LAM_OUTPUT_OVERDRAW)
+    if (frame->settings.output == LAM_OUTPUT_OVERDRAW)
         ARRAY(thread->samples.counts, samples);
     ARRAY(thread->fragments.id, fragments);
     ARRAY(thread->fragments.pixel, fragments);
@@ -72,14 +72,14 @@ static void lay_out_thread(struct suballocator *from, struct thread_state *threa
     if (target->converted)
         ARRAY(thread->sums.pixels, TILE * TILE * 4);
     thread->sums.unclipped = NULL;
-    if (frame->output == LAM_OUTPUT_CLIPPED)
+    if (frame->settings.output == LAM_OUTPUT_CLIPPED)
         ARRAY(thread->sums.unclipped, TILE * TILE * 4);
     for (int c = 0; c < 3; c++)
         thread->fragments.through[c] = thread->sums.tint[c] = NULL;
     if (!frame->translucent)
         return;
     ARRAY(thread->layers.samples, LAYERS_MAX);
-    ARRAY(thread->layers.keys, (size_t)LAYERS_MAX * (size_t)frame->samples);
+    ARRAY(thread->layers.keys, (size_t)LAYERS_MAX * (size_t)frame->settings.samples);
     ARRAY(thread->blend.order, LAYERS_MAX);
     ARRAY(thread->blend.start, TILE * TILE + 1);
     ARRAY(thread->blend.layers, LAYERS_MAX);
@@ -87,9 +87,10 @@ static void lay_out_thread(struct suballocator *from, struct thread_state *threa
     for (int c = 0; frame->transmits && c < 3; c++) {
         ARRAY(thread->fragments.through[c], fragments);
         ARRAY(thread->sums.tint[c], samples);
-        thread->sums.background[c] = (&frame->background.r)[c] * frame->background.a / frame->exposure;
+        thread->sums.background[c] =
+            (&frame->settings.background.r)[c] * frame->settings.background.a / frame->exposure;
     }
-    thread->sums.background[3] = frame->background.a;
+    thread->sums.background[3] = frame->settings.background.a;
 }
 
 static bool set_up_thread(struct thread_state *thread, const struct cpu_frame *cpu, lam_error *error)
@@ -214,12 +215,12 @@ bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_er
     const struct frame *frame = cpu->raster.frame;
     if (!list_pieces(cpu, memory, error))
         return false;
-    if (frame->occlusion == LAM_OCCLUSION_RAYS) {
+    if (frame->settings.occlusion == LAM_OCCLUSION_RAYS) {
         if (!buffer_reserve(&memory->occlusion, sizeof(struct occlusion_pattern), cpu->call, error))
             return false;
-        occlusion_pattern_fill(memory->occlusion.data, frame->occlusion_samples);
+        occlusion_pattern_fill(memory->occlusion.data, frame->settings.occlusion_samples);
         cpu->shade.occlusion_pattern = memory->occlusion.data;
-    } else if (frame->occlusion == LAM_OCCLUSION_SCREEN) {
+    } else if (frame->settings.occlusion == LAM_OCCLUSION_SCREEN) {
         // Once fragments are kept, the transformed vertices are no longer needed.
         struct scratch_memory lent = {0};
         if (keeps_fragments(cpu) && !frame->makes_normals)

@@ -46,7 +46,7 @@ static void draw_layers(const struct cpu_frame *cpu, struct thread_state *thread
     thread->layers.masked = false;
     if (cpu->shade.frame->masked)
         cpu->kernels->mask_fragments(&cpu->shade, &thread->fragments, &thread->layers, &thread->shading, tile);
-    if (output_is_value(cpu->shade.frame->output)) {
+    if (output_is_value(cpu->shade.frame->settings.output)) {
         show_layers(pattern, &thread->fragments, &thread->layers, &thread->samples);
         thread->coverage_ns += now_ns() - start;
         return;
@@ -69,10 +69,10 @@ static void blend_tile(const struct cpu_frame *cpu, struct thread_state *thread,
 {
     for (int c = 0; c < 4; c++)
         memset(thread->sums.sum[c], 0, TILE * TILE * sizeof(float));
-    for (int i = 0; i < tile_samples_count(cpu->raster.frame->samples); i++)
+    for (int i = 0; i < tile_samples_count(cpu->raster.frame->settings.samples); i++)
         thread->sums.transmittance[i] = 1;
     for (int c = 0; c < 3 && thread->sums.tint[c]; c++)
-        for (int i = 0; i < tile_samples_count(cpu->raster.frame->samples); i++)
+        for (int i = 0; i < tile_samples_count(cpu->raster.frame->settings.samples); i++)
             thread->sums.tint[c][i] = 1;
     draw_layers(cpu, thread, tile, &(struct rectangle){0, 0, tile->width - 1, tile->height - 1});
 }
@@ -93,7 +93,7 @@ static void resolve_into(const struct resolve_target *target, const struct cpu_f
                          const struct tile *tile)
 {
     const struct kernels *kernels = cpu->kernels;
-    lam_output output = target->frame->output;
+    lam_output output = target->frame->settings.output;
     if (lam_output_is_light(output)) {
         kernels->resolve(target, &thread->fragments, &thread->samples, &thread->sums, tile);
         if (cpu->shade.recorder)
@@ -142,7 +142,7 @@ void draw_tile(struct cpu_frame *cpu, size_t index, int number)
     }
     uint64_t start = now_ns();
     if (store) {
-        kernels->load_fragments(store, &thread->fragments, cpu->raster.frame->samples);
+        kernels->load_fragments(store, &thread->fragments, cpu->raster.frame->settings.samples);
         thread->samples.translucent_triangles = 0;
     } else {
         kernels->cover_tile(&cpu->raster, &thread->samples, &tile);
@@ -151,7 +151,7 @@ void draw_tile(struct cpu_frame *cpu, size_t index, int number)
         if (thread->samples.translucent_triangles) {
             thread->coverage_ns += now_ns() - start;
             blend_tile(cpu, thread, &tile);
-            if (output_is_value(cpu->raster.frame->output)) // they are in the visibility buffer now
+            if (output_is_value(cpu->raster.frame->settings.output)) // they are in the visibility buffer now
                 thread->samples.translucent_triangles = 0;
             start = now_ns();
         }
@@ -160,7 +160,7 @@ void draw_tile(struct cpu_frame *cpu, size_t index, int number)
     }
     group_fragments(cpu->raster.frame, &thread->fragments);
     uint64_t covered = now_ns();
-    lam_output output = cpu->raster.frame->output;
+    lam_output output = cpu->raster.frame->settings.output;
     if (output != LAM_OUTPUT_COVERAGE && output != LAM_OUTPUT_OVERDRAW)
         shade(cpu, thread, &tile);
     if (!work_continues(&cpu->work))

@@ -33,7 +33,7 @@ static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
 {
     static const uint8_t front[3] = {0, 102, 255}, back[3] = {255, 51, 0};
     out[3] = 255;
-    switch (frame->output) {
+    switch (frame->settings.output) {
     case LAM_OUTPUT_IDS:
         color_of_ids(v, out);
         return;
@@ -44,7 +44,7 @@ static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
         break;
     }
     for (int c = 0; c < 3; c++)
-        switch (frame->output) {
+        switch (frame->settings.output) {
         case LAM_OUTPUT_NORMALS:
         case LAM_OUTPUT_TANGENTS:
             out[c] = code_byte((v[c] + 1.0f) * 0.5f);
@@ -53,7 +53,7 @@ static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
             out[c] = code_byte(depth_code(frame, v[c]));
             break;
         case LAM_OUTPUT_BASE_COLOR:
-            out[c] = code_byte(lane(encoded_channel(num_of(v[c]), frame->color == LAM_COLOR_RAW), 0));
+            out[c] = code_byte(lane(encoded_channel(num_of(v[c]), frame->settings.color == LAM_COLOR_RAW), 0));
             break;
         case LAM_OUTPUT_LOD:
             out[c] = code_byte(v[c] * 0.1f);
@@ -76,11 +76,11 @@ void encode_values(const struct frame *frame, lam_pixel_format format, const flo
 
 void encode_empty(const struct frame *frame, lam_pixel_format format, void *to)
 {
-    const lam_rgba *b = &frame->background;
+    const lam_rgba *b = &frame->settings.background;
     num zero = num_of(0.0f);
-    if (frame->output == LAM_OUTPUT_CLIPPED)
+    if (frame->settings.output == LAM_OUTPUT_CLIPPED)
         encode_clipped(format, (float[4]){b->r * b->a, b->g * b->a, b->b * b->a, b->a}, to);
-    else if (frame->output == LAM_OUTPUT_COVERAGE || frame->output == LAM_OUTPUT_OVERDRAW)
+    else if (frame->settings.output == LAM_OUTPUT_COVERAGE || frame->settings.output == LAM_OUTPUT_OVERDRAW)
         encode_values(frame, format, (float[4]){0, 0, 0, 1}, to);
     else if (format == LAM_RGBA32F)
         memset(to, 0, 16);

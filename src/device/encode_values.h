@@ -16,8 +16,8 @@ void encode_clipped(lam_pixel_format format, const float p[4], void *to);
 // Whether 8 bits hold numbers that are not sRGB-encoded.
 static inline bool values_are_raw(const struct frame *frame)
 {
-    bool color = lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_BASE_COLOR;
-    return frame->color == LAM_COLOR_RAW || !color;
+    bool color = lam_output_is_light(frame->settings.output) || frame->settings.output == LAM_OUTPUT_BASE_COLOR;
+    return frame->settings.color == LAM_COLOR_RAW || !color;
 }
 
 #endif

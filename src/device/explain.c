@@ -239,18 +239,18 @@ static void copy_lights(struct recorder *recorder, const struct frame *frame)
 
 static void take_frame(lam_explanation *out, const struct frame *frame)
 {
-    out->samples = frame->samples;
-    out->color = frame->color;
-    out->shading = frame->shading;
+    out->samples = frame->settings.samples;
+    out->color = frame->settings.color;
+    out->shading = frame->settings.shading;
     out->reflection =
         out->fragment_count ? out->fragments[0].reflection : frame_reflection(frame, &frame->default_material);
     out->distant_viewer = frame->distant_viewer;
-    out->gl1 = frame->gl1;
+    out->gl1 = frame->settings.gl1;
     out->has_environment = frame->environment != NULL;
-    out->background = frame->background;
+    out->background = frame->settings.background;
     out->exposure = frame->exposure;
-    out->tone = frame->tone;
-    out->reference = frame->environment_lights ? frame->reference : 0;
+    out->tone = frame->settings.tone;
+    out->reference = frame->environment_lights ? frame->settings.reference : 0;
 }
 
 static bool check_place(const lam_device *device, const lam_draw_params *params, int width, int height,

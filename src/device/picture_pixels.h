@@ -24,14 +24,14 @@ LANE_FN struct pixel_lanes exposed(const struct frame *frame, struct pixel_lanes
 LANE_FN struct pixel_lanes toned(const struct frame *frame, struct pixel_lanes p)
 {
     num part = pick(p.a > 0.0f, frame->exposure / p.a, num_of(0.0f));
-    vec3 c = tone_color(vec3_of(p.r * part, p.g * part, p.b * part), (int)frame->tone);
+    vec3 c = tone_color(vec3_of(p.r * part, p.g * part, p.b * part), (int)frame->settings.tone);
     return (struct pixel_lanes){c.x * p.a, c.y * p.a, c.z * p.a, p.a};
 }
 
 // Premultiplied colours, exposed or toned, over the background.
 LANE_FN struct pixel_lanes over_background(const struct frame *frame, struct pixel_lanes p)
 {
-    const lam_rgba *back = &frame->background;
+    const lam_rgba *back = &frame->settings.background;
     num clear = 1.0f - p.a;
     p.r = p.r + clear * (back->r * back->a);
     p.g = p.g + clear * (back->g * back->a);
@@ -51,7 +51,7 @@ LANE_FN inum to_byte(num x, num a, int raw)
 
 LANE_FN inum to_rgba8(const struct frame *frame, struct pixel_lanes p)
 {
-    int raw = frame->color == LAM_COLOR_RAW;
+    int raw = frame->settings.color == LAM_COLOR_RAW;
     inum r = to_byte(p.r, p.a, raw), g = to_byte(p.g, p.a, raw), b = to_byte(p.b, p.a, raw);
     inum a = int_of(saturate(p.a) * 255.0f + 0.5f);
     return r | shift_left(g, 8) | shift_left(b, 16) | shift_left(a, 24);
@@ -60,7 +60,7 @@ LANE_FN inum to_rgba8(const struct frame *frame, struct pixel_lanes p)
 // to_rgba8 for opaque pixels: no background shows, and division by an alpha of 1 is exact.
 LANE_FN inum opaque_to_rgba8(const struct frame *frame, struct pixel_lanes p)
 {
-    int raw = frame->color == LAM_COLOR_RAW;
+    int raw = frame->settings.color == LAM_COLOR_RAW;
     num one = num_of(1.0f);
     inum r = to_byte(p.r * frame->exposure, one, raw), g = to_byte(p.g * frame->exposure, one, raw);
     inum b = to_byte(p.b * frame->exposure, one, raw);
@@ -82,7 +82,7 @@ LANE_FN void write_packed(inum pixels, void *to, int count)
 // Writes the first `count` pixels of a vector to the picture.
 LANE_FN void write_pixels(const struct frame *frame, struct pixel_lanes p, lam_pixel_format format, void *to, int count)
 {
-    if (format == LAM_RGBA8 && frame->tone != LAM_TONE_NONE) {
+    if (format == LAM_RGBA8 && frame->settings.tone != LAM_TONE_NONE) {
         write_packed(to_rgba8(frame, over_background(frame, toned(frame, p))), to, count);
         return;
     }

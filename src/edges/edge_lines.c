@@ -65,10 +65,10 @@ static bool is_culled(const struct frame_draw *draw, bool front)
 // The style that an edge is drawn in; −1: it is not.
 static int style_of(const struct edge_piece *piece, const struct mesh_edge *edge)
 {
-    const struct frame_edges *edges = &piece->view->frame->edges;
-    int plain = edges->wireframe && !(edge->kind & EDGE_INNER) ? EDGE_STYLE_WIREFRAME : -1;
+    const lam_draw_params *settings = &piece->view->frame->settings;
+    int plain = settings->wireframe && !(edge->kind & EDGE_INNER) ? EDGE_STYLE_WIREFRAME : -1;
     bool culls = piece->draw->cull != LAM_CULL_NONE;
-    if (!edges->features && !culls)
+    if (!settings->edges && !culls)
         return plain;
     double a[3], b[3];
     bool front[2] = {faces_eye(piece, edge->corner / 3, a), false};
@@ -80,13 +80,13 @@ static int style_of(const struct edge_piece *piece, const struct mesh_edge *edge
         kinds = edge->kind & EDGE_OPEN ? LAM_EDGES_BOUNDARY : LAM_EDGES_CREASE;
     } else {
         double turn = edge->kind & EDGE_ALIKE ? -1 : 1, size = math_sqrt(dot(a, a)) * math_sqrt(dot(b, b));
-        kinds |= size > 0 && turn * dot(a, b) < edges->min_cosine * size ? LAM_EDGES_CREASE : 0;
+        kinds |= size > 0 && turn * dot(a, b) < piece->view->frame->edges.min_cosine * size ? LAM_EDGES_CREASE : 0;
     }
     if (edge->kind & EDGE_INNER)
         kinds = 0;
     if (!(edge->kind & (EDGE_OPEN | EDGE_SHARED)) && front[0] != (edge->kind & EDGE_ALIKE ? !front[1] : front[1]))
         kinds |= LAM_EDGES_SILHOUETTE;
-    return kinds & edges->features ? EDGE_STYLE_FEATURE : plain;
+    return kinds & (unsigned)settings->edges ? EDGE_STYLE_FEATURE : plain;
 }
 
 // --- what of them is in the picture
@@ -222,7 +222,7 @@ static bool add_run(struct edge_piece *piece, const struct edge_line *line, doub
 {
     if (!hidden)
         return add_part(piece, line, from, to);
-    return piece->view->frame->edges.hidden != LAM_HIDDEN_LINES_DASH || add_dashes(piece, line, from, to);
+    return piece->view->frame->settings.hidden_lines != LAM_HIDDEN_LINES_DASH || add_dashes(piece, line, from, to);
 }
 
 // Halves the stretches in which lines change, all of them side by side.
@@ -278,7 +278,7 @@ static bool flush(struct edge_piece *piece, struct scratch *s)
 bool edge_piece_draw(struct edge_piece *piece, void *memory)
 {
     struct scratch *s = memory;
-    bool shows_all = piece->view->frame->edges.hidden == LAM_HIDDEN_LINES_SHOW;
+    bool shows_all = piece->view->frame->settings.hidden_lines == LAM_HIDDEN_LINES_SHOW;
     s->line_count = s->point_count = 0;
     for (uint32_t e = 0; e < piece->count; e++) {
         struct edge_line *line = &s->lines[s->line_count];

@@ -158,7 +158,7 @@ static void blend_pixel(const struct blend_job *job, void *at, size_t index)
     const struct frame *frame = job->frame;
     lam_pixel_format format = job->image->format;
     float pixel[4], working[4];
-    bool raw = frame->color == LAM_COLOR_RAW, floats = format_is_float(format), any = false;
+    bool raw = frame->settings.color == LAM_COLOR_RAW, floats = format_is_float(format), any = false;
     for (int style = 0; style < EDGE_STYLES; style++)
         any |= memory->styles[style] && ((const float *)memory->coverage[style].data)[index] > 0;
     if (!any)
@@ -206,6 +206,6 @@ void edges_blend(const struct edge_memory *memory, const struct frame *frame, la
     if (!any)
         return;
     for (int i = 0; i < 256; i++)
-        job.decoded[i] = frame->color == LAM_COLOR_RAW ? (float)i / 255.0f : (float)srgb_linear(i / 255.0);
+        job.decoded[i] = frame->settings.color == LAM_COLOR_RAW ? (float)i / 255.0f : (float)srgb_linear(i / 255.0);
     pool_run(pool, (size_t)((image->height + BAND - 1) / BAND), blend_task, &job);
 }

@@ -132,7 +132,8 @@ static void piece_task(void *user, size_t index, int thread)
     }
     const struct source *source = (const struct source *)search->memory->sources.data + low;
     uint32_t first = (uint32_t)(index - search->first_pieces[low]) * EDGE_PIECE, left = source->count - first;
-    struct edge_measure *measures = frame->edges.hidden == LAM_HIDDEN_LINES_DASH ? search->memory->measures.data : NULL;
+    struct edge_measure *measures =
+        frame->settings.hidden_lines == LAM_HIDDEN_LINES_DASH ? search->memory->measures.data : NULL;
     struct edge_piece piece = {.view = &search->view,
                                .draw = &frame->draws[low],
                                .edges = (const struct mesh_edge *)search->memory->edges.data + source->first + first,
@@ -208,7 +209,8 @@ bool edges_find(struct edge_memory *memory, const struct frame *frame, const str
         search.first_pieces[i] = pieces;
         pieces += ((size_t)sources[i].count + EDGE_PIECE - 1) / EDGE_PIECE;
     }
-    bool chained = frame->edges.hidden != LAM_HIDDEN_LINES_DASH || find_chains(&search, pieces, pool, call, error);
+    bool chained =
+        frame->settings.hidden_lines != LAM_HIDDEN_LINES_DASH || find_chains(&search, pieces, pool, call, error);
     if (chained)
         pool_run(pool, pieces, piece_task, &search);
     free(search.first_pieces);

@@ -10,6 +10,7 @@
 #include "frame_strokes.h"
 #include "linear.h"
 #include "normals.h"
+#include "settings_check.h"
 #include "up_axis.h"
 #include "view_extents.h"
 
@@ -162,9 +163,9 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
         bool masks = frame->materials[front]->alpha_mode == LAM_ALPHA_MASK ||
                      (!draw->one_sided && frame->materials[back]->alpha_mode == LAM_ALPHA_MASK);
         bool passes_rays = translucent;
-        if (output_is_value(frame->output)) // overdraw counts triangles
-            translucent = translucent && masks && frame->output != LAM_OUTPUT_OVERDRAW;
-        frame->transmits |= passes && !output_is_value(frame->output);
+        if (output_is_value(frame->settings.output)) // overdraw counts triangles
+            translucent = translucent && masks && frame->settings.output != LAM_OUTPUT_OVERDRAW;
+        frame->transmits |= passes && !output_is_value(frame->settings.output);
         frame->translucent |= translucent;
         frame->passes_rays |= passes_rays;
         frame->tints_rays |= passes;
@@ -182,8 +183,8 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
 
 // Adds the ground as the frame's last triangles, lit like the scene: under an environment that lights physical materials it is
 // one of them, else it is matt.
-static bool add_ground(struct frame *frame, const lam_draw_params *params, uint64_t next, bool physical,
-                       const lam_mat4 *view, const lam_mat4 *pixel, struct call_control *call, lam_error *error)
+static bool add_ground(struct frame *frame, uint64_t next, bool physical, const lam_mat4 *view, const lam_mat4 *pixel,
+                       struct call_control *call, lam_error *error)
 {
     struct frame_ground *ground = &frame->ground;
     if (!frame_ground_make(frame, view, pixel, call, error))
@@ -197,7 +198,7 @@ static bool add_ground(struct frame *frame, const lam_draw_params *params, uint6
     draw->ground = true;
     ground->first_id = (uint32_t)next;
     bool by_environment = physical && frame->environment;
-    lam_rgb color = params->ground_color;
+    lam_rgb color = frame->settings.ground_color;
     if (ground->kind == LAM_GROUND_SHADOW)
         color = (lam_rgb){1, 1, 1};
     else if (ground->kind == LAM_GROUND_CHECKER && color.r == 0 && color.g == 0 && color.b == 0)
@@ -212,7 +213,7 @@ static bool add_ground(struct frame *frame, const lam_draw_params *params, uint6
     material->roughness = 1;
     material->alpha_mode = LAM_ALPHA_BLEND;
     frame->materials[frame->material_count] = material;
-    bool blended = !output_is_value(frame->output);
+    bool blended = !output_is_value(frame->settings.output);
     frame->translucent |= blended;
     frame->ranges[frame->range_count++] =
         (struct frame_draw_range){ground->first_id,
@@ -269,17 +270,18 @@ static bool shows_reflection(lam_output output) { return output_is_picture(outpu
 // Whether physical materials are lit as such.
 static bool uses_physical(const struct frame *frame)
 {
-    return frame->reflection == LAM_REFLECTION_AUTO || frame_is_physical(frame->reflection);
+    return frame->settings.reflection == LAM_REFLECTION_AUTO || frame_is_physical(frame->settings.reflection);
 }
 
 // Sets the environment and the matrix from directions in eye space to the environment's axes: eye space to world space, the scene's up axis
 // to +Y (as the fitted camera), then the inverse of the environment's rotation.
-static bool build_environment(struct frame *frame, const lam_scene *scene, lam_rig rig, bool lamp, const lam_mat4 *view,
-                              lam_error *error)
+static bool build_environment(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, lam_error *error)
 {
+    bool lamp = wants_shadows(&frame->settings);
     frame->environment = scene->environment;
-    if (!frame->environment && rig == LAM_RIG_AUTO && scene_lit_by_environment(scene) && uses_physical(frame) &&
-        (shows_reflection(frame->output) || (lamp && lam_output_is_light(frame->output))) &&
+    if (!frame->environment && frame->settings.rig == LAM_RIG_AUTO && scene_lit_by_environment(scene) &&
+        uses_physical(frame) &&
+        (shows_reflection(frame->settings.output) || (lamp && lam_output_is_light(frame->settings.output))) &&
         !(frame->environment = lazy_environment_studio(scene->studio, error)))
         return false;
     double s = math_sin(scene->environment_rotation_rad), c = math_cos(scene->environment_rotation_rad);
@@ -296,7 +298,7 @@ static bool build_environment(struct frame *frame, const lam_scene *scene, lam_r
 // Normals of facets need not be made before the picture is lit, where each is only read for the points of its own triangle.
 static void leave_facets(struct frame *frame)
 {
-    if (!frame->makes_normals || frame->shading != LAM_SHADING_PHONG || frame_has_rays(frame))
+    if (!frame->makes_normals || frame->settings.shading != LAM_SHADING_PHONG || frame_has_rays(frame))
         return;
     frame->makes_normals = false;
     for (int i = 0; i < frame->draw_count; i++) {
@@ -320,10 +322,12 @@ static bool has_color_maps(const struct frame *frame)
 }
 
 // Decides about ambient occlusion, once the lights are known.
-static void set_occlusion(struct frame *frame, const lam_scene *scene, const lam_draw_params *params, bool physical)
+static void set_occlusion(struct frame *frame, const lam_scene *scene, bool physical)
 {
+    lam_draw_params *settings = &frame->settings;
     // A picture of one light or term has the occlusion that the whole picture has.
-    bool wanted = physical && (scene->environment || (params->rig == LAM_RIG_AUTO && scene_lit_by_environment(scene)));
+    bool wanted =
+        physical && (scene->environment || (settings->rig == LAM_RIG_AUTO && scene_lit_by_environment(scene)));
     for (int i = 0; i < scene->lights.count; i++)
         wanted |= lam_scene_light(scene, i)->occluded > 0;
     for (int i = 0; i < frame->rig_count; i++)
@@ -333,55 +337,47 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, const lam
         lit |= frame->ranges[i].reflection != LAM_REFLECTION_NONE &&
                (!frame->ranges[i].translucent || frame->draws[frame->ranges[i].draw].ground);
     wanted &= lit;
-    bool shown = lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_CLIPPED;
-    bool one_number = frame->output == LAM_OUTPUT_AMBIENT_OCCLUSION;
-    frame->occlusion = params->occlusion                                               ? params->occlusion
-                       : one_number || (wanted && frame->shading == LAM_SHADING_PHONG) ? LAM_OCCLUSION_SCREEN
-                                                                                       : LAM_OCCLUSION_OFF;
-    bool cavity = params->cavity == LAM_CAVITY_ON ||
-                  (!params->cavity && !params->occlusion && wanted && frame->occlusion == LAM_OCCLUSION_SCREEN);
+    bool shown = lam_output_is_light(settings->output) || settings->output == LAM_OUTPUT_CLIPPED;
+    bool one_number = settings->output == LAM_OUTPUT_AMBIENT_OCCLUSION;
+    bool automatic = !settings->occlusion;
+    if (automatic)
+        settings->occlusion =
+            one_number || (wanted && settings->shading == LAM_SHADING_PHONG) ? LAM_OCCLUSION_SCREEN : LAM_OCCLUSION_OFF;
+    bool cavity = settings->cavity == LAM_CAVITY_ON ||
+                  (!settings->cavity && automatic && wanted && settings->occlusion == LAM_OCCLUSION_SCREEN);
     if (!shown && !one_number) {
-        frame->occlusion = LAM_OCCLUSION_OFF;
+        settings->occlusion = LAM_OCCLUSION_OFF;
         cavity = false;
     }
     lam_vec3 low, high;
     double half = lam_scene_bounds(scene, &low, &high) ? 0.5 * v3_length(v3_sub(high, low)) : 0;
-    double share = params->occlusion_radius > 0 ? (double)params->occlusion_radius : 0.1;
-    frame->occlusion_radius = frame->occlusion > LAM_OCCLUSION_OFF ? rounded(share * half) : 0;
+    frame->occlusion_radius =
+        settings->occlusion > LAM_OCCLUSION_OFF ? rounded(setting_number(settings, "ao_radius") * half) : 0;
     frame->cavity_radius = cavity ? rounded(CAVITY_RADIUS * half) : 0;
     frame->ridges = !has_color_maps(frame);
-    frame->occlusion_samples = params->occlusion_samples ? params->occlusion_samples : 64;
-    if (frame->cavity_radius > 0 && frame->occlusion == LAM_OCCLUSION_OFF)
-        frame->occlusion = LAM_OCCLUSION_SCREEN;
+    if (frame->cavity_radius > 0 && settings->occlusion == LAM_OCCLUSION_OFF)
+        settings->occlusion = LAM_OCCLUSION_SCREEN;
     if (!(half > 0))
-        frame->occlusion = LAM_OCCLUSION_OFF; // a scene without extent
+        settings->occlusion = LAM_OCCLUSION_OFF; // a scene without extent
 }
 
-// The settings that a device reads as they are, with their defaults.
-static void copy_params(struct frame *frame, const lam_draw_params *params, int width, int height)
+static void resolve_settings(struct frame *frame, const lam_draw_params *params, int width, int height)
 {
-    bool of_material = output_is_material(params->output);
+    lam_draw_params *settings = &frame->settings;
+    settings_resolve(params, settings);
+    settings->occlusion_radius = params->occlusion_radius; // see setting_number
     frame->width = width;
     frame->height = height;
-    frame->anisotropy = params->anisotropy ? params->anisotropy : 1;
-    frame->reference = params->reference;
-    frame->samples = params->samples ? params->samples : lam_default_samples(width, height);
-    frame->background = params->background;
-    frame->color = params->color;
     frame->exposure = rounded(math_exp2(params->exposure));
-    frame->shading = of_material ? LAM_SHADING_PHONG : params->shading;
-    frame->stage = of_material                              ? LAM_STAGE_FRAGMENT
-                   : params->stage                          ? params->stage
-                   : params->shading == LAM_SHADING_GOURAUD ? LAM_STAGE_VERTEX
-                                                            : LAM_STAGE_FRAGMENT;
-    frame->flat_normal = params->flat_normal;
-    frame->match_highlights = params->match_highlights;
-    frame->gl1 = params->gl1;
-    frame->single_scattering = params->single_scattering;
-    frame->output = params->output;
-    frame->light_cutoff = params->light_cutoff > 0    ? params->light_cutoff
-                          : params->light_cutoff == 0 ? 0.5f / 255.0f
-                                                      : 0;
+    if (!settings->samples)
+        settings->samples = lam_default_samples(width, height);
+    bool of_material = output_is_material(params->output);
+    if (of_material)
+        settings->shading = LAM_SHADING_PHONG;
+    if (of_material || !settings->stage)
+        settings->stage = settings->shading == LAM_SHADING_GOURAUD ? LAM_STAGE_VERTEX : LAM_STAGE_FRAGMENT;
+    if (of_material && !frame_is_physical(params->reflection))
+        settings->reflection = LAM_REFLECTION_AUTO;
 }
 
 // The planes of the projection, and the distances that --show depth makes black and white.
@@ -392,15 +388,15 @@ static void set_planes(struct frame *frame, const lam_scene *scene, const lam_ma
     frame->far_plane = rounded(far_plane);
     frame->depth_near = frame->depth_far = 0;
     double nearest, farthest;
-    if (frame->output == LAM_OUTPUT_DEPTH && view_extents_depth(scene, view, &nearest, &farthest)) {
+    if (frame->settings.output == LAM_OUTPUT_DEPTH && view_extents_depth(scene, view, &nearest, &farthest)) {
         frame->depth_near = rounded(nearest > near_plane ? nearest : near_plane);
         frame->depth_far = rounded(farthest < far_plane ? farthest : far_plane);
     }
 }
 
 // The scene's objects, as triangles that follow one another.
-static bool build_draws(struct frame *frame, const lam_scene *scene, const lam_draw_params *params,
-                        const struct stroke_view *strokes, struct call_control *call, lam_error *error)
+static bool build_draws(struct frame *frame, const lam_scene *scene, const struct stroke_view *strokes,
+                        struct call_control *call, lam_error *error)
 {
     uint64_t next = 0;
     for (int i = 0; i < scene->objects.count; i++) {
@@ -408,7 +404,7 @@ static bool build_draws(struct frame *frame, const lam_scene *scene, const lam_d
         uint64_t triangles = mesh_is_strokes(mesh)
                                  ? stroke_triangles(mesh, strokes->point_corners) * (uint64_t)mesh_items(mesh)
                                  : mesh->triangle_count;
-        if (!triangles || (params->no_surfaces && !mesh_is_strokes(mesh)))
+        if (!triangles || (frame->settings.no_surfaces && !mesh_is_strokes(mesh)))
             continue;
         if (next + triangles > TRIANGLES_MAX)
             return fail(error, LAM_LIMIT, "the scene has more than %u triangles", TRIANGLES_MAX);
@@ -428,22 +424,22 @@ static bool build_draws(struct frame *frame, const lam_scene *scene, const lam_d
     return true;
 }
 
-static void set_tone(struct frame *frame, const lam_draw_params *params, bool physical)
+static void set_tone(struct frame *frame, bool physical)
 {
-    frame->tone = params->tone                                 ? params->tone
-                  : physical && params->color != LAM_COLOR_RAW ? LAM_TONE_KHRONOS_NEUTRAL
-                                                               : LAM_TONE_NONE;
-    if (!lam_output_is_light(frame->output))
-        frame->tone = LAM_TONE_NONE;
+    lam_draw_params *settings = &frame->settings;
+    if (!settings->tone)
+        settings->tone = physical && settings->color != LAM_COLOR_RAW ? LAM_TONE_KHRONOS_NEUTRAL : LAM_TONE_NONE;
+    if (!lam_output_is_light(settings->output))
+        settings->tone = LAM_TONE_NONE;
 }
 
 static void leave_normals(struct frame *frame)
 {
     // Flat shading has the normals of the faces; coverage and overdraw need no normals.
-    if (lam_output_is_light(frame->output)
-            ? frame->shading == LAM_SHADING_FLAT && frame->flat_normal == LAM_FLAT_NORMAL_FACE
-            : frame->output == LAM_OUTPUT_COVERAGE || frame->output == LAM_OUTPUT_OVERDRAW ||
-                  output_is_material(frame->output))
+    if (lam_output_is_light(frame->settings.output)
+            ? frame->settings.shading == LAM_SHADING_FLAT && frame->settings.flat_normal == LAM_FLAT_NORMAL_FACE
+            : frame->settings.output == LAM_OUTPUT_COVERAGE || frame->settings.output == LAM_OUTPUT_OVERDRAW ||
+                  output_is_material(frame->settings.output))
         frame->makes_normals = false;
 }
 
@@ -452,15 +448,13 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
 {
     if (!frame_camera_check(camera, error) || !frame_params_check(params, error))
         return false;
-    bool of_material = output_is_material(params->output);
-    frame->reflection =
-        of_material && !frame_is_physical(params->reflection) ? LAM_REFLECTION_AUTO : params->reflection;
+    resolve_settings(frame, params, width, height);
+    const lam_draw_params *settings = &frame->settings;
     if (!allocate_arrays(frame, scene, call, error))
         return false;
     frame->token = scene->token;
-    copy_params(frame, params, width, height);
     frame->orthographic = camera->ortho_half_height > 0;
-    frame->distant_viewer = frame->orthographic || params->viewer == LAM_VIEWER_INFINITE;
+    frame->distant_viewer = frame->orthographic || settings->viewer == LAM_VIEWER_INFINITE;
     frame->draw_count = frame->range_count = frame->light_count = frame->hemisphere_count = 0;
     frame->triangle_count = 0;
     frame->translucent = frame->passes_rays = frame->tints_rays = frame->masked = frame->transmits =
@@ -469,10 +463,10 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame_materials_build(frame, scene);
 
     lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up);
-    frame_ground_place(frame, scene, camera, params, &view);
+    frame_ground_place(frame, scene, camera, &view);
     double near_plane = camera->near_plane, far_plane = camera->far_plane, aspect = (double)width / height;
     struct stroke_view stroke_view = {.view = &view, .orthographic = frame->orthographic};
-    frame_strokes_size(&stroke_view, scene, params, width, height);
+    frame_strokes_size(&stroke_view, scene, frame);
     frame->point_triangles = (int)stroke_view.point_corners - 2;
     if (near_plane == 0 && far_plane == 0) {
         fit_planes(scene, &view, frame->orthographic, &near_plane, &far_plane);
@@ -484,7 +478,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     lam_mat4 projection = frame->orthographic
                               ? mat4_orthographic(camera->ortho_half_height, aspect, near_plane, far_plane)
                               : mat4_perspective(camera->fovy_rad, aspect, near_plane, far_plane);
-    if (!build_environment(frame, scene, params->rig, wants_shadows(params), &view, error))
+    if (!build_environment(frame, scene, &view, error))
         return false;
     lam_mat4 pixel = to_pixels(&projection, width, height);
 
@@ -493,32 +487,30 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     stroke_view.near_plane = near_plane;
     if (!frame_strokes_reserve(frame, scene, &stroke_view, call, error))
         return false;
-    if (!build_draws(frame, scene, params, &stroke_view, call, error))
+    if (!build_draws(frame, scene, &stroke_view, call, error))
         return false;
     bool physical = false;
     for (int i = 0; i < frame->range_count; i++)
         physical |= frame_is_physical(frame->ranges[i].reflection);
-    if (frame->ground.kind && !add_ground(frame, params, frame->triangle_count, physical, &view, &pixel, call, error))
+    if (frame->ground.kind && !add_ground(frame, frame->triangle_count, physical, &view, &pixel, call, error))
         return false;
-    set_tone(frame, params, physical);
-    frame->environment_lights = physical && frame->environment && shows_reflection(frame->output);
+    set_tone(frame, physical);
+    frame->environment_lights = physical && frame->environment && shows_reflection(frame->settings.output);
     leave_normals(frame);
     // Lit by a classic model, materials that the environment would have lit have the studio's rig.
-    bool by_rig = params->rig == LAM_RIG_AUTO && !scene->lights.count && !uses_physical(frame);
-    if (!frame_lights_build(frame, scene, by_rig ? LAM_RIG_STUDIO : params->rig,
-                            output_is_one_light(frame->output) ? params->output_light : -1, &view, error))
+    bool by_rig = settings->rig == LAM_RIG_AUTO && !scene->lights.count && !uses_physical(frame);
+    if (!frame_lights_build(frame, scene, by_rig ? LAM_RIG_STUDIO : settings->rig,
+                            output_is_one_light(frame->settings.output) ? settings->output_light : -1, &view, error))
         return false;
     frame->lamp_apart = false;
-    if (!frame_lights_add_lamp(frame, scene, params, &view, call, error))
+    if (!frame_lights_add_lamp(frame, scene, &view, call, error))
         return false;
-    frame->shadows =
-        wants_shadows(params) && (lam_output_is_light(frame->output) || frame->output == LAM_OUTPUT_CLIPPED);
-    frame->flat_terminator = params->flat_terminator;
-    frame->shadow_samples = params->shadow_samples ? params->shadow_samples : 128;
+    frame->settings.shadows = wants_shadows(settings) && (lam_output_is_light(frame->settings.output) ||
+                                                          frame->settings.output == LAM_OUTPUT_CLIPPED);
     frame->pixel_size =
         rounded(2 * (frame->orthographic ? camera->ortho_half_height : math_tan(0.5 * camera->fovy_rad)) / height);
-    set_occlusion(frame, scene, params, physical);
-    frame_edges_build(frame, params, &view, &pixel);
+    set_occlusion(frame, scene, physical);
+    frame_edges_build(frame, &view, &pixel);
     leave_facets(frame);
     if (frame_has_rays(frame) || frame->draws_edges)
         frame_rays_build(frame, scene, &view);

@@ -98,9 +98,6 @@ struct frame_ground {
 // The edges of surfaces that the frame draws as lines (src/edges).
 enum { EDGE_STYLE_WIREFRAME = 0, EDGE_STYLE_FEATURE, EDGE_STYLES };
 struct frame_edges {
-    bool wireframe;
-    unsigned features; // LAM_EDGES_…
-    lam_hidden_lines hidden;
     double min_cosine; // between the normals of two faces that make no crease
     double width[EDGE_STYLES];
     lam_rgba color[EDGE_STYLES]; // linear, not premultiplied
@@ -110,42 +107,27 @@ struct frame_edges {
 struct frame {
     struct scene_token *token; // the scene's; not retained
     int width, height;
-    int samples;
-    int anisotropy; // the most probes of a texture for a point, 1…16
-    int reference;  // directions by which environment light is summed; 0: the split sum
-    lam_rgba background;
-    lam_color_mode color;
-    float exposure; // 2^stops
-    lam_tone tone;  // never AUTO
-    lam_shading shading;
-    lam_stage stage;           // never AUTO
-    lam_reflection reflection; // AUTO: the material's own; see frame_draw_range.reflection
-    lam_flat_normal flat_normal;
-    bool match_highlights, gl1, single_scattering;
-    bool shadows; // a light casts shadows, and the output shows it
-    bool flat_terminator;
-    int shadow_samples;        // of a light with a radius
+    // The draw parameters, each with a value in place of 0 for its default. Decided here, and never AUTO: samples, tone, stage,
+    // occlusion; `shadows`: a light casts shadows, and the output shows it; `reflection` may be AUTO, the material's own
+    // (frame_draw_range.reflection); a light_cutoff of 0 skips no light. edge_angle_rad and occlusion_radius stay as given.
+    lam_draw_params settings;
+    float exposure;            // 2^stops
     int point_triangles;       // of each point (frame_strokes.h)
     double eye_to_world[3][4]; // with rays only
     bool draws_edges;          // then `edges` is set
     struct frame_edges edges;
-    lam_output output;
-    // Largest sum, as a fraction of the encoded range, of the lights that a point may skip; 0: no light is skipped.
-    float light_cutoff;
     bool distant_viewer; // v = +z at every point: the camera is orthographic, or the viewer LAM_VIEWER_INFINITE
     bool orthographic;
-    float pixel_size;        // of a pixel in eye units, at distance 1 or, where orthographic, everywhere
-    lam_occlusion occlusion; // never AUTO
-    float occlusion_radius;  // eye units; 0: none at this radius
-    float cavity_radius;     // eye units; 0: no cavity
-    bool ridges;             // the cavity's ridges are lighter
-    int occlusion_samples;   // of LAM_OCCLUSION_RAYS
-    bool translucent;        // any range is
-    bool passes_rays;        // any range does
-    bool masked;             // and one has a material of LAM_ALPHA_MASK
-    bool tints_rays;         // any range transmits, whatever the output: light is coloured on its way through
-    bool transmits;          // and one has LAYER_TRANSMISSION: layers let each channel through by a share of its own
-    bool makes_normals;      // a draw has a crease_rad, and the output needs its normals
+    float pixel_size;       // of a pixel in eye units, at distance 1 or, where orthographic, everywhere
+    float occlusion_radius; // eye units; 0: none at this radius
+    float cavity_radius;    // eye units; 0: no cavity
+    bool ridges;            // the cavity's ridges are lighter
+    bool translucent;       // any range is
+    bool passes_rays;       // any range does
+    bool masked;            // and one has a material of LAM_ALPHA_MASK
+    bool tints_rays;        // any range transmits, whatever the output: light is coloured on its way through
+    bool transmits;         // and one has LAYER_TRANSMISSION: layers let each channel through by a share of its own
+    bool makes_normals;     // a draw has a crease_rad, and the output needs its normals
     // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.
     float near_plane, far_plane;
     // LAM_OUTPUT_DEPTH: the range of distances that 8 bits spread over, that of the scene's vertices between the planes.
@@ -197,14 +179,14 @@ lam_reflection frame_reflection(const struct frame *frame, const lam_material *m
 // Whether rays are sent from lit points; edges send others (draws_edges).
 static inline bool frame_has_rays(const struct frame *frame)
 {
-    return frame->shadows || frame->occlusion == LAM_OCCLUSION_RAYS;
+    return frame->settings.shadows || frame->settings.occlusion == LAM_OCCLUSION_RAYS;
 }
 
 // Fills in what rays need of draws and lights, once those are built, and whether any light casts shadows.
 void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view);
 
 // Decides about edges, and fills in what they need; `pixel`: eye space to pixels.
-void frame_edges_build(struct frame *frame, const lam_draw_params *params, const lam_mat4 *view, const lam_mat4 *pixel);
+void frame_edges_build(struct frame *frame, const lam_mat4 *view, const lam_mat4 *pixel);
 
 // Whether shadow rays meet a draw's triangles.
 static inline bool frame_draw_casts(const struct frame_draw *draw) { return !draw->strokes && !draw->ground; }

@@ -2,6 +2,7 @@
 #include "frame.h"
 
 #include "linear.h"
+#include "settings_check.h"
 
 #include <string.h>
 
@@ -18,21 +19,16 @@ static lam_rgba color_of(const lam_rgba *given, const lam_draw_params *params)
     return (lam_rgba){light, light, light, 1};
 }
 
-static double width_of(float given, double otherwise) { return given > 0 ? (double)given : otherwise; }
-
-void frame_edges_build(struct frame *frame, const lam_draw_params *params, const lam_mat4 *view, const lam_mat4 *pixel)
+void frame_edges_build(struct frame *frame, const lam_mat4 *view, const lam_mat4 *pixel)
 {
-    frame->draws_edges = (params->wireframe || params->edges) && frame->output == LAM_OUTPUT_PICTURE;
+    const lam_draw_params *settings = &frame->settings;
+    frame->draws_edges = (settings->wireframe || settings->edges) && settings->output == LAM_OUTPUT_PICTURE;
     if (!frame->draws_edges)
         return;
-    double angle = params->edge_angle_rad > 0 ? (double)params->edge_angle_rad : math_radians(40);
     lam_mat4 to_pixel = mat4_mul(pixel, view);
     frame->edges = (struct frame_edges){
-        .wireframe = params->wireframe,
-        .features = params->edges,
-        .hidden = params->hidden_lines,
-        .min_cosine = math_cos(angle),
-        .width = {width_of(params->wireframe_width, 1), width_of(params->edge_width, 1.5)},
-        .color = {color_of(&params->wireframe_color, params), color_of(&params->edge_color, params)}};
+        .min_cosine = math_cos(setting_number(settings, "edge_angle")),
+        .width = {(double)settings->wireframe_width, (double)settings->edge_width},
+        .color = {color_of(&settings->wireframe_color, settings), color_of(&settings->edge_color, settings)}};
     memcpy(frame->edges.pixel, to_pixel.m, sizeof frame->edges.pixel);
 }

@@ -42,9 +42,9 @@ static double lowest(const lam_scene *scene, lam_vec3 right, lam_vec3 front, lam
     return -extents.value[EXTENT_FRONT];
 }
 
-void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_camera *camera,
-                        const lam_draw_params *params, const lam_mat4 *view)
+void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_mat4 *view)
 {
+    const lam_draw_params *params = &frame->settings;
     struct frame_ground *ground = &frame->ground;
     ground->kind = LAM_GROUND_NONE;
     lam_vec3 centre;

@@ -6,8 +6,7 @@
 
 // Finds the ground of a frame, or none where the camera sees its under side or the scene has no extent. Sets all of
 // frame->ground but its mesh and the material.
-void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_camera *camera,
-                        const lam_draw_params *params, const lam_mat4 *view);
+void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_mat4 *view);
 
 // Widens a near and a far plane that were fitted to the scene, so that the ground lies between them.
 void frame_ground_planes(const struct frame_ground *ground, const lam_mat4 *view, bool orthographic, double *near_plane,

@@ -127,7 +127,7 @@ static bool add_light(struct frame *frame, const lam_scene *scene, const lam_lig
     struct frame_light *positioned = light->type == LAM_LIGHT_AMBIENT ? NULL : &frame->lights[frame->light_count++];
     if (positioned)
         build_light(positioned, light, &space, index);
-    if (positioned && frame->gl1) {
+    if (positioned && frame->settings.gl1) {
         store_rgb(positioned->ambient, light->ambient);
     } else {
         frame->ambient[0] += light->ambient.r;
@@ -151,17 +151,17 @@ bool frame_lights_build(struct frame *frame, const lam_scene *scene, lam_rig rig
     if (only >= scene->lights.count + count)
         return fail(error, LAM_BAD_ARGUMENT, "output_light is %d, but the frame has %d lights, counted from 0", only,
                     scene->lights.count + count);
-    if (only >= 0 && frame->output != LAM_OUTPUT_LIGHT && !frame->light_count)
+    if (only >= 0 && frame->settings.output != LAM_OUTPUT_LIGHT && !frame->light_count)
         return fail(error, LAM_BAD_ARGUMENT, "%s: light %d comes from everywhere, expected one with a direction",
-                    lam_output_name(frame->output), only);
+                    lam_output_name(frame->settings.output), only);
     return true;
 }
 
-bool frame_lights_add_lamp(struct frame *frame, const lam_scene *scene, const lam_draw_params *params,
-                           const lam_mat4 *view, struct call_control *call, lam_error *error)
+bool frame_lights_add_lamp(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, struct call_control *call,
+                           lam_error *error)
 {
-    bool wanted = wants_shadows(params) && frame->environment && !frame->reference;
-    wanted &= lam_output_is_light(frame->output) && !output_is_one_light(frame->output);
+    bool wanted = wants_shadows(&frame->settings) && frame->environment && !frame->settings.reference;
+    wanted &= lam_output_is_light(frame->settings.output) && !output_is_one_light(frame->settings.output);
     bool lit = false;
     for (int i = 0; i < frame->range_count && wanted; i++) {
         lam_reflection model = frame->ranges[i].reflection;

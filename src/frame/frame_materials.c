@@ -13,8 +13,8 @@ bool frame_is_physical(lam_reflection model) { return lobe_properties((int)model
 
 lam_reflection frame_reflection(const struct frame *frame, const lam_material *material)
 {
-    if (frame->reflection != LAM_REFLECTION_AUTO)
-        return frame->reflection;
+    if (frame->settings.reflection != LAM_REFLECTION_AUTO)
+        return frame->settings.reflection;
     if (material->unlit)
         return LAM_REFLECTION_NONE;
     return material->physical ? LAM_REFLECTION_GGX : LAM_REFLECTION_BLINN_PHONG;
@@ -51,7 +51,8 @@ size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *sc
             count += (size_t)scene->materials.count + 1;
             break;
         }
-    return count + (mixed && frame->reflection == LAM_REFLECTION_AUTO ? (size_t)scene->materials.count + 1 : 0);
+    return count +
+           (mixed && frame->settings.reflection == LAM_REFLECTION_AUTO ? (size_t)scene->materials.count + 1 : 0);
 }
 
 void frame_materials_build(struct frame *frame, const lam_scene *scene)
@@ -128,7 +129,7 @@ bool frame_material_is_converted(const struct frame *frame, const lam_material *
 int frame_layers(const struct frame *frame, const lam_material *material)
 {
     int set = material_layers(material);
-    return frame->shading == LAM_SHADING_PHONG ? set : set & ~(LAYER_TRANSMISSION | LAYER_VOLUME);
+    return frame->settings.shading == LAM_SHADING_PHONG ? set : set & ~(LAYER_TRANSMISSION | LAYER_VOLUME);
 }
 
 float frame_lobe_max(const lam_material *material)
@@ -146,7 +147,7 @@ float frame_lobe_max(const lam_material *material)
 float frame_shininess(const struct frame *frame, const lam_material *material)
 {
     float shininess = material->shininess;
-    if (frame->match_highlights && lobe_properties((int)frame_reflection(frame, material)) & LOBE_HALFWAY)
+    if (frame->settings.match_highlights && lobe_properties((int)frame_reflection(frame, material)) & LOBE_HALFWAY)
         shininess *= 4;
-    return frame->gl1 && shininess > 128 ? 128 : shininess;
+    return frame->settings.gl1 && shininess > 128 ? 128 : shininess;
 }

@@ -93,7 +93,7 @@ static void place_lights(struct frame *frame, const lam_scene *scene, const lam_
             light->kind == LIGHT_DIRECTIONAL ? math_tan((double)source->angular_radius_rad) : (double)source->radius;
         any |= light->casts_shadows;
     }
-    frame->shadows = any;
+    frame->settings.shadows = any;
 }
 
 void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view)
@@ -101,7 +101,7 @@ void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat
     lam_mat4 eye_to_world = lam_mat4_identity();
     mat4_inverse_affine(view, &eye_to_world); // a rotation and a translation
     memcpy(frame->eye_to_world, eye_to_world.m, sizeof frame->eye_to_world);
-    if (frame->shadows)
+    if (frame->settings.shadows)
         place_lights(frame, scene, &eye_to_world);
     for (int i = 0; i < frame->draw_count && (frame_has_rays(frame) || frame->draws_edges); i++)
         place_draw(&frame->draws[i], scene, &eye_to_world);

@@ -37,18 +37,17 @@ enum { FEW = 100 };
 #define ROUND_FROM   4.0
 #define ROUNDER_FROM 12.0
 
-void frame_strokes_size(struct stroke_view *view, const struct lam_scene *scene, const lam_draw_params *params,
-                        int width, int height)
+void frame_strokes_size(struct stroke_view *view, const struct lam_scene *scene, const struct frame *frame)
 {
-    double points = 0, side = width < height ? width : height;
+    double points = 0, side = frame->width < frame->height ? frame->width : frame->height;
     for (int i = 0; i < scene->objects.count; i++)
         points += scene_mesh(scene, scene_object(scene, i)->mesh)->point_count;
     double least = points < FEW ? FEW_LEAST : POINT_LEAST, most = FEW_MOST * side;
     double size = POINT_SHARE * side / math_sqrt(points > 1 ? points : 1);
     size = size > most ? most : size;
     size = size < least ? least : size;
-    view->line_width = params->line_width > 0 ? (double)params->line_width : STROKE_LINE_WIDTH;
-    view->point_size = params->point_size > 0 ? (double)params->point_size : size;
+    view->line_width = (double)frame->settings.line_width;
+    view->point_size = frame->settings.point_size > 0 ? (double)frame->settings.point_size : size;
     view->point_corners = view->point_size < ROUND_FROM ? 4 : view->point_size < ROUNDER_FROM ? 8 : POINT_CORNERS_MAX;
 }
 

@@ -9,9 +9,6 @@
 
 #include "frame.h"
 
-// Where lam_draw_params do not say, pixels.
-#define STROKE_LINE_WIDTH 1.5
-
 struct stroke_view {
     const lam_mat4 *view, *projection, *pixel; // world to eye; eye to clip space; eye to pixels (frame_draw.pixel)
     double near_plane;
@@ -20,10 +17,9 @@ struct stroke_view {
     size_t point_corners;          // of the polygon that a point becomes
 };
 
-// Sets the width of lines and the size of points to those of the parameters. Without a size, points get larger the fewer there are
+// Sets the width of lines and the size of points to those of the settings. Without a size, points get larger the fewer there are
 // and the larger the picture is: 3 pixels or more, and at least 8 if there are fewer than 100.
-void frame_strokes_size(struct stroke_view *view, const struct lam_scene *scene, const lam_draw_params *params,
-                        int width, int height);
+void frame_strokes_size(struct stroke_view *view, const struct lam_scene *scene, const struct frame *frame);
 
 // The triangles of each item of a mesh of lines or points.
 size_t stroke_triangles(const lam_mesh *mesh, size_t point_corners);

@@ -77,7 +77,7 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->group_count = wanted.group_count;
     c->light_count = wanted.light_count;
     c->hemisphere_count = wanted.hemisphere_count;
-    c->shadows = f->frame->shadows && c->light_count && c->reflection != LAM_REFLECTION_NONE;
+    c->shadows = f->frame->settings.shadows && c->light_count && c->reflection != LAM_REFLECTION_NONE;
     c->passes_rays = c->shadows && f->frame->passes_rays;
     c->tints_rays = c->shadows && f->frame->tints_rays;
     c->catches = ground && f->frame->ground.kind == LAM_GROUND_SHADOW && !output_is_value(c->output);
@@ -106,12 +106,13 @@ static enum vertex_form form_of(const struct gl_frame *f, const struct frame_dra
                                 int draw_all)
 {
     const struct frame *frame = f->frame;
-    if (frame->shading == LAM_SHADING_FLAT && !glsl_output_is_geometry(frame->output))
-        return (frame->flat_normal == LAM_FLAT_NORMAL_VERTEX || draw->strokes) && draw->mesh->normals ? FORM_FLAT_VERTEX
-                                                                                                      : FORM_FLAT_FACE;
+    if (frame->settings.shading == LAM_SHADING_FLAT && !glsl_output_is_geometry(frame->settings.output))
+        return (frame->settings.flat_normal == LAM_FLAT_NORMAL_VERTEX || draw->strokes) && draw->mesh->normals
+                   ? FORM_FLAT_VERTEX
+                   : FORM_FLAT_FACE;
     // Shaders number triangles by gl_VertexID / 3. A vertex lit for two materials has two colours.
-    bool counts =
-        f->layered || frame->output == LAM_OUTPUT_IDS || (frame->shadows && f->stage != LAM_STAGE_APPLICATION);
+    bool counts = f->layered || frame->settings.output == LAM_OUTPUT_IDS ||
+                  (frame->settings.shadows && f->stage != LAM_STAGE_APPLICATION);
     bool two = f->stage == LAM_STAGE_APPLICATION && draw_all > 1;
     return counts || two || !mesh_can_share(mesh) ? FORM_CORNERS : FORM_SHARED;
 }
@@ -164,7 +165,7 @@ static bool set_up_draw(struct gl_frame *f, const struct frame_draw_range *list,
                                        draw->strokes || draw->ground, f->device->runs.data, runs, error);
     if (!mesh)
         return false;
-    bool colors = f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->output);
+    bool colors = f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->settings.output);
     GLuint array = colors ? vertex_lighting_upload(f, list->draw, mesh, error) : mesh->array;
     if (!array)
         return false;
@@ -194,14 +195,14 @@ static bool set_up(struct gl_frame *f, lam_error *error)
         !(f->environment_light = (frame->lamp_apart ? environment_light_without_lamp : environment_light)(
               frame->environment, ENVIRONMENT_LIGHT_ALL, NULL, f->call, error)))
         return false;
-    if (frame->shadows && !shadows_send(f, error))
+    if (frame->settings.shadows && !shadows_send(f, error))
         return false;
     struct glsl_choices any;
     choices_of(f, &frame->ranges[0], &any);
     f->storage = light_buffers_storage(f->device, &any);
     any.storage = f->storage;
     any.occlusion = f->occlusion != NULL; // the lights serve all programs
-    any.shadows = frame->shadows;
+    any.shadows = frame->settings.shadows;
     if (reads_light_buffers(&any) && !light_buffers_send(f, &any, error))
         return false;
     for (int i = 0; i < frame->range_count; i++) { // before set_up_draw keeps pointers into device->programs
@@ -288,10 +289,10 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
 static bool draw_occlusion(struct gl_frame *f, struct screen_occlusion *occlusion, lam_error *error)
 {
     struct frame distances = *f->frame; // shares the arrays
-    distances.output = LAM_OUTPUT_DEPTH;
-    distances.samples = 1;
-    distances.occlusion = LAM_OCCLUSION_OFF;
-    distances.translucent = distances.masked = distances.environment_lights = distances.shadows = false;
+    distances.settings.output = LAM_OUTPUT_DEPTH;
+    distances.settings.samples = 1;
+    distances.settings.occlusion = LAM_OCCLUSION_OFF;
+    distances.translucent = distances.masked = distances.environment_lights = distances.settings.shadows = false;
     struct buffer pixels = {0};
     size_t stride = (size_t)distances.width * 4 * sizeof(float);
     if (!buffer_reserve(&pixels, stride * (size_t)distances.height, f->call, error))
@@ -320,24 +321,24 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
     struct gl_device *device = (struct gl_device *)base;
     struct gl_previous_context previous;
     struct gl_saved_state state;
-    if (frame->reference)
+    if (frame->settings.reference)
         return fail(error, LAM_UNSUPPORTED,
                     "OpenGL: reference is %d, and this device has the split sum alone; the CPU device sums directions",
-                    frame->reference);
-    if (frame->occlusion == LAM_OCCLUSION_RAYS)
+                    frame->settings.reference);
+    if (frame->settings.occlusion == LAM_OCCLUSION_RAYS)
         return fail(
             error, LAM_UNSUPPORTED,
             "OpenGL: ambient occlusion is 'rays', and this device has 'screen' alone; the CPU device traces rays");
     if (!gl_context_enter(&device->context, &previous, error))
         return false;
     struct gl_frame f = {.device = device, .gl = &device->context.gl, .frame = frame, .call = call, .image = image};
-    f.stage = frame->stage;
-    for (int i = 0; i < frame->range_count && frame->translucent && !output_is_value(frame->output); i++)
+    f.stage = frame->settings.stage;
+    for (int i = 0; i < frame->range_count && frame->translucent && !output_is_value(frame->settings.output); i++)
         f.layered |= range_blends(frame, &frame->ranges[i]);
     gl_state_save(device, &state);
     device->frame_number++;
     struct screen_occlusion occlusion;
-    bool ok = frame->occlusion == LAM_OCCLUSION_OFF || draw_occlusion(&f, &occlusion, error);
+    bool ok = frame->settings.occlusion == LAM_OCCLUSION_OFF || draw_occlusion(&f, &occlusion, error);
     ok = ok && draw_frame(&f, error);
     gl_state_restore(device, &state);
     gl_context_leave(&device->context, &previous);

@@ -202,7 +202,7 @@ static void add_tinted(struct gl_frame *f, const struct gl_target *from, bool la
 {
     const struct gl *gl = f->gl;
     struct gl_device *device = f->device;
-    const lam_rgba *b = &f->frame->background;
+    const lam_rgba *b = &f->frame->settings.background;
     float scale = b->a / f->frame->exposure, background[4] = {b->r * scale, b->g * scale, b->b * scale, b->a};
     gl_use_framebuffer(device, device->targets.sum.framebuffer);
     gl_use_blending(device, BLENDING_ADD);
@@ -268,7 +268,7 @@ static bool is_value(lam_output output)
 bool passes_draw(struct gl_frame *f, lam_error *error)
 {
     struct gl_targets *t = &f->device->targets;
-    const struct sample_pattern *pattern = sample_pattern(f->frame->samples);
+    const struct sample_pattern *pattern = sample_pattern(f->frame->settings.samples);
     gl_use_viewport(f->device, f->width, f->height);
     const struct gl_target *result = f->layered ? &t->sum : &t->sample;
     bool several = pattern->count > 1;
@@ -281,10 +281,10 @@ bool passes_draw(struct gl_frame *f, lam_error *error)
         f->sample_x = (float)pattern->x[s] * 0.0625f;
         f->sample_y = (float)pattern->y[s] * 0.0625f;
         clear_target(f, &t->sample, DEPTH_ID_NEAREST);
-        draw_all(f, false, f->frame->output == LAM_OUTPUT_OVERDRAW ? BLENDING_ADD : BLENDING_NEAREST);
+        draw_all(f, false, f->frame->settings.output == LAM_OUTPUT_OVERDRAW ? BLENDING_ADD : BLENDING_NEAREST);
         if (f->layered && !draw_layers(f, error))
             return false;
-        bool value = is_value(f->frame->output);
+        bool value = is_value(f->frame->settings.output);
         if (several)
             copy_target(f, result, &t->picture, value ? BLENDING_UNDER : BLENDING_ADD,
                         value ? 1 : 1.0f / (float)pattern->count);

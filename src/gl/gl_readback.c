@@ -38,7 +38,7 @@ static void store_clipped(const struct gl_frame *f, const float *from, lam_pixel
 
 static void store_value(const struct gl_frame *f, const float *from, lam_pixel_format format, void *to)
 {
-    lam_output output = f->frame->output;
+    lam_output output = f->frame->settings.output;
     if (output == LAM_OUTPUT_COVERAGE || output == LAM_OUTPUT_OVERDRAW) {
         float share = output == LAM_OUTPUT_COVERAGE ? from[3] : from[0];
         encode_values(f->frame, format, (float[4]){share, share, share, 1}, to);
@@ -60,7 +60,7 @@ bool readback_part(struct gl_frame *f, lam_error *error)
     lam_pixel_format format = f->image->format, working = working_format(format);
     size_t size = pixel_bytes(working);
     char converted[PART_SIZE_MAX * 16]; // a row in the working format
-    lam_output output = f->frame->output;
+    lam_output output = f->frame->settings.output;
     uint64_t covered = 0;
     for (int y = 0; y < f->height; y++) {
         const float *from = (const float *)f->device->pixels.data + (size_t)y * (size_t)f->width * 4;

@@ -104,7 +104,7 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
     if (built)
         device->shadows_sent = false; // the texture has another hierarchy, or none
     device->base.report.hierarchy_ms += built ? (double)(now_ns() - start) * 1e-6 : 0;
-    if (f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->output)) // no shader walks it
+    if (f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->settings.output)) // no shader walks it
         return true;
     // Triangles are counted in floats, and in texels of a texture.
     size_t triangles = (size_t)NODE * h->node_count, places = triangles + (size_t)TRIANGLE * (h->triangle_count + 1);
@@ -154,8 +154,9 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
 void shadows_use(struct gl_frame *f, struct gl_program *program)
 {
     const struct hierarchy *h = &f->device->hierarchy.hierarchy;
-    float matrix[16] = {0}, places[4] = {f->device->shadow_places[0], f->device->shadow_places[1],
-                                         f->frame->flat_terminator ? 0 : 1, (float)f->frame->shadow_samples};
+    float matrix[16] = {0},
+          places[4] = {f->device->shadow_places[0], f->device->shadow_places[1],
+                       f->frame->settings.flat_terminator ? 0 : 1, (float)f->frame->settings.shadow_samples};
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++)
             matrix[4 * j + i] = (float)(f->frame->eye_to_world[i][j] * h->scale);

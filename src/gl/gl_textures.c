@@ -189,7 +189,7 @@ static GLuint sampler_of(struct gl_frame *f, const lam_texture_map *map)
     }
     // Drivers disagree about the probes of filters that are not linear.
     bool linear = !map->magnify && !map->minify && !map->mip;
-    int anisotropy = linear && f->device->anisotropy_max > 1 ? f->frame->anisotropy : 1;
+    int anisotropy = linear && f->device->anisotropy_max > 1 ? f->frame->settings.anisotropy : 1;
     if (sampler->anisotropy != anisotropy) {
         GLfloat most = f->device->anisotropy_max;
         gl->SamplerParameterf(sampler->name, GL_TEXTURE_MAX_ANISOTROPY,

@@ -57,12 +57,20 @@ bool vertex_lighting_key(struct gl_frame *f, struct gl_vertex_lighting *row, con
 {
     const struct frame *frame = f->frame;
     const struct frame_draw *draw = &frame->draws[number];
-    const int choices[] = {frame->output,         frame->shading,          frame->gl1,
-                           frame->distant_viewer, frame->match_highlights, frame->single_scattering,
-                           frame->light_count,    frame->hemisphere_count, draw->one_sided,
-                           frame->flat_normal,    (int)mesh->form,         frame->translucent};
+    const int choices[] = {frame->settings.output,
+                           frame->settings.shading,
+                           frame->settings.gl1,
+                           frame->distant_viewer,
+                           frame->settings.match_highlights,
+                           frame->settings.single_scattering,
+                           frame->light_count,
+                           frame->hemisphere_count,
+                           draw->one_sided,
+                           frame->settings.flat_normal,
+                           (int)mesh->form,
+                           frame->translucent};
     // Contents that are of this frame, and shadows, which depend on all meshes.
-    const uint64_t frame_number = mesh->passing || frame->shadows ? f->device->frame_number : 0;
+    const uint64_t frame_number = mesh->passing || frame->settings.shadows ? f->device->frame_number : 0;
     const void *pointers[] = {frame->environment, mesh->mesh.positions, mesh->token};
     bool ok = key_add(f, row, size, choices, sizeof choices, error) &&
               key_add(f, row, size, pointers, sizeof pointers, error) &&

@@ -49,7 +49,7 @@ static bool send_colors(struct gl_frame *f, struct gl_vertex_lighting *row, cons
     uint32_t count = mesh_vertex_count(&mesh->mesh, mesh->form);
     uint64_t bytes = (uint64_t)count * (row->separate_texture_terms ? 4 : 2) * 4 * sizeof(float);
     if (device->vertex_colors_frame != device->frame_number) {
-        const struct hierarchy *hierarchy = frame->shadows ? &device->hierarchy.hierarchy : NULL;
+        const struct hierarchy *hierarchy = frame->settings.shadows ? &device->hierarchy.hierarchy : NULL;
         if (!vertex_colors_start(colors, frame, f->environment_light, hierarchy, f->call, error))
             return false;
         device->vertex_colors_frame = device->frame_number;

@@ -177,7 +177,7 @@ void glsl_choose_maps(struct glsl_choices *choices, const struct frame *frame, c
 bool glsl_reads_maps(const struct frame *frame, const lam_material *material);
 static inline bool glsl_lights_maps(const struct frame *frame, const lam_material *material)
 {
-    return frame->shading == LAM_SHADING_PHONG && glsl_reads_maps(frame, material);
+    return frame->settings.shading == LAM_SHADING_PHONG && glsl_reads_maps(frame, material);
 }
 static inline bool glsl_converts(const struct frame *frame, const lam_material *material)
 {

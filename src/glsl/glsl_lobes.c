@@ -15,7 +15,7 @@ static const char *const calls[LAM_REFLECTION_COUNT] = {
 };
 
 static const char *const parameters[] = {
-#define NAME(name) #name,
+#define NAME(name, ...) #name,
     LOBE_PARAMETERS(NAME)
 #undef NAME
 };

@@ -24,7 +24,8 @@ static bool follows_lighting(int map)
 
 static bool is_read(const struct frame *frame, const lam_material *material, int map)
 {
-    return material->maps[map] && is_drawn(map) && (frame->shading == LAM_SHADING_PHONG || follows_lighting(map));
+    return material->maps[map] && is_drawn(map) &&
+           (frame->settings.shading == LAM_SHADING_PHONG || follows_lighting(map));
 }
 
 bool glsl_reads_maps(const struct frame *frame, const lam_material *material)
@@ -69,7 +70,7 @@ void glsl_choose_maps(struct glsl_choices *c, const struct frame *frame, const s
 {
     const lam_texture_map *seen[2 * LAM_MAP_COUNT];
     int count = 0;
-    c->anisotropy = (uint8_t)frame->anisotropy;
+    c->anisotropy = (uint8_t)frame->settings.anisotropy;
     for (int side = 0; side < 2; side++) {
         const lam_material *material = frame->materials[side ? range->back : range->front];
         bool masks = material->alpha_mode == LAM_ALPHA_MASK && frame->masked && range->translucent;
@@ -124,14 +125,14 @@ bool glsl_separates_texture_terms(const struct frame *frame, const struct frame_
         if (!side || (!frame->draws[range->draw].one_sided && range->back != range->front))
             any |= material->maps[LAM_MAP_DIFFUSE] || material->maps[LAM_MAP_EMISSION];
     }
-    return any && frame->shading != LAM_SHADING_PHONG && !output_is_vector(frame->output) &&
-           !glsl_output_is_geometry(frame->output);
+    return any && frame->settings.shading != LAM_SHADING_PHONG && !output_is_vector(frame->settings.output) &&
+           !glsl_output_is_geometry(frame->settings.output);
 }
 
 float glsl_alpha_cutoff(const struct frame *frame, const lam_material *material)
 {
     float cutoff = material->alpha_mode == LAM_ALPHA_MASK ? material->alpha_cutoff : 0, opacity = material->diffuse.a;
-    if (!output_is_value(frame->output) || !(cutoff > 0))
+    if (!output_is_value(frame->settings.output) || !(cutoff > 0))
         return cutoff;
     return opacity > 0 ? cutoff / opacity : 2;
 }
@@ -139,7 +140,7 @@ float glsl_alpha_cutoff(const struct frame *frame, const lam_material *material)
 void glsl_mapped_emission(const struct frame *frame, const struct frame_draw_range *range, bool back, float out[4])
 {
     const lam_material *material = frame->materials[back ? range->back : range->front];
-    bool shown = output_is_picture(frame->output) || frame->output == LAM_OUTPUT_EMISSION;
+    bool shown = output_is_picture(frame->settings.output) || frame->settings.output == LAM_OUTPUT_EMISSION;
     shown &= range->reflection != LAM_REFLECTION_NONE;
     out[0] = shown ? material->emission.r : 0;
     out[1] = shown ? material->emission.g : 0;

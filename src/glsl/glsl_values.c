@@ -26,13 +26,13 @@ struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_dr
     struct glsl_choices c;
     memset(&c, 0, sizeof c);
     const struct frame_draw *draw = &frame->draws[range->draw];
-    c.shading = frame->shading;
-    c.stage = stage ? stage : frame->shading == LAM_SHADING_GOURAUD ? LAM_STAGE_VERTEX : LAM_STAGE_FRAGMENT;
+    c.shading = frame->settings.shading;
+    c.stage = stage ? stage : frame->settings.shading == LAM_SHADING_GOURAUD ? LAM_STAGE_VERTEX : LAM_STAGE_FRAGMENT;
     c.reflection = range->reflection;
-    c.output = frame->output;
+    c.output = frame->settings.output;
     c.distant_viewer = frame->distant_viewer;
-    c.gl1 = frame->gl1;
-    c.single_scattering = frame_is_physical(range->reflection) && frame->single_scattering;
+    c.gl1 = frame->settings.gl1;
+    c.single_scattering = frame_is_physical(range->reflection) && frame->settings.single_scattering;
     c.two_sided = !draw->one_sided;
     c.back_material = c.two_sided && range->back != range->front;
     c.colors = draw->mesh->colors != NULL;

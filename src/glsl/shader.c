@@ -166,12 +166,12 @@ static bool choose(struct build *m, const lam_draw_params *draw, int object, con
     c->mistake = mistake_find(params->mistake);
     bool array = c->version == GLSL_120 || c->lecture;
     c->storage = !params->lights && array ? GLSL_ARRAY : storages[params->lights];
-    c->encoding = m->frame.color == LAM_COLOR_RAW ? GLSL_STRAIGHT : GLSL_ENCODED;
+    c->encoding = m->frame.settings.color == LAM_COLOR_RAW ? GLSL_STRAIGHT : GLSL_ENCODED;
     c->exposes = m->frame.exposure != 1;
     if (c->encoding == GLSL_ENCODED)
-        c->tone = m->frame.tone;
+        c->tone = m->frame.settings.tone;
     c->products = params->products;
-    c->passed = m->frame.shadows && c->light_count && c->reflection != LAM_REFLECTION_NONE;
+    c->passed = m->frame.settings.shadows && c->light_count && c->reflection != LAM_REFLECTION_NONE;
     if (c->environment)
         c->environment = GLSL_CUBE;
     m->facts = glsl_facts_of(c);

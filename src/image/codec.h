@@ -1,4 +1,4 @@
-// codec.h: one picture format: one file, one row in codecs.c.
+// codec.h: the interface of a picture format. A new format is a file with a struct codec, and its name in CODECS.
 #ifndef CODEC_H
 #define CODEC_H
 
@@ -19,11 +19,13 @@ struct codec {
     const char *name;  // "png"; also the file-name ending, without its dot
     const char *title; // for messages: "PNG"
     const char *alias; // another file-name ending; NULL: none
+    // One line for lists: the numbers that a file holds. NULL: this format is only read, and `write` is NULL too.
+    const char *written;
     lam_pixel_format pixels;
     // Its files begin with no signature: it is tried after all others, and by the ending of a file's name.
     bool unmarked;
 
-    // NULL: this format is only read. Encodes a picture of valid size and pixel format into memory from malloc.
+    // Encodes a picture of valid size and pixel format into memory from malloc.
     // `params` is never NULL; `pool` may be, and does not change the bytes.
     bool (*write)(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                   lam_error *error);
@@ -46,8 +48,13 @@ struct codec {
 
 enum { CODEC_HEAD = 512 };
 
-extern const struct codec codec_png, codec_ppm, codec_pfm, codec_exr, codec_jpeg, codec_webp, codec_hdr, codec_bmp,
-    codec_tga;
+// The formats, in the order in which files are tried and lists name them; those whose files begin with no signature last.
+// tests/fuzz/meson.build reads these names too.
+#define CODECS(X) X(png) X(ppm) X(pfm) X(exr) X(jpeg) X(webp) X(hdr) X(bmp) X(tga)
+
+#define CODEC(name) extern const struct codec codec_##name;
+CODECS(CODEC)
+#undef CODEC
 
 // The codec of a file that starts with these bytes; NULL: none. `name` (may be NULL): where the bytes do not tell, the ending
 // of this file name does.

@@ -13,26 +13,43 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Formats that can be written come first, those whose files do not begin with a signature last.
-static const struct codec *const codecs[] = {&codec_png,  &codec_ppm, &codec_pfm, &codec_exr, &codec_jpeg,
-                                             &codec_webp, &codec_hdr, &codec_bmp, &codec_tga};
-enum { CODECS = sizeof codecs / sizeof *codecs, WRITTEN = 6, MAX_THREADS = 1024, LIST_BYTES = 128 };
+#define ROW(name) &codec_##name,
+static const struct codec *const codecs[] = {CODECS(ROW)};
+enum { COUNT = sizeof codecs / sizeof *codecs, MAX_THREADS = 1024, LIST_BYTES = 128 };
+
+const char *lam_image_format_name(int format) { return (unsigned)format < COUNT ? codecs[format]->name : NULL; }
+
+const char *lam_image_format_alias(int format) { return (unsigned)format < COUNT ? codecs[format]->alias : NULL; }
+
+const char *lam_image_format_written(int format) { return (unsigned)format < COUNT ? codecs[format]->written : NULL; }
 
 static const struct codec *codec_named(const char *name)
 {
-    for (int i = 0; i < WRITTEN; i++)
-        if (strcasecmp(codecs[i]->name, name) == 0 || (codecs[i]->alias && strcasecmp(codecs[i]->alias, name) == 0))
+    for (int i = 0; i < COUNT; i++)
+        if (codecs[i]->write &&
+            (strcasecmp(codecs[i]->name, name) == 0 || (codecs[i]->alias && strcasecmp(codecs[i]->alias, name) == 0)))
             return codecs[i];
     return NULL;
+}
+
+// The names of the formats that can be written. Returns their number.
+static int written_names(const char *names[COUNT])
+{
+    int count = 0;
+    for (int i = 0; i < COUNT; i++)
+        if (codecs[i]->write)
+            names[count++] = codecs[i]->name;
+    return count;
 }
 
 // "png, ppm, … or webp", each with `before` in front.
 static const char *list_names(const char *before, char list[LIST_BYTES])
 {
-    list[0] = 0;
+    const char *names[COUNT];
+    int count = written_names(names);
     size_t used = 0;
-    for (int i = 0; i < WRITTEN; i++) {
-        const char *parts[] = {i == 0 ? "" : i == WRITTEN - 1 ? " or " : ", ", before, codecs[i]->name};
+    for (int i = 0; i < count; i++) {
+        const char *parts[] = {i == 0 ? "" : i == count - 1 ? " or " : ", ", before, names[i]};
         for (int part = 0; part < 3; part++)
             for (const char *letter = parts[part]; *letter && used < LIST_BYTES - 1; letter++)
                 list[used++] = *letter;
@@ -61,12 +78,10 @@ static const char *instead_of(const char *word)
 
 static bool fail_unknown(lam_error *error, const char *subject, const char *before, const char *word)
 {
-    const char *names[WRITTEN], *instead = instead_of(word);
-    for (int i = 0; i < WRITTEN; i++)
-        names[i] = codecs[i]->name;
+    const char *names[COUNT], *instead = instead_of(word);
     char list[LIST_BYTES];
     list_names(before, list);
-    if (instead || (instead = nearest_word(word, names, WRITTEN)))
+    if (instead || (instead = nearest_word(word, names, written_names(names))))
         return fail(error, LAM_UNSUPPORTED, "%s: lambent cannot write %s%s; use %s%s (it writes %s)", subject, before,
                     word, before, instead, list);
     return fail(error, LAM_UNSUPPORTED, "%s: lambent cannot write %s%s; use %s", subject, before, word, list);
@@ -203,10 +218,10 @@ bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error 
 
 const struct codec *codec_of(const uint8_t *bytes, size_t size, const char *name)
 {
-    for (int i = 0; i < CODECS; i++)
+    for (int i = 0; i < COUNT; i++)
         if (codecs[i]->probe(bytes, size))
             return codecs[i];
-    for (int i = 0; name && i < CODECS; i++)
+    for (int i = 0; name && i < COUNT; i++)
         if (codecs[i]->unmarked && strcasecmp(path_ending(name), codecs[i]->name) == 0)
             return codecs[i];
     return NULL;

@@ -475,6 +475,7 @@ bool lam_image_encode_layers(const lam_layer *layers, int count, lam_bytes *out,
 const struct codec codec_exr = {
     .name = "exr",
     .title = "EXR",
+    .written = "floats, linear, premultiplied by alpha, with alpha; needs OpenEXR",
     .pixels = LAM_RGBA32F,
     .write = exr_write,
     .probe = exr_probe,

@@ -191,6 +191,7 @@ const struct codec codec_jpeg = {
     .name = "jpg",
     .alias = "jpeg",
     .title = "JPEG",
+    .written = "8 bits, sRGB, over the background, lossy (--quality)",
     .pixels = LAM_RGBA8,
     .write = jpeg_write,
     .probe = jpeg_probe,

@@ -86,6 +86,7 @@ static bool pfm_read(const struct picture_file *file, lam_image *image, lam_erro
 const struct codec codec_pfm = {
     .name = "pfm",
     .title = "PFM",
+    .written = "floats, linear, premultiplied by alpha",
     .pixels = LAM_RGBA32F,
     .write = pfm_write,
     .probe = pfm_probe,

@@ -76,6 +76,7 @@ static bool ppm_read(const struct picture_file *file, lam_image *image, lam_erro
 const struct codec codec_ppm = {
     .name = "ppm",
     .title = "PPM",
+    .written = "8 bits, sRGB, over the background",
     .pixels = LAM_RGBA8,
     .write = ppm_write,
     .probe = ppm_probe,

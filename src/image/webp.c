@@ -283,6 +283,7 @@ static bool webp_read(const struct picture_file *file, lam_image *image, lam_err
 const struct codec codec_webp = {
     .name = "webp",
     .title = "WebP",
+    .written = "8 bits, sRGB, with alpha, lossless unless --quality is below 100; needs libwebp",
     .pixels = LAM_RGBA8,
     .write = webp_write,
     .probe = webp_probe,

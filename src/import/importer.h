@@ -1,4 +1,4 @@
-// importer.h: the interface of a model format. A new format is one importer and one row in load/formats.c.
+// importer.h: the interface of a model format. A new format is one importer, and its name in IMPORTERS.
 #ifndef IMPORTER_H
 #define IMPORTER_H
 
@@ -48,7 +48,12 @@ struct importer {
     bool (*load_stream)(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
 };
 
-extern const struct importer importer_obj, importer_stl, importer_ply, importer_gltf, importer_3mf, importer_scene;
+// The formats, in the order in which lists name them. tests/fuzz/meson.build reads these names too.
+#define IMPORTERS(X) X(obj) X(stl) X(ply) X(gltf) X(3mf) X(scene)
+
+#define IMPORTER(name) extern const struct importer importer_##name;
+IMPORTERS(IMPORTER)
+#undef IMPORTER
 
 // The crease angle for scene_prepare, of a load with these parameters (0: the default). Flat normals are those of facets.
 static inline double importer_crease(const struct importer *importer, lam_normals normals, double crease_angle_rad)

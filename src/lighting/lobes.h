@@ -325,17 +325,23 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 
 // --- C only: the text of GLSL ends here (src/glsl/embed.py).
 
-// The numbers of a material that lobes read. They have the same names in lam_material, its table of fields and shaders.
-#define LOBE_PARAMETERS(X)                                                                                             \
-    X(shininess)                                                                                                       \
-    X(fibre)                                                                                                           \
-    X(roughness_angle_rad)                                                                                             \
-    X(roughness)                                                                                                       \
+// The numbers of a material that lobes read. They have the same names in lam_material, its table of fields and shaders. A number
+// that only lobes read has the columns of its lam_field here; src/scene/material_fields.c makes its row of them.
+// clang-format off
+#define LOBE_PARAMETERS(X) \
+    X(shininess) \
+    X(fibre, .key = "fibre", .type = LAM_FIELD_FLAG, .max = 1, \
+      .summary = "for hair and thread: Kajiya-Kay without the gate [n.l > 0]") \
+    X(roughness_angle_rad, .key = "roughness_angle", .symbol = "σ", .unit = "degrees", .type = LAM_FIELD_ANGLE, \
+      .max = 90, .standard = {30}, \
+      .summary = "Oren-Nayar's sigma: standard deviation of the slope of the surface's facets") \
+    X(roughness) \
     X(metallic)
+// clang-format on
 
 // The table of the reflection models: the dispatch in C and in GLSL, the words of the command line and of scene files,
 // reports, explanations and tests are made from it. A new model is an enumerator in lambent/material.h, a function
-// above and a row here. The columns:
+// above and a row here; a number of its own is a member of lam_material and a row of LOBE_PARAMETERS. The columns:
 //     the enumerator without LAM_REFLECTION_
 //     the call: `s` is the surface, `l` the direction to the light, `m` the material's lobe_parameters
 //     properties: LOBE_HIGHLIGHT   S is not 0: the lobe returns the base of a power
@@ -382,7 +388,7 @@ enum {
 };
 
 STRUCT(lobe_parameters){
-#define MEMBER(name) num name;
+#define MEMBER(name, ...) num name;
     LOBE_PARAMETERS(MEMBER)
 #undef MEMBER
 };
@@ -431,7 +437,7 @@ LANE_FN lobe_value reflect_light(surface s, vec3 l, lobe_parameters m, int model
 // The parameters of a material; `shininess` is the exponent in use (frame_shininess).
 LANE_FN lobe_parameters lobe_parameters_of(const lam_material *material, float shininess)
 {
-#define OF_MATERIAL(name) .name = num_of((float)material->name),
+#define OF_MATERIAL(name, ...) .name = num_of((float)material->name),
     lobe_parameters m = {LOBE_PARAMETERS(OF_MATERIAL)};
 #undef OF_MATERIAL
     m.shininess = num_of(shininess);

@@ -8,25 +8,22 @@
 #include <string.h>
 #include <strings.h>
 
-static const struct importer *const importers[] = {&importer_obj,  &importer_stl, &importer_ply,
-                                                   &importer_gltf, &importer_3mf, &importer_scene};
-enum { IMPORTERS = sizeof importers / sizeof *importers };
+#define ROW(name) &importer_##name,
+static const struct importer *const importers[] = {IMPORTERS(ROW)};
+enum { COUNT = sizeof importers / sizeof *importers };
 
-const char *lam_model_format_name(int format)
-{
-    return format >= 0 && format < IMPORTERS ? importers[format]->name : NULL;
-}
+const char *lam_model_format_name(int format) { return format >= 0 && format < COUNT ? importers[format]->name : NULL; }
 
 const char *lam_model_format_extensions(int format)
 {
-    return format >= 0 && format < IMPORTERS ? importers[format]->extensions : NULL;
+    return format >= 0 && format < COUNT ? importers[format]->extensions : NULL;
 }
 
 const char *format_list(char out[FORMAT_LIST_SIZE])
 {
     size_t used = 0;
     out[0] = 0;
-    for (int i = 0; i < IMPORTERS; i++) {
+    for (int i = 0; i < COUNT; i++) {
         const char *word = importers[i]->extensions;
         while (*word && used < FORMAT_LIST_SIZE) {
             size_t length = strcspn(word, " ");
@@ -62,7 +59,7 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
 {
     char list[FORMAT_LIST_SIZE];
     if (wanted) {
-        for (int i = 0; i < IMPORTERS; i++) {
+        for (int i = 0; i < COUNT; i++) {
             if (strcasecmp(importers[i]->name, wanted) == 0 || has_ending(importers[i], wanted))
                 return importers[i];
         }
@@ -77,7 +74,7 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
     const char *ending = path_ending(name);
     const struct importer *by_content = NULL, *by_ending = NULL;
     int best = 0;
-    for (int i = 0; i < IMPORTERS; i++) {
+    for (int i = 0; i < COUNT; i++) {
         int sure = importers[i]->probe(file->data, file->size);
         bool named = has_ending(importers[i], ending);
         if (named)
@@ -115,7 +112,7 @@ const struct importer *importer_for_stream(const char *name, const uint8_t *head
         const struct importer *importer = importer_for(name, NULL, wanted, NULL);
         return importer && importer->load_stream ? importer : NULL;
     }
-    for (int i = 0; i < IMPORTERS; i++) // importers with load_stream probe the head only
+    for (int i = 0; i < COUNT; i++) // importers with load_stream probe the head only
         if (importers[i]->probe(head, importers[i]->load_stream ? size : FILE_HEAD) == 2)
             return importers[i]->load_stream ? importers[i] : NULL;
     return NULL;

@@ -1,5 +1,9 @@
 // material_fields.c: the table of a material's fields. Checks, scene files, options, reports, shaders and their
-// documentation are made from these rows; a new field is a member of lam_material and a row here.
+// documentation are made from these rows; a new field is a member of lam_material and a row here, or in LOBE_PARAMETERS
+// if only lobes read it.
+#define LANES 1
+#include "lighting.h"
+
 #include "fields.h"
 
 #include <lambent/material.h>
@@ -15,6 +19,12 @@
 // A field that belongs to a layer; the columns of its lam_field follow.
 #define LAYER(member, kind, ...)                                                                                       \
     {.field = {MEMBER(member), __VA_ARGS__}, .reader = FIELD_LAYER, .layer = LAYER_##kind, .physical = true}
+
+// A field that only lobes read: the columns of its lam_field, in lobes.h. Nothing for the parameters without columns.
+#define LOBE_FIELD(member, ...)                                                                                        \
+    __VA_OPT__({.field = {.name = #member, .offset = offsetof(lam_material, member), __VA_ARGS__},                     \
+                .reader = FIELD_LOBE,                                                                                  \
+                .optional = true}, )
 
 static const struct material_field rows[] = {
     {.field = {MEMBER(ambient), .symbol = "ka", .source = "Ka", .type = LAM_FIELD_RGB, .max = UNBOUNDED,
@@ -45,25 +55,11 @@ static const struct material_field rows[] = {
                .standard = {1},
                .summary = "1 opaque, 0 clear; a scene file's multiplies that of diffuse"},
      .reader = FIELD_NEVER},
-    {.field = {MEMBER(fibre), .type = LAM_FIELD_FLAG, .max = 1,
-               .summary = "for hair and thread: Kajiya-Kay without the gate [n.l > 0]"},
-     .reader = FIELD_LOBE,
-     .optional = true},
-    {.field = {.name = "roughness_angle_rad",
-               .key = "roughness_angle",
-               .symbol = "σ",
-               .unit = "degrees",
-               .type = LAM_FIELD_ANGLE,
-               .offset = offsetof(lam_material, roughness_angle_rad),
-               .max = 90,
-               .standard = {30},
-               .summary = "Oren-Nayar's sigma: standard deviation of the slope of the surface's facets"},
-     .reader = FIELD_LOBE,
-     .optional = true},
-    {.field = {MEMBER(physical), .type = LAM_FIELD_FLAG, .max = 1,
-               .summary = "a metallic-roughness material (glTF 2.0); diffuse is its base colour"},
-     .reader = FIELD_CHOICE,
-     .optional = true},
+    LOBE_PARAMETERS(LOBE_FIELD){
+        .field = {MEMBER(physical), .type = LAM_FIELD_FLAG, .max = 1,
+                  .summary = "a metallic-roughness material (glTF 2.0); diffuse is its base colour"},
+        .reader = FIELD_CHOICE,
+        .optional = true},
     {.field = {MEMBER(metallic), .source = "Pm", .max = 1, .summary = "0 a dielectric, 1 a metal"},
      .reader = FIELD_LOBE,
      .optional = true,

@@ -31,18 +31,11 @@ static const char *const names[LAM_OUTPUT_COUNT] = {
 
 const char *lam_output_name(lam_output output) { return (unsigned)output < LAM_OUTPUT_COUNT ? names[output] : NULL; }
 
-static const char *const occlusions[LAM_OCCLUSION_COUNT] = {"auto", "off", "screen", "rays"};
-
 static const char *const ground_names[LAM_GROUND_COUNT] = {"off", "shadow", "checker", "color"};
 
 const char *lam_ground_name(lam_ground ground)
 {
     return (unsigned)ground < LAM_GROUND_COUNT ? ground_names[ground] : NULL;
-}
-
-const char *lam_occlusion_name(lam_occlusion occlusion)
-{
-    return (unsigned)occlusion < LAM_OCCLUSION_COUNT ? occlusions[occlusion] : NULL;
 }
 
 bool lam_output_is_light(lam_output output) { return (unsigned)output <= LAM_OUTPUT_LIGHT; }
@@ -57,10 +50,4 @@ int lam_draw_lights(const lam_scene *scene, lam_rig rig, lam_light *lights, int 
     for (int i = 0; lights && i < rig_count && count + i < capacity; i++)
         lights[count + i] = rig_lights[i];
     return count + rig_count;
-}
-
-const char *lam_hidden_lines_name(lam_hidden_lines lines)
-{
-    static const char *const words[LAM_HIDDEN_LINES_COUNT] = {"remove", "dash", "show"};
-    return (unsigned)lines < LAM_HIDDEN_LINES_COUNT ? words[lines] : NULL;
 }

@@ -1,5 +1,6 @@
-// settings.c: the table of the settings of lam_draw_params. A new one is a member there, a row here and a row in the
-// table of options.
+// settings.c: the table of the settings of lam_draw_params. A new one is a member there and a row here; the program makes an
+// option of it, and scene files have its key. More text about the option, and its place in the help, is a row in
+// tools/options/option_table.c.
 #include <lambent/settings.h>
 
 #include <string.h>
@@ -7,125 +8,139 @@
 struct named_value {
     const char *word;
     int value;
+    const char *summary;
 };
 
 #define COUNT_OF(list) (int)(sizeof(list) / sizeof *(list))
 
-// A function that returns the words of a list, for lam_setting.word.
+// Functions that return the words of a list, for lam_setting.word, and their summaries, for lam_setting.word_summary.
 #define WORDS(name, ...)                                                                                               \
+    static const struct named_value name##_list[] = {__VA_ARGS__};                                                     \
     static const char *name(int index, int *value)                                                                     \
     {                                                                                                                  \
-        static const struct named_value list[] = {__VA_ARGS__};                                                        \
-        if (index >= COUNT_OF(list))                                                                                   \
+        if (index >= COUNT_OF(name##_list))                                                                            \
             return NULL;                                                                                               \
-        *value = list[index].value;                                                                                    \
-        return list[index].word;                                                                                       \
+        *value = name##_list[index].value;                                                                             \
+        return name##_list[index].word;                                                                                \
+    }                                                                                                                  \
+    static const char *name##_summary(int index)                                                                       \
+    {                                                                                                                  \
+        return index < COUNT_OF(name##_list) ? name##_list[index].summary : NULL;                                      \
     }
 
-WORDS(shading_word, {"flat", LAM_SHADING_FLAT}, {"gouraud", LAM_SHADING_GOURAUD}, {"phong", LAM_SHADING_PHONG},
-      {"smooth", LAM_SHADING_GOURAUD}, {"normal", LAM_SHADING_PHONG})
-WORDS(stage_word, {"auto", LAM_STAGE_AUTO}, {"application", LAM_STAGE_APPLICATION}, {"vertex", LAM_STAGE_VERTEX},
-      {"fragment", LAM_STAGE_FRAGMENT})
-WORDS(viewer_word, {"local", LAM_VIEWER_LOCAL}, {"infinite", LAM_VIEWER_INFINITE})
-WORDS(flat_normal_word, {"face", LAM_FLAT_NORMAL_FACE}, {"vertex", LAM_FLAT_NORMAL_VERTEX})
+WORDS(shading_words, {"flat", LAM_SHADING_FLAT, "one colour for each triangle"},
+      {"gouraud", LAM_SHADING_GOURAUD, "one colour for each vertex, interpolated"},
+      {"smooth", LAM_SHADING_GOURAUD, "another name of gouraud"},
+      {"phong", LAM_SHADING_PHONG, "normals interpolated, light evaluated for each pixel"},
+      {"normal", LAM_SHADING_PHONG, "another name of phong"})
+WORDS(stage_words, {"auto", LAM_STAGE_AUTO, NULL},
+      {"application", LAM_STAGE_APPLICATION, "before drawing (flat, gouraud)"},
+      {"vertex", LAM_STAGE_VERTEX, "for each vertex (flat, gouraud)"},
+      {"fragment", LAM_STAGE_FRAGMENT, "for each fragment (flat, phong)"})
+WORDS(viewer_words, {"local", LAM_VIEWER_LOCAL, "the eye is at the camera"},
+      {"infinite", LAM_VIEWER_INFINITE, "the eye is infinitely far away: one direction for every point"})
+WORDS(flat_normal_words, {"face", LAM_FLAT_NORMAL_FACE, "the triangle's own"},
+      {"vertex", LAM_FLAT_NORMAL_VERTEX, "its last vertex's, as OpenGL does"})
+WORDS(occlusion_words,
+      {"auto", LAM_OCCLUSION_AUTO, "screen with the studio's lights and with environment light, else off"},
+      {"off", LAM_OCCLUSION_OFF, "all light from around arrives everywhere"},
+      {"screen", LAM_OCCLUSION_SCREEN, "from the distances of what the picture shows around each pixel"},
+      {"rays", LAM_OCCLUSION_RAYS,
+       "by `--ao-samples` rays from each point, past all surfaces: slower, on the CPU device alone"})
+WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on where `--ao auto` is screen"},
+      {"off", LAM_CAVITY_OFF, "neither darker valleys nor lighter ridges"},
+      {"on", LAM_CAVITY_ON, "valleys are darker and, on models without textures, ridges lighter"})
+WORDS(ground_words, {"off", LAM_GROUND_NONE, "none"},
+      {"shadow", LAM_GROUND_SHADOW, "clear: it holds the shadows and the occlusion, black with their share as alpha"},
+      {"checker", LAM_GROUND_CHECKER, "squares, whose side is 1, 2 or 5 times a power of ten in the model's units"},
+      {"color", LAM_GROUND_COLOR, NULL})
+WORDS(edges_words, {"crease", LAM_EDGES_CREASE, "where faces meet at an angle"},
+      {"boundary", LAM_EDGES_BOUNDARY, "where a surface ends"},
+      {"silhouette", LAM_EDGES_SILHOUETTE, "between front and back"})
+WORDS(hidden_lines_words, {"remove", LAM_HIDDEN_LINES_REMOVE, "left out"}, {"dash", LAM_HIDDEN_LINES_DASH, "dashed"},
+      {"show", LAM_HIDDEN_LINES_SHOW, "as if the surfaces were not there"})
+WORDS(surfaces_words, {"on", 0, "they are drawn"}, {"off", 1, "lines and points alone are"})
+WORDS(terminator_words, {"on", 0, "shadow rays start where the normals say that the curved surface lies"},
+      {"off", 1, "shadow rays start on the flat triangles: the terminator of a coarse smooth mesh shows them"})
 
-static const char *reflection_word(int index, int *value)
+static const char *reflection_words(int index, int *value)
 {
     *value = index;
     return index < LAM_REFLECTION_COUNT ? lam_reflection_describe((lam_reflection)index)->word : NULL;
 }
 
-static const char *occlusion_word(int index, int *value)
+static const char *reflection_words_summary(int index)
 {
-    *value = index;
-    return index < LAM_OCCLUSION_COUNT ? lam_occlusion_name((lam_occlusion)index) : NULL;
+    return lam_reflection_describe((lam_reflection)index)->summary;
 }
-
-WORDS(cavity_word, {"auto", LAM_CAVITY_AUTO}, {"off", LAM_CAVITY_OFF}, {"on", LAM_CAVITY_ON})
-
-static const char *ground_word(int index, int *value)
-{
-    *value = index;
-    return lam_ground_name((lam_ground)index);
-}
-
-static const char *hidden_lines_word(int index, int *value)
-{
-    *value = index;
-    return lam_hidden_lines_name((lam_hidden_lines)index);
-}
-
-WORDS(edges_word, {"crease", LAM_EDGES_CREASE}, {"boundary", LAM_EDGES_BOUNDARY}, {"silhouette", LAM_EDGES_SILHOUETTE})
 
 #define MEMBER(kind, name) .type = LAM_SETTING_##kind, .offset = offsetof(lam_draw_params, name), .member = #name
+#define WORDS_OF(name)     .word = name, .word_summary = name##_summary
 
 static const lam_setting rows[] = {
-    {"shading", MEMBER(WORD, shading), .word = shading_word, .expected = "color, rig, shading or reflection",
-     .summary = "smooth is gouraud, normal is phong; with the stages application and vertex the default is gouraud."},
-    {"reflection", MEMBER(WORD, reflection), .word = reflection_word, .expected = "color, rig, shading or reflection",
-     .summary = "auto: blinn-phong."},
-    {"viewer", MEMBER(WORD, viewer), .word = viewer_word, .expected = "stage, viewer or flat_normal",
-     .summary = "Where the eye is for highlights."},
-    {"stage", MEMBER(WORD, stage), .word = stage_word, .expected = "stage, viewer or flat_normal",
-     .summary = "Where lighting is evaluated."},
-    {"flat_normal", MEMBER(WORD, flat_normal), .word = flat_normal_word, .expected = "stage, viewer or flat_normal",
-     .summary = "The normal of flat shading: the face's, or that of its last vertex."},
+    {"shading", MEMBER(WORD, shading), WORDS_OF(shading_words), .expected = "color, rig, shading or reflection",
+     .summary = "The shading method: flat, gouraud (per vertex) or phong (per pixel)."},
+    {"reflection", MEMBER(WORD, reflection), WORDS_OF(reflection_words),
+     .expected = "color, rig, shading or reflection", .summary = "The reflection model."},
+    {"viewer", MEMBER(WORD, viewer), WORDS_OF(viewer_words), .expected = "stage, viewer or flat_normal",
+     .summary = "The eye's position for highlights: local or infinite."},
+    {"stage", MEMBER(WORD, stage), WORDS_OF(stage_words), .expected = "stage, viewer or flat_normal",
+     .summary = "Where lighting is evaluated: application, vertex or fragment."},
+    {"flat_normal", MEMBER(WORD, flat_normal), WORDS_OF(flat_normal_words), .expected = "stage, viewer or flat_normal",
+     .summary = "The normal of flat shading: face, or vertex (the last one's)."},
     {"match_highlights", MEMBER(FLAG, match_highlights),
-     .summary = "Blinn-Phong's shininess is multiplied by 4, so that it looks like Phong."},
+     .summary = "Multiply Blinn-Phong's shininess by 4, so that it looks like Phong."},
     {"single_scattering", MEMBER(FLAG, single_scattering),
-     .summary = "GGX without the light that microfacets send to one another."},
-    {"gl1", MEMBER(FLAG, gl1),
-     .summary = "Lighting as in OpenGL 1: colours clamped, shininess to 128, ambient attenuated."},
-    {"shadows", MEMBER(FLAG, shadows),
-     .summary = "Things cast shadows in the light of every light whose own key shadows is not false."},
-    {"shadow_terminator", MEMBER(NOT_FLAG, flat_terminator),
-     .summary = "Shadows follow the curved surface that the vertices' normals stand for."},
+     .summary = "Omit multiple scattering between microfacets (GGX)."},
+    {"gl1", MEMBER(FLAG, gl1), .summary = "Light as OpenGL 1: colours clamped, shininess to 128, ambient attenuated."},
+    {"shadows", MEMBER(FLAG, shadows), .summary = "Cast shadows."},
+    {"shadow_terminator", MEMBER(NOT_FLAG, flat_terminator), WORDS_OF(terminator_words),
+     .summary = "Whether shadows follow the curved surface that the normals stand for: on or off."},
     {"shadow_samples", MEMBER(WHOLE, shadow_samples), .min = 1, .max = 256, .standard = 128, .expected = "0 to 256",
      .summary = "Shadow rays to a light with a radius from each point in its penumbra."},
-    {"ground", MEMBER(WORD, ground), .word = ground_word, .expected = "lam_ground",
-     .summary =
-         "A ground at the lowest point: shadow is clear but for shadows and occlusion; color is that of ground_color."},
+    {"ground", MEMBER(WORD, ground), WORDS_OF(ground_words), .expected = "lam_ground",
+     .summary = "A ground at the model's lowest point: shadow (where nothing follows), checker, a colour or off."},
     {"ground_color", MEMBER(RGB, ground_color),
      .summary = "Of the ground color, and of the bright squares of checker. Default: black, and of checker 0.6."},
     {"anisotropy", MEMBER(WHOLE, anisotropy), .min = 1, .max = 16, .standard = 1, .expected = "0 to 16",
-     .summary = "Probes of a texture along the longer axis of a pixel's footprint."},
+     .summary = "Probes of a texture where it is seen at a slant, 1 to 16: more are sharper."},
     {"reference", MEMBER(WHOLE, reference), .min = 16, .max = 1 << 20, .zero = true,
      .expected = "0 or 16 to 1048576 directions",
-     .summary = "Directions by which an environment's light on physical materials is summed; 0: the split sum."},
-    {"ao", MEMBER(WORD, occlusion), .word = occlusion_word, .expected = "lam_occlusion",
-     .summary = "Ambient occlusion. auto: screen where a light has a share occluded or an environment lights."},
-    {"cavity", MEMBER(WORD, cavity), .word = cavity_word, .expected = "lam_cavity",
-     .summary = "Small valleys are darker, ridges lighter. auto: where ao is auto and screen."},
+     .summary = "Sum the environment's light on physical materials by N directions at each point, 16 to 1048576; 0: "
+                "split sum."},
+    {"ao", MEMBER(WORD, occlusion), WORDS_OF(occlusion_words), .expected = "lam_occlusion",
+     .summary = "Ambient occlusion: auto, off, screen or rays."},
+    {"cavity", MEMBER(WORD, cavity), WORDS_OF(cavity_words), .expected = "lam_cavity",
+     .summary = "Darken small valleys and lighten ridges: auto, off or on."},
     {"ao_radius", MEMBER(NUMBER, occlusion_radius), .min = 0.001, .max = 10, .standard = 0.1,
      .expected = "more than 0, up to 10",
      .summary = "How far away surfaces occlude, as a share of half the diagonal of the scene's box."},
     {"ao_samples", MEMBER(WHOLE, occlusion_samples), .min = 1, .max = 1024, .standard = 64, .expected = "0 to 1024",
-     .summary = "Rays from each lit point where ao is rays."},
-    {"light_cutoff", MEMBER(NUMBER, light_cutoff), .max = 1, .standard = 0.00196, .zero_is_negative = true,
+     .summary = "Rays from each lit point with `--ao rays`; more of them make its grain finer."},
+    {"light_cutoff", MEMBER(NUMBER, light_cutoff), .max = 1, .standard = 0.5 / 255, .zero_is_negative = true,
      .expected = "at most 1",
-     .summary = "With more than 16 lights: the most that the lights left out of a part of the picture may add there; "
-                "0: none is left out."},
+     .summary = "The largest error from skipping weak lights; 0 evaluates every light everywhere."},
     {"line_width", MEMBER(NUMBER, line_width), .min = 0.01, .max = 1000, .standard = 1.5,
-     .expected = "pixels from 0 to 1000", .summary = "Width of a model's lines in pixels."},
+     .expected = "pixels from 0 to 1000", .summary = "The width of the lines that a model has."},
     {"point_size", MEMBER(NUMBER, point_size), .min = 0.01, .max = 1000, .expected = "pixels from 0 to 1000",
-     .summary = "Diameter of a model's points in pixels. Without it, larger the fewer there are."},
-    {"wireframe", MEMBER(FLAG, wireframe), .summary = "The edges of all faces are drawn as lines over the picture."},
+     .summary = "The diameter of the points that a model has: by default larger the fewer there are."},
+    {"wireframe", MEMBER(FLAG, wireframe), .summary = "Draw the edges of all faces as lines over the picture."},
     {"wireframe_width", MEMBER(NUMBER, wireframe_width), .min = 0.01, .max = 1000, .standard = 1,
-     .expected = "pixels from 0 to 1000", .summary = "Width of the wireframe's lines in pixels."},
+     .expected = "pixels from 0 to 1000", .summary = "The width of the wireframe's lines."},
     {"wireframe_color", MEMBER(RGBA, wireframe_color),
-     .summary = "Of the wireframe. Default: black, and white without surfaces over a dark background."},
-    {"edges", MEMBER(WORDS, edges), .word = edges_word, .expected = "edges or hidden_lines",
-     .summary = "Feature edges that are drawn as lines over the picture."},
+     .summary = "The colour of the wireframe: by default black, or white without surfaces over a dark background."},
+    {"edges", MEMBER(WORDS, edges), WORDS_OF(edges_words), .expected = "edges or hidden_lines",
+     .summary = "Draw feature edges as lines: all, or some of crease,boundary,silhouette."},
     {"edge_angle", MEMBER(ANGLE, edge_angle_rad), .min = 0.001, .max = 180, .standard = 40, .expected = "0° to 180°",
-     .summary = "Creases are edges whose faces meet at more than this, degrees."},
+     .summary = "Creases are edges whose faces meet at more than this."},
     {"edge_width", MEMBER(NUMBER, edge_width), .min = 0.01, .max = 1000, .standard = 1.5,
-     .expected = "pixels from 0 to 1000", .summary = "Width of feature edges in pixels."},
+     .expected = "pixels from 0 to 1000", .summary = "The width of feature edges."},
     {"edge_color", MEMBER(RGBA, edge_color),
-     .summary = "Of feature edges. Default: black, and white without surfaces over a dark background."},
-    {"hidden_lines", MEMBER(WORD, hidden_lines), .word = hidden_lines_word, .expected = "edges or hidden_lines",
-     .summary = "What becomes of the parts of edges behind surfaces."},
-    {"surfaces", MEMBER(NOT_FLAG, no_surfaces),
-     .summary = "false: lines alone are drawn; surfaces hide them all the same."},
+     .summary = "The colour of feature edges: by default black, or white without surfaces over a dark background."},
+    {"hidden_lines", MEMBER(WORD, hidden_lines), WORDS_OF(hidden_lines_words), .expected = "edges or hidden_lines",
+     .summary = "Edges behind surfaces: remove, dash or show."},
+    {"surfaces", MEMBER(NOT_FLAG, no_surfaces), WORDS_OF(surfaces_words),
+     .summary = "Whether surfaces are drawn: on, or off for lines alone."},
 };
 _Static_assert(COUNT_OF(rows) <= LAM_SETTINGS_MAX, "more rows than lam_picture_settings.draw_present has bits");
 

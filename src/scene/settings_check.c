@@ -1,4 +1,4 @@
-// settings_check.c: the ranges of the draw parameters, by the table of settings.
+// settings_check.c: the ranges and defaults of the draw parameters, by the table of settings.
 #include "settings_check.h"
 
 #include <string.h>
@@ -86,4 +86,25 @@ bool settings_check(const lam_draw_params *params, lam_error *error)
         if (!setting_check(setting, (const char *)params + setting->offset, error))
             return false;
     return true;
+}
+
+void settings_resolve(const lam_draw_params *params, lam_draw_params *out)
+{
+    const lam_setting *setting;
+    *out = *params;
+    for (int i = 0; (setting = lam_draw_setting(i)); i++) {
+        void *member = (char *)out + setting->offset;
+        if (setting->type == LAM_SETTING_WHOLE && !*(int *)member)
+            *(int *)member = (int)setting->standard;
+        if (setting->type == LAM_SETTING_NUMBER && !(*(float *)member > 0))
+            *(float *)member = *(float *)member < 0 ? 0 : (float)setting->standard;
+    }
+}
+
+double setting_number(const lam_draw_params *params, const char *key)
+{
+    const lam_setting *setting = lam_draw_setting(lam_draw_setting_find(key));
+    double value = (double)*(const float *)((const char *)params + setting->offset);
+    double standard = setting->type == LAM_SETTING_ANGLE ? math_radians(setting->standard) : setting->standard;
+    return value > 0 ? value : standard;
 }

@@ -173,7 +173,10 @@ class Sources(Batch):
                                   (["a/x.stl", "--views", "front,front"], 1, "a side twice"),
                                   (["a/x.stl", "--views", "front,side"], 1, "found 'side'"),
                                   (["a/x.stl", "--sizes", "16,0"], 1, "such as 1024,256x128"),
-                                  (["a/x.stl", "--views", "front", "--azimuth", "3"], 1, "'--views' and '--azimuth'"),
+                                  (["a/x.stl", "--views", "front", "--azimuth", "3"], 1, "several sides and the option '--azimuth'"),
+                                  (["a/x.stl", "--view", "front,left", "--view", "top"], 1, "several sides and the option '--view'"),
+                                  (["a/x.stl", "-s", "16,24", "-s", "32"], 1, "found one size and several"),
+                                  (["a/x.stl", "--view", "front,side"], 1, "option '--view': found 'side'"),
                                   (["a/x.stl", "--resume", "--skip-same"], 1, "cannot be used together"),
                                   (["a/x.stl", "--resume", "--journal", "none"], 1, "goes by a journal")):
             done = self.run_program("batch", *words)
@@ -234,7 +237,7 @@ class Pictures(Batch):
         self.cube("cube.mtl", "cube.mtl")
         for look in ([], ["--rotate", "y:30"], ["--light", "point:frame=view,position=1r/2r/3r", "--light-scale", "0.5"], ["--light", "+spot"],
                      ["--show-lights"], ["--rig", "three-point", "--two-sided"]):
-            done = self.good("cube.obj", "--views", "front,left,iso", "--sizes", "24,40x16", "-o", "out/", *look)
+            done = self.good("cube.obj", "--view", "front,left,iso", "-s", "24,40x16", "-o", "out/", *look)
             self.assertEqual(len(done.stderr.splitlines()) >= 6, True)
             for view in ("front", "left", "iso"):
                 for size in ("24", "40x16"):

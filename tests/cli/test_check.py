@@ -138,7 +138,7 @@ class Right(CheckTest):
 
     def test_printed_reflection_models(self):
         """What `lambent shader` prints passes, with every reflection model: as it is, with products, and in two other forms."""
-        text = " ".join(self.good("shader", "--help").stdout.decode().split())
+        text = " ".join(self.good("--help").stdout.decode().split())
         models = re.search(r"The reflection model: ([a-z, -]*) or auto\.", text)[1].split(", ")
         self.assertGreaterEqual(len(models), 8)
         every = EVERY == 1

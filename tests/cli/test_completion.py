@@ -36,7 +36,9 @@ class Words(Case):
     def test_every_option(self):
         """Those that a command takes, and no others; every one of them is in its help."""
         for command in ("render", "compare", "check", "diff", "plot", "shader", "lights", "materials"):
-            options = set(re.findall(r"(?m)^  (?:-\w, |    )(--[a-z][a-z0-9-]*)", self.good(command, "--help").stdout.decode()))
+            rows, _, shared = self.good(command, "--help").stdout.decode().partition("\nShared with ")
+            options = set(re.findall(r"(?m)^  (?:-\w, |    )(--[a-z][a-z0-9-]*)", rows))
+            options |= set(re.findall(r"--[a-z][a-z0-9-]*", shared.partition(":\n")[2]))
             self.assertEqual(set(self.words(command, "-")), options, command)
         self.assertEqual(self.words("--crea"), ["--crease-angle"])
         self.assertEqual(self.words("teapot", "--shading", "flat", "--crea"), ["--crease-angle"])

@@ -94,6 +94,18 @@ class Docs(Case):
         self.assertRegex(pages["materials"], r"(?m)^  roughness_angle ")
         self.assertRegex(pages["exit-codes"], r"(?m)^  130 ")
 
+    def test_own_options_first(self):
+        """A command describes its own options, then names those that it shares with pictures of models."""
+        for command, own in (("shape", "parametric"), ("shader", "glsl"), ("compare", "across"), ("batch", "journal"), ("view", "port")):
+            page = self.good(command, "--help").stdout.decode()
+            rows, _, shared = page.partition("\nShared with pictures of models (lambent --help describes them")
+            options = re.findall(r"(?m)^  (?:-\w, |    )--([a-z][a-z0-9-]*)", rows)
+            self.assertIn(own, options)
+            self.assertRegex(shared, r"(?m)^  Shading +--shading, ")
+            self.assertFalse(set(options) & set(re.findall(r"--([a-z][a-z0-9-]*)", shared.partition(":\n")[2])), command)
+            self.assertLess(len(page.splitlines()), 110, command)
+            self.assertLess(rows.index("--" + own), rows.index("--output") if "  -o, --output" in rows else len(rows))
+
     def test_commands_show_their_own_defaults(self):
         def default(command, option):
             page = " ".join(self.good(command, "--help").stdout.decode().split())

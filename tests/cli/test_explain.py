@@ -373,7 +373,7 @@ class Figure(Case):
 
     def test_refused(self):
         left = self.new_files()
-        self.bad(3, "explain", "cube", "8,8", "-s", 16, "-o", "f.exr", says=("f.exr", ".svg"), leaves=left)
+        self.bad(3, "explain", "cube", "8,8", "-s", 16, "-o", "f.exr", says=("f.exr", ".svg, .png, .ppm, .jpg"), leaves=left)
         self.bad(3, "explain", "cube", "8,8", "-s", 16, "-o", "f.gltf", says="f.gltf", leaves=left)
         self.bad(3, "explain", "cube", "8,8", "-s", 16, "-o", "f.png", "--title", "点", says=("U+70B9", "--font", ".svg"), leaves=left)
         self.bad(3, "explain", "cube", "8,8", "-s", 16, "-o", "f.png", "--title", "נ", says=("U+05E0", ".svg"), leaves=left)

@@ -22,7 +22,9 @@ class Sentences(Case):
         (self.folder / "folder").mkdir()
         (self.folder / "noise.step").write_text("hello there\n")
         self.given |= {"folder", "noise.step"}
-        reads = "lambent reads .obj, .stl, .ply, .gltf, .glb, .3mf and scene files (.json)"
+        models = self.good("formats").stdout.decode().split("Pictures")[0].splitlines()[1:-1]
+        reads = "lambent reads %s and scene files (.json)" % ", ".join("." + ending.strip(".") for line in models for ending in line.split()[1:])
+        self.assertIn(".stl, .ply, ", reads)
         self.check({
             "folder": (2, "lambent batch folder", "lambent view folder"),
             "https://example.com/a.glb": (2, "download it first", reads),

@@ -445,6 +445,26 @@ class CommandLine(Case):
         self.assertNotIn(b"lambent compare", self.good("help", "plot").stdout)
         self.assertEqual(self.good("--json", "devices").stdout, self.good("devices", "--json").stdout)
 
+    def test_former_names(self):
+        """Options that have become one work as ever; no help and no completion lists them."""
+        for former, now, value in (("views", "view", "front,left"), ("sizes", "size", "16,24")):
+            size = [] if now == "size" else ["-s", 16]
+            self.good("cube.obj", "--" + former, value, *size, "-q", "-o", former + "/{view}-{size}.png")
+            self.good("cube.obj", f"--{now}={value}", *size, "-q", "-o", now + "/{view}-{size}.png")
+            names = sorted(path.name for path in (self.folder / now).iterdir())
+            self.assertEqual(len(names), 2)
+            self.assertEqual(names, sorted(path.name for path in (self.folder / former).iterdir()))
+            for name in names:
+                self.assertEqual((self.folder / now / name).read_bytes(), (self.folder / former / name).read_bytes())
+            self.given |= {now, former} | self.new_files()
+            for words in (("--help",), ("batch", "--help"), ("generate", "markdown"), ("generate", "man"), ("help", "batch")):
+                text = self.good(*words).stdout.decode().replace("\\-", "-")
+                self.assertNotRegex(text, rf"--{former}\b")
+                if words[0] != "help":
+                    self.assertIn("--" + now, text)
+            self.assertEqual(self.good("help", "--" + former).stdout, self.good("help", "--" + now).stdout)
+            self.bad(1, "compare", "cube.obj", "--" + now, value, says=f"option '--{now}': several values belong to render, batch; this command takes one")
+
     def test_version(self):
         text = self.good("--version").stdout.decode()
         self.assertRegex(text, r"^lambent \d+\.\d+\.\d+\n\S+")

@@ -19,22 +19,19 @@ OUT = os.path.join(ROOT, "build-fuzz")
 MODELS = os.path.join(ROOT, "..", "shared", "models")
 
 # Where a target's inputs begin, besides its corpus: folders and the endings of files in them. Those below `MODELS` are used
-# where they are there.
+# where they are there. A format that has no row here begins with the files of its name in tests/models and tests/pictures.
 SEEDS = {
     "obj": [("tests/models", ".obj"), ("MODELS/obj", ".obj")], "mtl": [("tests/models", ".mtl"), ("MODELS/obj", ".mtl")],
     "ply": [("tests/models", ".ply"), ("MODELS/ply", ".ply")], "stl": [("tests/models", ".stl"), ("MODELS/stl", ".stl")],
     "gltf": [("MODELS/gltf-tests", ".gltf"), ("MODELS/gltf", ".gltf")],
     "glb": [("MODELS/glb", ".glb"), ("MODELS/gltf-tests", ".glb")],
     "scene": [("tests/models", ".json"), ("tools/help", ".json"), ("examples", ".json")],
-    "png": [("tests/pictures/png", ".png")], "jpeg": [("tests/pictures/jpeg", ".jpg")],
-    "webp": [("tests/pictures/webp", ".webp")], "tga": [("tests/pictures/tga", ".tga")], "bmp": [("tests/pictures/bmp", ".bmp")],
 }
 SEED_BYTES = 16384
 
-# Words of a format are the string literals of the files that read it; other dictionaries lie in dictionaries/.
+# Words of a format are the string literals of the files that read it, by default those of its folder in src/import; other dictionaries lie in dictionaries/.
 WORDS = {
-    "obj": ["src/import/obj"], "mtl": ["src/import/obj/mtl.c", "src/import/obj/mtl_maps.c"], "ply": ["src/import/ply"],
-    "stl": ["src/import/stl"], "gltf": ["src/import/gltf"], "glb": ["src/import/gltf"],
+    "obj": ["src/import/obj"], "mtl": ["src/import/obj/mtl.c", "src/import/obj/mtl_maps.c"], "gltf": ["src/import/gltf"], "glb": ["src/import/gltf"],
     "3mf": ["src/import/threemf"],
     "scene": ["src/scene_file", "src/scene", "src/words"],
     "render": ["src/import/obj", "src/import/ply", "src/import/gltf"], "job": ["tools/many/jobs", "tools/options", "src/words"], "formula": ["src/shapes/formula_parse.c"],
@@ -71,7 +68,7 @@ def build(jobs):
 def dictionary(target):
     """Writes the target's dictionary; returns its path."""
     lines = []
-    for place in WORDS.get(target, []):
+    for place in WORDS.get(target, [os.path.join("src/import", target)]):
         path = os.path.join(ROOT, place)
         sources = [path] if os.path.isfile(path) else sorted(glob.glob(os.path.join(path, "**", "*.c"), recursive=True))
         for source in sources:
@@ -94,7 +91,7 @@ def seeds(target):
     folder = os.path.join(OUT, "seeds", target)
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
-    places = [(os.path.join("tests/fuzz/corpus", target), "")] + SEEDS.get(target, [])
+    places = [(os.path.join("tests/fuzz/corpus", target), "")] + SEEDS.get(target, [("tests/models", "." + target), (os.path.join("tests/pictures", target), "")])
     if target == "render": # every model and scene file, behind options: zeros, and others
         places += [(os.path.join("tests/fuzz/corpus", name), "") for name in ("obj", "ply", "stl", "gltf", "glb", "scene")]
     count = 0

@@ -2,7 +2,8 @@
 //
 // The target gets every file of the folder CORPUS unchanged, truncated after each of its bytes, and in CHANGES
 // mutations, the same in every run; a target that has a mutator of its own (mutate.h) makes half of them. An input that
-// crashes the program is saved in the current folder as "fuzz-failure".
+// crashes the program is saved in the current folder as "fuzz-failure". A target may add a file of its own (fuzz_seed), and needs no
+// folder then.
 #include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -19,6 +20,7 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t capacity);
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t capacity, unsigned seed) __attribute__((weak));
+size_t fuzz_seed(uint8_t *data, size_t capacity) __attribute__((weak)); // 0: none
 void __sanitizer_set_death_callback(void (*callback)(void)) __attribute__((weak));
 
 enum {
@@ -165,6 +167,8 @@ int main(void)
     }
     if (count >= 0)
         free(names);
+    if (fuzz_seed && seed_count < SEEDS_MAX)
+        seed_count += (seeds[seed_count].size = fuzz_seed(seeds[seed_count].bytes, SEED_BYTES)) > 0;
     if (seed_count == 0) {
         fprintf(stderr, "no files in %s\n", CORPUS);
         return 1;

@@ -188,7 +188,7 @@ static void write_shader(FILE *file, const char *version)
     for (int i = 0; i < EQUATION_FILES; i++)
         write_text(file, equation_files[i]);
     fputs("struct lobe_parameters {", file);
-#define MEMBER(name) fputs(" float " #name ";", file);
+#define MEMBER(name, ...) fputs(" float " #name ";", file);
     LOBE_PARAMETERS(MEMBER)
 #undef MEMBER
     fputs(" };\nuniform lobe_parameters m;\n"

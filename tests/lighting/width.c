@@ -77,7 +77,7 @@ static void light(const struct modes *modes, const float *const in[INPUTS], floa
         l.inverse_width = num_load(in[IN_INVERSE_WIDTH] + i);
         lobe_parameters m;
         int parameter = IN_PARAMETERS;
-#define TAKE(name) m.name = num_load(in[parameter++] + i);
+#define TAKE(name, ...) m.name = num_load(in[parameter++] + i);
         LOBE_PARAMETERS(TAKE)
         m.fibre = num_of((float)modes->fibre);
         hemisphere h = {load3(in, IN_UP, i), load3(in, IN_SKY, i), load3(in, IN_GROUND, i)};

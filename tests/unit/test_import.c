@@ -14,11 +14,47 @@
 
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
+#define READS "; lambent reads FORMATS"
+
+// A sentence with the list of formats in place of the word FORMATS.
+static const char *with_formats(const char *sentence)
+{
+    static char text[1000];
+    const char *at = strstr(sentence, "FORMATS");
+    int used = snprintf(text, sizeof text, "%.*s", at ? (int)(at - sentence) : 0, sentence);
+    for (int i = 0; at && lam_model_format_name(i); i++)
+        for (const char *ending = lam_model_format_extensions(i); *ending; ending += strspn(ending, " ")) {
+            bool scene = strcmp(lam_model_format_name(i), "scene") == 0;
+            int length = (int)strcspn(ending, " ");
+            used += snprintf(text + used, sizeof text - (size_t)used, "%s.%.*s%s",
+                             scene                            ? " and scene files ("
+                             : *text && text[used - 1] != ' ' ? ", "
+                                                              : "",
+                             length, ending, scene ? ")" : "");
+            ending += length;
+        }
+    snprintf(text + used, sizeof text - (size_t)used, "%s", at ? at + strlen("FORMATS") : sentence);
+    return text;
+}
+
+// Whether the ending of a name is exactly a format's only one, and not that of a format which these tests know.
+static bool is_read(const char *name)
+{
+    const char *ending = name ? strrchr(name, '.') : NULL;
+    static const char *const known[] = {"obj", "stl", "ply", "json"};
+    bool read = false;
+    for (int i = 0; ending && lam_model_format_name(i); i++)
+        read |= strcmp(ending + 1, lam_model_format_extensions(i)) == 0;
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        read &= strcmp(ending + 1, known[i]) != 0;
+    return read;
+}
+
 static void expect_error(const char *bytes, size_t size, const char *name, lam_code code, const char *sentence)
 {
     lam_error error = {0};
     assert_null(lam_scene_load_memory(bytes, size, name, NULL, NULL, &error));
-    assert_string_equal(error.text, sentence);
+    assert_string_equal(error.text, with_formats(sentence));
     assert_int_equal(error.code, code);
     assert_null(lam_scene_load_memory(bytes, size, name, NULL, NULL, NULL)); // no error wanted
 }
@@ -26,16 +62,29 @@ static void expect_error(const char *bytes, size_t size, const char *name, lam_c
 static void test_formats(void **unused)
 {
     (void)unused;
-    assert_string_equal(lam_model_format_name(0), "obj");
-    assert_string_equal(lam_model_format_name(1), "stl");
-    assert_string_equal(lam_model_format_name(2), "ply");
-    assert_string_equal(lam_model_format_name(3), "gltf");
-    assert_string_equal(lam_model_format_name(4), "scene");
-    assert_null(lam_model_format_name(5));
+    static const char *const known[][2] = {
+        {"obj", "obj"}, {"stl", "stl"}, {"ply", "ply"}, {"gltf", "gltf glb"}, {"scene", "json"}};
+    int count = 0, found = 0;
+    const char *name;
+    for (; (name = lam_model_format_name(count)); count++) {
+        assert_true(lam_model_format_extensions(count) && *lam_model_format_extensions(count));
+        for (int i = 0; i < count; i++)
+            assert_string_not_equal(name, lam_model_format_name(i));
+        for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+            if (strcmp(name, known[i][0]) == 0) {
+                assert_string_equal(lam_model_format_extensions(count), known[i][1]);
+                found++;
+            }
+        // Its own name asks for it, so that an error is its reader's.
+        lam_error error = {0};
+        assert_null(lam_scene_load_memory("?", 1, "a", &(lam_load_params){.format = name}, NULL, &error));
+        assert_non_null(error.text[0] ? error.text : NULL);
+        assert_null(strstr(error.text, "cannot be read"));
+    }
+    assert_int_equal(found, sizeof known / sizeof *known);
     assert_null(lam_model_format_name(-1));
-    assert_string_equal(lam_model_format_extensions(0), "obj");
-    assert_string_equal(lam_model_format_extensions(3), "gltf glb");
-    assert_null(lam_model_format_extensions(5));
+    assert_null(lam_model_format_extensions(-1));
+    assert_null(lam_model_format_extensions(count));
 }
 
 // The content decides the format; the extension only resolves ambiguity.
@@ -90,7 +139,6 @@ static void test_foreign(void **unused)
         lam_code code;
     } rows[] = {
 #define ROW(text, name, sentence, code) {text, sizeof text - 1, name, sentence, code}
-#define READS                           "; lambent reads .obj, .stl, .ply, .gltf, .glb and scene files (.json)"
 #define EXPORT(ending)                  READS ": export the model as " ending
 #define NOT                             ", not a 3D model" READS
         ROW("{\"name\": 1}", "a.json",
@@ -116,7 +164,8 @@ static void test_foreign(void **unused)
             LAM_CANNOT_READ),
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        expect_error(rows[i].bytes, rows[i].size, rows[i].name, rows[i].code, rows[i].sentence);
+        if (!is_read(rows[i].name)) // a format that has been added since
+            expect_error(rows[i].bytes, rows[i].size, rows[i].name, rows[i].code, rows[i].sentence);
 }
 
 static void test_arguments(void **unused)
@@ -135,7 +184,7 @@ static void test_arguments(void **unused)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         lam_error error;
         assert_null(lam_scene_load_memory(TRIANGLE, strlen(TRIANGLE), "a", &rows[i].params, NULL, &error));
-        assert_string_equal(error.text, rows[i].sentence);
+        assert_string_equal(error.text, with_formats(rows[i].sentence));
         assert_int_equal(error.code, rows[i].code);
     }
     lam_error error;

@@ -520,7 +520,6 @@ static bool check_words(const struct options *o, lam_error *error)
 static bool check(const struct options *o, const struct sheet *sheet, const char *model, const char *path,
                   lam_error *error)
 {
-    lam_pixel_format format;
     if (!check_caption_count(o, sheet, error))
         return false;
     if (!drawing_is_svg(path) && !o->captions.no_captions && !check_words(o, error))
@@ -534,10 +533,8 @@ static bool check(const struct options *o, const struct sheet *sheet, const char
         return !isatty(STDOUT_FILENO) || terminal_shows() || terminal_refuse("compare MODEL", error);
     if (drawing_is_svg(path))
         return output_check(path, model, output_given(o->picture.output), error);
-    if (!output_format(path, &format, error))
+    if (!output_check_bytes(path, "sheet", ".svg, ", error))
         return false;
-    if (format != LAM_RGBA8)
-        return complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .svg, .png, .jpg, .webp or .ppm", path);
     return output_check(path, model, output_is_named(o->picture.output), error);
 }
 

@@ -41,14 +41,17 @@ int run_formats(int operand_count, char **operands, const struct options *option
     printf("Models:\n");
     for (int i = 0; lam_model_format_name(i); i++)
         printf("  %-6s .%s\n", lam_model_format_name(i), lam_model_format_extensions(i));
-    printf("Pictures that are written:\n"
-           "  png    .png  8 bits, sRGB, with alpha\n"
-           "  ppm    .ppm  8 bits, sRGB, over the background\n"
-           "  pfm    .pfm  floats, linear, premultiplied by alpha\n"
-           "  exr    .exr  floats, linear, premultiplied by alpha, with alpha\n"
-           "  jpg    .jpg .jpeg  8 bits, sRGB, over the background, lossy (--quality)\n"
-           "  webp   .webp  8 bits, sRGB, with alpha, lossless unless --quality is below 100\n"
-           "Pictures that are read (environments, textures):\n"
-           "  png, jpg, webp, bmp, tga, ppm, pfm, exr, hdr\n");
+    printf("Pictures that are written:\n");
+    const char *name;
+    for (int i = 0; (name = lam_image_format_name(i)); i++) {
+        const char *alias = lam_image_format_alias(i);
+        if (lam_image_format_written(i))
+            printf("  %-6s .%s%s%s  %s\n", name, name, alias ? " ." : "", alias ? alias : "",
+                   lam_image_format_written(i));
+    }
+    printf("Pictures that are read (environments, textures):\n ");
+    for (int i = 0; (name = lam_image_format_name(i)); i++)
+        printf("%s %s", i ? "," : "", name);
+    printf("\n");
     return 0;
 }

@@ -383,15 +383,12 @@ static void print_json(FILE *file, const struct plot *plot, const char *path)
 static bool draw_to(const struct plot *plot, const char *path, const struct options *o, lam_error *error)
 {
     bool svg = drawing_is_svg(path), to_stdout = strcmp(path, "-") == 0;
-    lam_pixel_format format;
     if (!terminal_start(o, true, error))
         return false;
     if (to_stdout && isatty(STDOUT_FILENO) && !terminal_shows())
         return terminal_refuse("plot", error);
-    if (!svg && !output_format(path, &format, error))
+    if (!svg && !output_check_bytes(path, "plot", ".svg, ", error))
         return false;
-    if (!svg && format != LAM_RGBA8)
-        return complain(error, LAM_UNSUPPORTED, "%s: a plot is written as .svg, .png or .ppm", path);
     if (!to_stdout && !output_check(path, "", output_is_named(o->picture.output), error))
         return false;
     if (!svg && o->captions.title && !o->captions.no_captions &&

@@ -37,7 +37,7 @@ static void complete_option(const struct command *command, const char *word)
     }
     struct typed_word name = {"--", strncmp(word, "--", 2) == 0 ? word + 2 : "", 2};
     for (const struct option *o = option_table; o->name; o++)
-        if (option_is_taken(o, command->groups))
+        if (option_is_taken(o, command->groups) && !o->now)
             complete_offer(&name, o->name, "", o->summary);
 }
 
@@ -69,7 +69,7 @@ static void complete_topics(const struct typed_word *typed)
         if (!is_topic(c->name))
             complete_offer(typed, c->name, "", c->summary);
     for (const struct option *o = option_table; o->name; o++)
-        if (!is_topic(o->name) && !find_command(o->name))
+        if (!o->now && !is_topic(o->name) && !find_command(o->name))
             complete_offer(typed, o->name, "", o->summary);
 }
 

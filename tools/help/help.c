@@ -50,7 +50,7 @@ static void brief_option(const struct option *o, const struct command *command)
 // True if the option belongs to a command and not to pictures of models.
 static bool is_own(const struct option *o, const struct command *command)
 {
-    return option_is_taken(o, command->groups) && !option_is_taken(o, command_table->groups);
+    return !o->now && option_is_taken(o, command->groups) && !option_is_taken(o, command_table->groups);
 }
 
 // A command with options of its own shows those, and the common ones of the picture; the others all common ones. False: there

@@ -86,19 +86,63 @@ void help_option(const struct option *option, const struct command *command, boo
     print_words(option);
 }
 
+// Groups whose options `lambent --help` describes: other commands list them by name alone.
+#define SHARED                                                                                                         \
+    (1u << GROUP_PICTURE | 1u << GROUP_MODEL | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_MATERIALS |         \
+     1u << GROUP_SHADING | 1u << GROUP_ANIMATION | 1u << GROUP_WORK | 1u << GROUP_LIMITS | 1u << GROUP_REPORT)
+
+// A command describes its own options, those of which it accepts no other of the group, and those whose default is its own.
+static bool is_shared(const struct option *o, const struct command *command)
+{
+    return command != command_table && SHARED & command->groups & 1u << o->group &&
+           default_of(command, o) == o->standard;
+}
+
+static void group_options(int group, const struct command *command)
+{
+    bool titled = false;
+    for (const struct option *o = option_table; o->name; o++) {
+        if ((int)o->group != group || o->now || !option_is_taken(o, command->groups) || is_shared(o, command))
+            continue;
+        if (!titled)
+            printf("\n%s:\n", group_titles[group]);
+        titled = true;
+        help_option(o, command, false);
+    }
+}
+
+// The names of the shared options, in a row for each group.
+static void shared_options(const struct command *command)
+{
+    bool any = false;
+    for (int group = 0; group < GROUP_COUNT; group++) {
+        char left[64], text[1000] = "";
+        size_t used = 0;
+        for (const struct option *o = option_table; o->name && used < sizeof text; o++)
+            if ((int)o->group == group && option_is_taken(o, command->groups) && is_shared(o, command))
+                used += (size_t)snprintf(text + used, sizeof text - used, "%s--%s", used ? ", " : "", o->name);
+        if (!used)
+            continue;
+        if (!any)
+            printf(
+                "\nShared with pictures of models (lambent --help describes them, lambent help NAME one of them):\n");
+        any = true;
+        snprintf(left, sizeof left, "  %s", group_titles[group]);
+        help_row(left, HELP_COLUMN, WIDTH, text);
+    }
+}
+
 void help_options(const struct command *command)
 {
-    for (int group = 0; group < GROUP_COUNT; group++) {
-        bool titled = false;
-        for (const struct option *o = option_table; o->name; o++) {
-            if ((int)o->group != group || !option_is_taken(o, command->groups))
-                continue;
-            if (!titled)
-                printf("\n%s:\n", group_titles[group]);
-            titled = true;
-            help_option(o, command, false);
-        }
-    }
+    bool whole = command == command_table;
+    const unsigned later = SHARED | 1u << GROUP_ABOUT;
+    for (int group = 0; group < GROUP_COUNT; group++)
+        if (whole || !(later & 1u << group))
+            group_options(group, command);
+    for (int group = 0; group < GROUP_COUNT && !whole; group++)
+        if (later & 1u << group)
+            group_options(group, command);
+    shared_options(command);
 }
 
 void help_commands(void)

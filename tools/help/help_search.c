@@ -74,6 +74,8 @@ static void search_options(struct search *search)
     for (const struct option *o = option_table; o->name; o++) {
         struct texts_of texts = {0};
         char name[40];
+        if (o->now)
+            continue;
         add(&texts, o->name);
         add(&texts, o->alias);
         add(&texts, o->others);

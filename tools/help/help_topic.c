@@ -30,13 +30,14 @@ static const struct option *find_option(const char *word)
         for (const struct option *o = option_table; o->name; o++)
             if (o->letter == word[1])
                 return o;
-    return option_find(word + (strncmp(word, "--", 2) == 0 ? 2 : 0));
+    const struct option *option = option_find(word + (strncmp(word, "--", 2) == 0 ? 2 : 0));
+    return option && option->now ? option_find(option->now) : option;
 }
 
 static void print_options(unsigned groups, const struct command *command)
 {
     for (const struct option *o = option_table; o->name; o++)
-        if (groups & 1u << o->group) {
+        if (groups & 1u << o->group && !o->now) {
             printf("\n");
             help_option(o, command, true);
         }
@@ -71,7 +72,7 @@ static void topic_summary(const struct topic *topic, char *text, size_t size)
     int used = snprintf(text, size, "%s", topic->title);
     bool first = true;
     for (const struct option *o = option_table; o->name; o++)
-        if (topic->groups & 1u << o->group && used < (int)size) {
+        if (topic->groups & 1u << o->group && !o->now && used < (int)size) {
             used += snprintf(text + used, size - (size_t)used, "%s%s", first ? ": " : ", ", o->name);
             first = false;
         }

@@ -109,7 +109,7 @@ void generate_man(void)
     for (int group = 0; group < GROUP_COUNT; group++) {
         printf(".SS %s\n", group_titles[group]);
         for (const struct option *o = option_table; o->name; o++)
-            if ((int)o->group == group)
+            if ((int)o->group == group && !o->now)
                 roff_option(o);
     }
     printf(".SH COMMANDS\n");
@@ -188,7 +188,7 @@ void generate_markdown(void)
     for (int group = 0; group < GROUP_COUNT; group++) {
         printf("\n### %s\n\n| option | default | what it does |\n|---|---|---|\n", group_titles[group]);
         for (const struct option *o = option_table; o->name; o++)
-            if ((int)o->group == group)
+            if ((int)o->group == group && !o->now)
                 markdown_option(o);
     }
     printf("\n## Commands\n\n| command | what it does |\n|---|---|\n");

@@ -115,7 +115,7 @@ static void print_settings(void)
         case LAM_SETTING_WHOLE:
         case LAM_SETTING_NUMBER:
         case LAM_SETTING_ANGLE:
-            printf("\"type\": \"%s\", \"minimum\": %.10g, \"maximum\": %.10g, \"default\": %.10g",
+            printf("\"type\": \"%s\", \"minimum\": %.10g, \"maximum\": %.10g, \"default\": %.3g",
                    setting->type == LAM_SETTING_WHOLE ? "integer" : "number", setting->zero ? 0 : setting->min,
                    setting->max, setting->standard);
             break;

@@ -25,7 +25,7 @@ static bool changes_drawing_only(const struct option *option)
     if (option->loads)
         return false;
     return option->group == GROUP_PICTURE || option->group == GROUP_VIEW || option->group == GROUP_LIGHTS ||
-           option->group == GROUP_MATERIALS || option_setting(option) || strcmp(option->name, "cull") == 0 ||
+           option->group == GROUP_MATERIALS || option->setting || strcmp(option->name, "cull") == 0 ||
            strcmp(option->name, "reflectivity") == 0;
 }
 

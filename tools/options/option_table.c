@@ -6,6 +6,8 @@
 
 #include <lambent/check.h>
 
+#include <string.h>
+
 // Degrees of --fov, and of --camera with fovy alone.
 #define FOV_MIN 0.1
 #define FOV_MAX 179.9
@@ -109,26 +111,6 @@ static const struct word show_words[] = {
     {"all", LAM_OUTPUT_PICTURE, "the picture, every term and every light, as layers of a .exr"},
     {NULL, 0, NULL}};
 
-static const struct word ground_words[] = {
-    {"off", LAM_GROUND_NONE, "none"},
-    {"shadow", LAM_GROUND_SHADOW, "clear: it holds the shadows and the occlusion, black with their share as alpha"},
-    {"checker", LAM_GROUND_CHECKER, "squares, whose side is 1, 2 or 5 times a power of ten in the model's units"},
-    {NULL, 0, NULL}};
-
-static const struct word occlusion_words[] = {
-    {"auto", LAM_OCCLUSION_AUTO, "screen with the studio's lights and with environment light, else off"},
-    {"off", LAM_OCCLUSION_OFF, "all light from around arrives everywhere"},
-    {"screen", LAM_OCCLUSION_SCREEN, "from the distances of what the picture shows around each pixel"},
-    {"rays", LAM_OCCLUSION_RAYS,
-     "by `--ao-samples` rays from each point, past all surfaces: slower, on the CPU device alone"},
-    {NULL, 0, NULL}};
-
-static const struct word cavity_words[] = {
-    {"auto", LAM_CAVITY_AUTO, "on where `--ao auto` is screen"},
-    {"off", LAM_CAVITY_OFF, "neither darker valleys nor lighter ridges"},
-    {"on", LAM_CAVITY_ON, "valleys are darker and, on models without textures, ridges lighter"},
-    {NULL, 0, NULL}};
-
 static const struct word glsl_words[] = {{"330", LAM_GLSL_330, "OpenGL 3.3"},
                                          {"120", LAM_GLSL_120, "OpenGL 2.1: attribute and varying, no blocks, no flat"},
                                          {"300es", LAM_GLSL_300_ES, "OpenGL ES 3.0, WebGL 2"},
@@ -172,17 +154,8 @@ static const struct word up_words[] = {{"auto", LAM_UP_AUTO, "by format: z for S
                                        {"-z", LAM_UP_NEGATIVE_Z, "like z, upside down"},
                                        {NULL, 0, NULL}};
 
-static const struct word shading_words[] = {
-    {"flat", LAM_SHADING_FLAT, "one colour for each triangle"},
-    {"gouraud", LAM_SHADING_GOURAUD, "one colour for each vertex, interpolated"},
-    {"smooth", LAM_SHADING_GOURAUD, "another name of gouraud"},
-    {"phong", LAM_SHADING_PHONG, "normals interpolated, light evaluated for each pixel"},
-    {"normal", LAM_SHADING_PHONG, "another name of phong"},
-    {NULL, 0, NULL}};
-
 // Filled by option_table_fill.
-static struct word reflection_words[LAM_REFLECTION_COUNT + 1];
-static char reflection_summary[400];
+static char reflection_summary[400], output_summary[200];
 
 static const struct word tone_words[] = {
     {"auto", LAM_TONE_AUTO, "khronos-neutral for physical materials, else none"},
@@ -210,34 +183,10 @@ static const struct word rig_words[] = {
     {"lecture", LAM_RIG_LECTURE, "a point light at 1r/2r/3r: ambient 0.1, diffuse and specular 1, attenuation 1/0/0"},
     {NULL, 0, NULL}};
 
-static const struct word edge_words[] = {{"all", LAM_EDGES_ALL, NULL},
-                                         {"crease", LAM_EDGES_CREASE, "where faces meet at an angle"},
-                                         {"boundary", LAM_EDGES_BOUNDARY, "where a surface ends"},
-                                         {"silhouette", LAM_EDGES_SILHOUETTE, "between front and back"},
-                                         {NULL, 0, NULL}};
-
-static const struct word hidden_words[] = {{"remove", LAM_HIDDEN_LINES_REMOVE, "left out"},
-                                           {"dash", LAM_HIDDEN_LINES_DASH, "dashed"},
-                                           {"show", LAM_HIDDEN_LINES_SHOW, "as if the surfaces were not there"},
-                                           {NULL, 0, NULL}};
-
-static const struct word surface_words[] = {
-    {"on", 0, "they are drawn"}, {"off", 1, "lines and points alone are"}, {NULL, 0, NULL}};
-
-static const struct word terminator_words[] = {
-    {"on", 0, "shadow rays start where the normals say that the curved surface lies"},
-    {"off", 1, "shadow rays start on the flat triangles: the terminator of a coarse smooth mesh shows them"},
-    {NULL, 0, NULL}};
-
 static const struct word turntable_light_words[] = {
     {"camera", TURNTABLE_LIGHT_CAMERA, "lights stand still in the picture, and the model turns below them"},
     {"model", TURNTABLE_LIGHT_MODEL, "lights and environment turn with the model, as if the camera went around it"},
     {NULL, 0, NULL}};
-
-static const struct word stage_words[] = {{"application", LAM_STAGE_APPLICATION, "before drawing (flat, gouraud)"},
-                                          {"vertex", LAM_STAGE_VERTEX, "for each vertex (flat, gouraud)"},
-                                          {"fragment", LAM_STAGE_FRAGMENT, "for each fragment (flat, phong)"},
-                                          {NULL, 0, NULL}};
 
 static const struct word device_words[] = {{"auto", DEVICE_AUTO, "the CPU; OpenGL if `--gl-device` names a device"},
                                            {"cpu", DEVICE_CPU, "the processor: the same bytes everywhere"},
@@ -249,15 +198,6 @@ static const struct word texture_filter_words[] = {
     {"exact", TEXTURE_FILTER_EXACT, "the shader filters: the CPU device's picture within 1/255"},
     {"hardware", TEXTURE_FILTER_HARDWARE, "the graphics card filters: faster, less exact"},
     {NULL, 0, NULL}};
-
-static const struct word viewer_words[] = {
-    {"local", LAM_VIEWER_LOCAL, "the eye is at the camera"},
-    {"infinite", LAM_VIEWER_INFINITE, "the eye is infinitely far away: one direction for every point"},
-    {NULL, 0, NULL}};
-
-static const struct word flat_normal_words[] = {{"face", LAM_FLAT_NORMAL_FACE, "the triangle's own"},
-                                                {"vertex", LAM_FLAT_NORMAL_VERTEX, "its last vertex's, as OpenGL does"},
-                                                {NULL, 0, NULL}};
 
 static const struct word cull_words[] = {{"none", LAM_CULL_NONE, "both sides are drawn"},
                                          {"back", LAM_CULL_BACK, NULL},
@@ -290,14 +230,11 @@ static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest that 
                                         {"wasm", LAM_ISA_WASM, "WebAssembly's SIMD128, 4 lanes"},
                                         {NULL, 0, NULL}};
 
-const struct option option_table[] = {
-    {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png",
-     "Write to FILE (.png, .ppm, .pfm, .exr, .jpg, .webp; or .html), to the folder FILE/, or to standard output (-).",
-     "The extension selects the format: `.png` (8 bits, sRGB, with alpha), `.ppm` (8 bits over the background), "
-     "`.jpg` (8 bits over the background, lossy: `--quality`), `.webp` (8 bits with alpha, lossless; needs libwebp), "
-     "`.pfm` and `.exr` (linear floats, premultiplied by alpha; `.exr` needs OpenEXR's library). `-` writes a "
-     "PNG to standard output; a pipe or device whose name has no such extension also gets a PNG, and so does a file "
-     "whose name has no extension at all. Without this "
+static const struct option rows[] = {
+    {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", output_summary,
+     "The extension selects the format; `lambent formats` says which numbers each holds. `-` writes a PNG to standard "
+     "output; a pipe or device whose name has no such extension also gets a PNG, and so does a file whose name has no "
+     "extension at all. Without this "
      "option the picture is written to the current folder under the model's name with the extension `.png` "
      "(`model.png` if the model comes from standard input); a file of that name that lambent did not write is "
      "never overwritten. `-o pictures/`, with a trailing slash, does the same in that folder, and makes it if it "
@@ -314,9 +251,13 @@ const struct option option_table[] = {
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .of_file = true, .store = store_text,
      .alias = "out", .others = "outfile file format export save write out-dir outdir directory folder f",
      FIELD(picture.output), .single = TAKES_OUTPUT},
-    {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.", NULL,
-     .brief = "pixels: 800, or 1920x1080", .store = store_size,
-     .others = "resolution width height dimensions pixels viewport window", .max = 65535, .single = TAKES_SIZE},
+    {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800 is 800x800; 1920x1080.",
+     "`render` and `batch` take several sizes, at most 16, such as `1024,256x128`: each model is read once, and each "
+     "picture is drawn on its own and never scaled. With several sides (`--view`) every side is drawn in every size. "
+     "Without a pattern in `-o` the size follows the model's name: `bunny-256x128.png`.",
+     .several = "sizes", .brief = "pixels: 800, or 1920x1080", .store = store_size,
+     .others = "resolution resolutions thumbnails width height dimensions pixels viewport window", .max = 65535,
+     .single = TAKES_SIZE},
     {"samples", 0, GROUP_PICTURE, "N", "16 up to 256x256 pixels, 8 up to 512x512, 4 above",
      "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges, which matters most in small pictures; each picture of a sheet has the samples "
@@ -324,23 +265,20 @@ const struct option option_table[] = {
      "its own size. Each triangle that covers part of a pixel is lit once in that pixel.",
      sample_words, .store = store_word,
      .others = "antialias antialiasing anti-aliasing aa msaa supersampling ssaa quality spp", FIELD(draw.samples)},
-    {"anisotropy", 0, GROUP_PICTURE, "N", "1",
-     "Probes of a texture where it is seen at a slant, 1 to 16: more are sharper.",
+    {"anisotropy", 0, GROUP_PICTURE, "N", NULL, NULL,
      "Each pixel sees a texture through a footprint that is long where the surface turns away. One probe has the size "
      "of its "
      "longer axis, which blurs the shorter one; N probes along the longer axis are as sharp as N times that.",
-     .store = store_integer, .others = "anisotropic anisotropic-filtering", FIELD(draw.anisotropy)},
-    {"line-width", 0, GROUP_PICTURE, "PIXELS", "1.5", "The width of the lines that a model has.",
+     .others = "anisotropic anisotropic-filtering"},
+    {"line-width", 0, GROUP_PICTURE, "PIXELS", NULL, NULL,
      "Lines of OBJ (`l`), PLY (`edge`) and glTF files are as wide at every distance. They lie nearer than their "
      "vertices by "
      "their width, so that lines on a surface are seen, and end without caps.",
-     .store = store_float, .others = "linewidth stroke-width thickness", FIELD(draw.line_width)},
-    {"point-size", 0, GROUP_PICTURE, "PIXELS", "by their number", "The diameter of the points that a model has.",
+     .others = "linewidth stroke-width thickness"},
+    {"point-size", 0, GROUP_PICTURE, "PIXELS", "by their number", NULL,
      "Points of OBJ (`p`) and glTF files, and the vertices of PLY files without faces and edges, are as large at every "
-     "distance. By default they get larger the fewer there are and the larger the picture is: 3 pixels or more, at "
-     "least 8 "
-     "if there are fewer than 100.",
-     .store = store_float, .others = "pointsize point-width splat-size", FIELD(draw.point_size)},
+     "distance. By default: 3 pixels or more, and at least 8 if there are fewer than 100.",
+     .others = "pointsize point-width splat-size"},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
      "It lies wherever the model does not, in pictures of `--show` too, and behind each picture of a sheet. The sheets "
@@ -437,9 +375,12 @@ const struct option option_table[] = {
      "The side to view from: front, back, left, right, top, bottom, iso or three-quarter.",
      "By default the camera stands 30 degrees to the right of the front and 20 degrees above. The model always "
      "fills 92 % of the picture's tighter side. `--azimuth` and `--elevation` change the angles of a named "
-     "side.",
-     view_words, .brief = "front, back, left, right, top, bottom or iso", .store = store_word,
-     .others = "side angle orientation front back left right top bottom isometric", FIELD(view.side)},
+     "side.\n"
+     "`render` and `batch` take several sides, at most 16, such as `front,left,iso`: each model is read once and drawn "
+     "from each. Without a pattern in `-o` the side follows the model's name: `bunny-front.png`.",
+     view_words, .several = "views", .brief = "front, back, left, right, top, bottom or iso", .store = store_word,
+     .others = "side sides cameras angle angles orientation front back left right top bottom isometric",
+     FIELD(view.side)},
     {"azimuth", 0, GROUP_VIEW, "DEGREES", "30", "The camera's angle around the model; 0 is the front, 90 the right.",
      NULL, .store = store_number, .others = "yaw heading orbit", FIELD(view.azimuth_deg),
      .has_field = offsetof(struct options, view.has_azimuth), .min = -3600, .max = 3600},
@@ -530,31 +471,25 @@ const struct option option_table[] = {
      "the colours of their lights; the camera is not fitted to them, and markers outside of the "
      "picture are named.",
      .store = store_switch, FIELD(shading.show_lights)},
-    {"light-cutoff", 0, GROUP_LIGHTS, "SHARE", "0.00196",
-     "The largest error from skipping weak lights; 0 evaluates every light everywhere.",
+    {"light-cutoff", 0, GROUP_LIGHTS, "SHARE", NULL, NULL,
      "With more than 16 lights, each part of the picture skips its weakest ones, as long as their greatest "
      "possible sum in a channel stays below this share of the channel's full range. The default is half a step "
      "of an 8-bit channel (0.5/255): no byte is off by more than 1. Lights that contribute exactly nothing "
      "(behind the surface, beyond their range, outside their cone) are always skipped.",
-     .store = store_cutoff, FIELD(draw.light_cutoff)},
-    {"ao", 0, GROUP_LIGHTS, "HOW", "auto", "Ambient occlusion: auto, off, screen or rays.",
+     .words = NULL},
+    {"ao", 0, GROUP_LIGHTS, "HOW", NULL, NULL,
      "Light from all around reaches a recess less than an open face. Occlusion dims ambient, hemisphere and "
      "environment "
      "light and the share `occluded` of other lights, of which the studio's lights have one and lights by hand none. "
      "It "
      "needs Phong shading. `docs/lighting/occlusion.md` has the formulas.",
-     occlusion_words, .store = store_word, .others = "ambient-occlusion occlusion ssao gtao hbao no-ao",
-     FIELD(draw.occlusion)},
-    {"cavity", 0, GROUP_LIGHTS, "HOW", "auto", "Darken small valleys and lighten ridges: auto, off or on.",
+     .others = "ambient-occlusion occlusion ssao gtao hbao no-ao"},
+    {"cavity", 0, GROUP_LIGHTS, "HOW", NULL, NULL,
      "Letters, holes, seams and wrinkles become visible: ambient occlusion at a small radius, and the same measure for "
      "ridges. It changes the light that `--ao` dims. `--show ao --ao off --cavity on` shows it alone.",
-     cavity_words, .store = store_word, .others = "curvature ridges valleys no-cavity", FIELD(draw.cavity)},
-    {"ao-radius", 0, GROUP_LIGHTS, "SHARE", "0.1",
-     "How far away surfaces occlude, as a share of half the diagonal of the scene's box.", "", NULL,
-     .store = store_float, .others = "occlusion-radius ssao-radius", FIELD(draw.occlusion_radius)},
-    {"ao-samples", 0, GROUP_LIGHTS, "N", "64",
-     "Rays from each lit point with `--ao rays`; more of them make its grain finer.", NULL, NULL,
-     .store = store_integer, .others = "occlusion-samples ao-rays ray-count", FIELD(draw.occlusion_samples)},
+     .others = "curvature ridges valleys no-cavity"},
+    {"ao-radius", 0, GROUP_LIGHTS, "SHARE", .others = "occlusion-radius ssao-radius"},
+    {"ao-samples", 0, GROUP_LIGHTS, "N", .others = "occlusion-samples ao-rays ray-count"},
     {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1", "Multiply the brightness of all lights except `--ambient`.", NULL,
      .store = store_number, .others = "intensity light-intensity light-power", FIELD(lighting.light_scale),
      .has_field = offsetof(struct options, lighting.has_light_scale), .min = 0, .max = 1e6},
@@ -593,98 +528,74 @@ const struct option option_table[] = {
      .store = store_number, .others = "alpha transparency translucency", FIELD(material.opacity),
      .has_field = offsetof(struct options, material.has_opacity), .min = 0, .max = 1},
 
-    {"shading", 0, GROUP_SHADING, "METHOD", "phong",
-     "The shading method: flat, gouraud (per vertex) or phong (per pixel).", NULL, shading_words,
-     .brief = "flat, gouraud or phong", .store = store_word, .others = "flat smooth gouraud phong interpolation",
-     FIELD(draw.shading), .has_field = offsetof(struct options, shading.has_shading)},
-    {"reflection", 0, GROUP_SHADING, "MODEL", "auto", reflection_summary, NULL, reflection_words, .store = store_word,
-     .others = "brdf lobe pbr lighting-model reflection-model blinn-phong lambert", FIELD(draw.reflection)},
-    {"stage", 0, GROUP_SHADING, "WHERE", "fragment", "Where lighting is evaluated: application, vertex or fragment.",
+    {"shading", 0, GROUP_SHADING, "METHOD", .brief = "flat, gouraud or phong",
+     .others = "flat smooth gouraud phong interpolation", .has_field = offsetof(struct options, shading.has_shading)},
+    {"reflection", 0, GROUP_SHADING, "MODEL", NULL, reflection_summary,
+     .others = "brdf lobe pbr lighting-model reflection-model blinn-phong lambert"},
+    {"stage", 0, GROUP_SHADING, "WHERE", "fragment", NULL,
      "Without `--shading`, application and vertex imply gouraud, and fragment implies phong. flat works with "
      "all three, gouraud with application and vertex, phong with fragment. On the CPU all stages of a shading "
      "method give the same bytes.",
-     stage_words, .store = store_word, .others = "per-vertex per-pixel per-fragment", FIELD(draw.stage)},
-    {"flat-normal", 0, GROUP_SHADING, "SOURCE", "face", "The normal of flat shading: face, or vertex (the last one's).",
-     NULL, flat_normal_words, .store = store_word, FIELD(draw.flat_normal)},
-    {"viewer", 0, GROUP_SHADING, "KIND", "local", "The eye's position for highlights: local or infinite.", NULL,
-     viewer_words, .store = store_word, FIELD(draw.viewer)},
-    {"match-highlights", 0, GROUP_SHADING, NULL, NULL,
-     "Multiply Blinn-Phong's shininess by 4, so that it looks like Phong.", NULL, .store = store_switch,
-     FIELD(draw.match_highlights)},
-    {"single-scattering", 0, GROUP_SHADING, NULL, NULL,
-     "Leave out the light that the mirrors of GGX send to one another.",
-     "Rough metals are darker then, as in renderers that leave it out.", .store = store_switch,
-     FIELD(draw.single_scattering)},
-    {"reference", 0, GROUP_SHADING, "N", "0",
-     "Sum the environment's light on physical materials by N directions at each point, 16 to 1048576; 0: split sum.",
+     .others = "per-vertex per-pixel per-fragment"},
+    {"flat-normal", 0, GROUP_SHADING, "SOURCE", .words = NULL},
+    {"viewer", 0, GROUP_SHADING, "KIND", .words = NULL},
+    {"match-highlights", 0, GROUP_SHADING, NULL, .words = NULL},
+    {"single-scattering", 0, GROUP_SHADING, NULL, NULL, NULL,
+     "Rough metals are darker then, as in renderers that leave it out.", .words = NULL},
+    {"reference", 0, GROUP_SHADING, "N", NULL, NULL,
      "The picture's environment light is an approximation, the split sum; this is the integral that it stands for, to "
      "compare with. "
      "1024 directions are mostly within 0.5 % of it, 4096 within 0.2 %. The directions are the same at every point "
      "and on every machine. CPU only.",
-     .store = store_integer, .others = "ground-truth importance-samples", FIELD(draw.reference)},
-    {"shadows", 0, GROUP_SHADING, NULL, NULL, "Let triangles take away the light of points behind them.",
+     .others = "ground-truth importance-samples"},
+    {"shadows", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Exact: a ray from every lit point to every light whose key `shadows` is not off. Ambient and hemisphere light "
      "and the environment cast none. A light with a `radius` has soft shadows. `docs/lighting/shadows.md` describes "
      "what decides, and the mistakes that shadows are known for.",
-     .store = store_switch, .others = "shadow cast-shadows raytrace shadow-map", FIELD(draw.shadows)},
-    {"ground", 0, GROUP_SHADING, "WHAT", "off",
-     "A ground at the model's lowest point: shadow (where nothing follows), checker, a colour or off.",
+     .others = "shadow cast-shadows raytrace shadow-map"},
+    {"ground", 0, GROUP_SHADING, "WHAT", NULL, NULL,
      "Lights cast shadows then, on the ground and on the model. A `shadow` ground is clear but for them, over any "
      "background or "
      "none; the others are lit. It lies across the up axis (`--up`), fades out at a distance, is not seen from below "
      "and "
      "does not count for the camera's fit. It needs Phong shading. `docs/lighting/ground.md` has pictures.",
-     ground_words, .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow",
-     .others = "floor plane shadow-catcher base grid", FIELD(draw.ground)},
-    {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", "on",
-     "Whether shadows follow the curved surface that the normals stand for: on or off.", NULL, terminator_words,
-     .store = store_word_flag, .others = "terminator shadow-bias", FIELD(draw.flat_terminator)},
-    {"shadow-samples", 0, GROUP_SHADING, "N", "128",
-     "Shadow rays to a light with a radius from each point in its penumbra.",
+     .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "floor plane shadow-catcher base grid",
+     FIELD(draw.ground)},
+    {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", .others = "terminator shadow-bias"},
+    {"shadow-samples", 0, GROUP_SHADING, "N", NULL, NULL,
      "The share of them that nothing blocks is the share of the light that arrives. Above 16, points in full light or "
-     "full "
-     "shadow get 16 rays. Fewer are faster, and show steps.",
-     .store = store_integer, .others = "soft-shadow-samples light-samples", FIELD(draw.shadow_samples)},
-    {"wireframe", 'w', GROUP_SHADING, NULL, NULL, "Draw the edges of all faces as lines over the picture.",
+     "full shadow get 16 rays. Fewer are faster, and show steps.",
+     .others = "soft-shadow-samples light-samples"},
+    {"wireframe", 'w', GROUP_SHADING, NULL, NULL, NULL,
      "Edges behind surfaces are left out (`--hidden-lines`), and so are those that cut the polygons of OBJ and PLY "
      "files "
      "into triangles. `--surfaces off` draws the lines alone. Lines are smooth whatever `--samples` says, and keep "
      "their "
      "colour and width: light, exposure, tone and distance do not change them. `docs/edges.md` has pictures.",
-     .store = store_switch, .others = "wire mesh mesh-lines show-edges polygons topology", FIELD(draw.wireframe),
-     .loads = true},
-    {"wireframe-width", 0, GROUP_SHADING, "PIXELS", "1", "The width of the wireframe's lines.", NULL,
-     .store = store_float, .others = "wire-width", FIELD(draw.wireframe_width)},
-    {"wireframe-color", 0, GROUP_SHADING, "COLOR", "black", "The colour of the wireframe.",
-     "With `--surfaces off` over a dark background it is white by default. An alpha below 1 lets the surfaces through.",
+     .others = "wire mesh mesh-lines show-edges polygons topology", .loads = true},
+    {"wireframe-width", 0, GROUP_SHADING, "PIXELS", .others = "wire-width"},
+    {"wireframe-color", 0, GROUP_SHADING, "COLOR", NULL, NULL, "An alpha below 1 lets the surfaces through.",
      .kind = VALUE_COLOR, .store = store_color, .others = "wire-color", FIELD(shading.wireframe_color)},
-    {"edges", 0, GROUP_SHADING, "KINDS", "none",
-     "Draw feature edges as lines: all, or some of crease,boundary,silhouette.",
+    {"edges", 0, GROUP_SHADING, "KINDS", "none", NULL,
      "`crease`: two faces meet at more than `--edge-angle`, or more than two faces meet; `boundary`: a surface ends; "
      "`silhouette`: one of its two faces is seen from the front and the other from behind. "
      "`--edges all --surfaces off` is a technical drawing.",
-     edge_words, .store = store_words, .others = "edge feature-edges outline outlines contour toon lineart line-art",
-     FIELD(draw.edges), .loads = true},
-    {"edge-angle", 0, GROUP_SHADING, "DEGREES", "40", "Creases are edges whose faces meet at more than this.", NULL,
-     .store = store_angle, .others = "feature-angle sharp-angle", FIELD(draw.edge_angle_rad)},
-    {"edge-width", 0, GROUP_SHADING, "PIXELS", "1.5", "The width of feature edges.", NULL, .store = store_float,
-     .others = "outline-width", FIELD(draw.edge_width)},
-    {"edge-color", 0, GROUP_SHADING, "COLOR", "black", "The colour of feature edges.",
-     "With `--surfaces off` over a dark background it is white by default.", .kind = VALUE_COLOR, .store = store_color,
+     .others = "edge feature-edges outline outlines contour toon lineart line-art", .loads = true},
+    {"edge-angle", 0, GROUP_SHADING, "DEGREES", .others = "feature-angle sharp-angle"},
+    {"edge-width", 0, GROUP_SHADING, "PIXELS", .others = "outline-width"},
+    {"edge-color", 0, GROUP_SHADING, "COLOR", NULL, NULL, NULL, .kind = VALUE_COLOR, .store = store_color,
      .others = "outline-color", FIELD(shading.edge_color)},
-    {"hidden-lines", 0, GROUP_SHADING, "HOW", "remove", "Edges behind surfaces: remove, dash or show.",
+    {"hidden-lines", 0, GROUP_SHADING, "HOW", NULL, NULL,
      "What is hidden is decided by rays from each edge to the eye: exact, so that no line is broken where it runs "
      "along a "
      "surface. A surface hides what is behind it where its opacity is at least 0.5, and glass hides nothing.",
-     hidden_words, .store = store_word, .others = "hidden-line dashed see-through xray x-ray",
-     FIELD(draw.hidden_lines)},
-    {"surfaces", 0, GROUP_SHADING, "SWITCH", "on", "Whether surfaces are drawn: on, or off for lines alone.",
-     "Surfaces that are not drawn hide lines all the same.", surface_words, .store = store_word_flag,
-     .others = "faces lines-only no-surfaces hide-surfaces", FIELD(draw.no_surfaces)},
-    {"gl1", 0, GROUP_SHADING, NULL, NULL, "Light as OpenGL 1: colours clamped, shininess to 128, ambient attenuated.",
+     .others = "hidden-line dashed see-through xray x-ray"},
+    {"surfaces", 0, GROUP_SHADING, "SWITCH", NULL, NULL, "Surfaces that are not drawn hide lines all the same.",
+     .others = "faces lines-only no-surfaces hide-surfaces"},
+    {"gl1", 0, GROUP_SHADING, NULL, NULL, NULL,
      "For comparison with old programs: vertex colours are clamped to 0...1 before interpolation, the shininess "
      "is at most 128, and the ambient light of a light is attenuated and limited to its cone.",
-     .store = store_switch, FIELD(draw.gl1)},
+     .words = NULL},
     {"two-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces with the reversed normal, whatever the model says.",
      NULL, .store = store_switch, FIELD(shading.two_sided)},
     {"one-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces like front faces, with the unchanged normal.", NULL,
@@ -860,15 +771,10 @@ const struct option option_table[] = {
      .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(limits.allow_paths),
      .single = TAKES_PICTURE_LIMITS},
 
-    {"views", 0, GROUP_BATCH, "SIDES", "that of `--view`",
-     "Draw each model from several sides, such as front,left,iso; it is read once.",
-     "At most 16. Without a pattern in `-o` the side follows the model's name: `bunny-front.png`.", view_words,
-     .store = store_views, .others = "sides angles cameras", FIELD(batch.views)},
-    {"sizes", 0, GROUP_BATCH, "SIZES", "that of `--size`",
-     "Draw each model in several sizes, such as 1024,256x128; it is read once.",
-     "At most 16, each drawn on its own and never scaled. With `--views` every side is drawn in every size. Without a "
-     "pattern in `-o` the size follows the model's name: `bunny-256x128.png`.",
-     .store = store_sizes, .others = "resolutions thumbnails", FIELD(batch.sizes), .max = 65535},
+    {"views", 0, GROUP_BATCH, "SIDES", NULL, "Several sides.", NULL, view_words, .store = store_views, .now = "view",
+     FIELD(batch.views)},
+    {"sizes", 0, GROUP_BATCH, "SIZES", NULL, "Several sizes.", NULL, .store = store_sizes, .now = "size",
+     FIELD(batch.sizes), .max = 65535},
     {"files-from", 0, GROUP_BATCH, "FILE", NULL, "Draw the models that FILE names, one on each line; repeatable.",
      "`-` is standard input. Names are those of the current folder, as on the command line; empty lines count for "
      "nothing. `batch` takes `@FILE` for the same.",
@@ -1119,10 +1025,11 @@ const struct option option_table[] = {
     {"help", 'h', GROUP_ABOUT, NULL, NULL, "Print all of this help; -h prints what most people need.",
      "`lambent help TOPIC` explains a subject, a command or an option.", .store = store_switch, .others = "? usage",
      FIELD(report.help), .letter_field = offsetof(struct options, report.brief_help)},
-    {.name = NULL},
 };
-_Static_assert(sizeof option_table / sizeof *option_table <= OPTIONS_MAX,
-               "more options than struct options has marks for");
+enum { ROWS = sizeof rows / sizeof *rows };
+_Static_assert(ROWS + LAM_SETTINGS_MAX < OPTIONS_MAX, "more options than struct options has marks for");
+
+struct option option_table[OPTIONS_MAX];
 
 static char *append(char *to, const char *text)
 {
@@ -1134,14 +1041,21 @@ static char *append(char *to, const char *text)
 // Runs at every start of the program, so it avoids printf.
 void option_table_fill(void)
 {
+    memcpy(option_table, rows, sizeof rows);
+    option_settings_fill(ROWS);
     char *end = append(reflection_summary, "The reflection model:");
     for (int i = 0; i < LAM_REFLECTION_COUNT; i++) {
         const lam_reflection_info *model = lam_reflection_describe((lam_reflection)i);
-        reflection_words[i] = (struct word){model->word, i, model->summary};
         if (i > LAM_REFLECTION_AUTO && end - reflection_summary < (int)(sizeof reflection_summary - 60))
             end = append(append(end, i > LAM_REFLECTION_NONE ? ", " : " "), model->word);
     }
     append(end, " or auto.");
+    end = append(output_summary, "Write to FILE (");
+    const char *name;
+    for (int i = 0; (name = lam_image_format_name(i)); i++)
+        if (lam_image_format_written(i) && end - output_summary < (int)sizeof output_summary - 100)
+            end = append(append(end, i ? ", ." : "."), name);
+    append(end, "; or .html), to the folder FILE/, or to standard output (-).");
     for (int i = 0; lam_check_contract_shipped(i) && i + 2 < CONTRACT_WORDS_MAX; i++)
         contract_words[i + 1].name = lam_check_contract_shipped(i);
 }

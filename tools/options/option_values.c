@@ -156,7 +156,7 @@ const char *read_number(const char *text, double *value)
 
 static bool number_between(const struct option *option, const char *value, bool whole, double *number, lam_error *error)
 {
-    const lam_setting *setting = option_setting(option);
+    const lam_setting *setting = option->setting;
     double min = !setting ? option->min : setting->zero ? 0 : setting->min, max = setting ? setting->max : option->max;
     const char *end = read_number(value, number);
     if (end && !*end && *number >= min && *number <= max && (!whole || *number == (double)(long)*number))

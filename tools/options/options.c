@@ -117,7 +117,7 @@ static bool unknown_long(const char *name, size_t length, unsigned groups, lam_e
     snprintf(typed, sizeof typed, "%.*s", (int)(length < 60 ? length : 60), name);
     struct suggestion nearest = suggest_start(typed);
     for (const struct option *o = option_table; o->name; o++)
-        if (option_is_taken(o, groups)) {
+        if (option_is_taken(o, groups) && !o->now) {
             suggest_try(&nearest, o->name);
             suggest_also(&nearest, o->name, o->others);
         }
@@ -140,7 +140,7 @@ static bool unknown_letter(const char *word, char letter, unsigned groups, lam_e
         return complain(error, LAM_BAD_ARGUMENT, "unknown option '-%c'; a model needs none: lambent MODEL", letter);
     struct suggestion nearest = suggest_start(typed);
     for (const struct option *o = option_table; o->name; o++)
-        if (option_is_taken(o, groups))
+        if (option_is_taken(o, groups) && !o->now)
             suggest_also(&nearest, o->name, o->others);
     return complain(error, LAM_BAD_ARGUMENT, "unknown option '-%c'%s%s%s", letter,
                     nearest.best ? "; did you mean '--" : "", nearest.best ? nearest.best : "",
@@ -154,9 +154,12 @@ static bool is_known_option(const char *word)
     return word[0] == '-' && word[1] == '-' && word[2] && find_long(word + 2, strcspn(word + 2, "="));
 }
 
-// The option that was meant, where its name has since become another option's and the value is a word of the old one.
+// The option that was meant: of several values, or where a name has since become another option's and the value is a word of the
+// old one.
 static const struct option *meant_by(const struct option *option, const char *value)
 {
+    if (option->several && strchr(value, ','))
+        return option_find(option->several);
     const struct option *former = option->former ? option_find(option->former) : NULL;
     for (const struct word *w = former ? former->words : NULL; w && w->name; w++)
         if (strcmp(w->name, value) == 0)
@@ -254,8 +257,8 @@ static void look_drop_lights(struct options *options)
     }
 }
 
-// Error: another command takes the option.
-static bool does_not_apply(const struct option *option, lam_error *error)
+// Error: another command takes the option that was meant by the one that was typed.
+static bool does_not_apply(const struct option *option, const struct option *typed, lam_error *error)
 {
     char takers[200] = "";
     for (const struct command *c = command_table; c->name; c++)
@@ -263,16 +266,19 @@ static bool does_not_apply(const struct option *option, lam_error *error)
             size_t used = strlen(takers);
             snprintf(takers + used, sizeof takers - used, "%s%s", used ? ", " : "", c->name);
         }
+    if (typed->several && typed != option)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--%s': several values belong to %s; this command takes one",
+                        typed->name, takers);
     return complain(error, LAM_BAD_ARGUMENT, "option '--%s' does not apply to this command; it belongs to %s",
                     option->name, takers);
 }
 
-static bool apply(const struct option *option, const char *value, unsigned groups, struct options *options,
+static bool apply(const struct option *typed, const char *value, unsigned groups, struct options *options,
                   lam_error *error)
 {
-    option = meant_by(option, value);
+    const struct option *option = option_is_taken(typed, groups) || !typed->several ? meant_by(typed, value) : typed;
     if (!option_is_taken(option, groups))
-        return does_not_apply(option, error);
+        return does_not_apply(option, typed, error);
     if (option->kind == VALUE_FILE && strncmp(value, "~/", 2) == 0 && access("~", F_OK) != 0)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--%s': found '%.200s': a shell replaces ~ only at the start of a word: --%s %.200s",
@@ -289,7 +295,8 @@ static bool apply(const struct option *option, const char *value, unsigned group
         option_mark(options, option, value, false);
         return true;
     }
-    return complain(error, LAM_BAD_ARGUMENT, "option '--%s': %.400s", option->name, reason.text);
+    return complain(error, LAM_BAD_ARGUMENT, "option '--%s': %.400s", typed->several ? typed->name : option->name,
+                    reason.text);
 }
 
 // Whether the next word is the value of an option that may stand without one: a value of its own, that is.

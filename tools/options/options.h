@@ -7,7 +7,7 @@
 
 #include "option_groups.h"
 
-enum { OPTIONS_MAX = 192 };
+enum { OPTIONS_MAX = 224 };
 
 // The options of a command line; option_defaults() returns their defaults.
 struct options {
@@ -117,22 +117,30 @@ struct option {
     // Stores the value (NULL for a switch) at offset `field` of struct options. On failure error->text describes the
     // mistake without naming the option.
     bool (*store)(const struct option *option, const char *value, struct options *options, lam_error *error);
-    size_t field, has_field; // has_field: a bool to set as well (words and numbers); 0: none
-    double min, max;         // for numbers, unless option_setting has them
-    unsigned single;         // TAKES_…, if commands may accept it without its group
-    const char *brief;       // for -h: a few words; NULL: not shown there
-    size_t letter_field;     // a bool to set as well where the option is given by its letter; 0: none
-    const char *alias;       // another long name that is the same; NULL: none
-    const char *others;      // other names that people try, separated by spaces, for suggestions; NULL: none
-    const char *alone;       // its value where the word after it is none of its own; NULL: it needs one
-    bool of_file;            // says where and how a file is written: see WRITES_NO_FILE
-    bool loads;              // the model is read anew where it changes
+    size_t field, has_field;    // has_field: a bool to set as well (words and numbers); 0: none
+    double min, max;            // for numbers without a setting, which has its own
+    unsigned single;            // TAKES_…, if commands may accept it without its group
+    const char *brief;          // for -h: a few words; NULL: not shown there
+    size_t letter_field;        // a bool to set as well where the option is given by its letter; 0: none
+    const char *alias;          // another long name that is the same; NULL: none
+    const char *others;         // other names that people try, separated by spaces, for suggestions; NULL: none
+    const char *alone;          // its value where the word after it is none of its own; NULL: it needs one
+    bool of_file;               // says where and how a file is written: see WRITES_NO_FILE
+    bool loads;                 // the model is read anew where it changes
+    const lam_setting *setting; // the row of the library's table that it stores; NULL: none
+    // The option that takes several values separated by commas, and is meant where a value has one; NULL: none.
+    const char *several;
+    const char *now;    // the option that has taken its place: it works as ever, and no help lists it; NULL: none
     const char *former; // the option that had this name before: a value that is one of its words means it; NULL: none
 };
 
-extern const struct option option_table[]; // ends with a NULL name
-// Fills in the words that come from the library's tables. main calls it before anything reads the table.
+// Ends with a NULL name. Nobody but option_table_fill writes to it.
+extern struct option option_table[OPTIONS_MAX];
+// Fills the table, with the words and settings that come from the library's tables. main calls it before anything reads the table.
 void option_table_fill(void);
+// Of the first `rows` options, those of settings get what their rows leave to the library's table; an option for each other setting
+// follows. Returns the number of options.
+int option_settings_fill(int rows);
 extern const char *const group_titles[GROUP_COUNT];
 
 struct options option_defaults(void);
@@ -140,9 +148,6 @@ void options_free(struct options *options);
 
 // Makes an independent copy. False: out of memory; there is nothing to free.
 bool options_copy(struct options *to, const struct options *from);
-
-// The row of the library's table of settings that the option stores, whose range is its own; NULL: none.
-const lam_setting *option_setting(const struct option *option);
 
 // The option of a long name; NULL: no such option.
 const struct option *option_find(const char *name);

@@ -131,6 +131,37 @@ bool output_format(const char *path, lam_pixel_format *format, lam_error *error)
     return false;
 }
 
+// Whether a format is written, from 8 bits a number.
+static bool holds_bytes(int format)
+{
+    char path[32];
+    lam_pixel_format pixels;
+    snprintf(path, sizeof path, "a.%s", lam_image_format_name(format));
+    return lam_image_format_written(format) && lam_image_format_for(path, &pixels, NULL) && pixels == LAM_RGBA8;
+}
+
+bool output_check_bytes(const char *path, const char *noun, const char *others, lam_error *error)
+{
+    lam_pixel_format format;
+    if (!output_format(path, &format, error))
+        return false;
+    if (format == LAM_RGBA8)
+        return true;
+    char list[128] = "";
+    int last = -1;
+    for (int i = 0; lam_image_format_name(i); i++)
+        last = holds_bytes(i) ? i : last;
+    size_t used = 0;
+    for (int i = 0; i <= last && used < sizeof list; i++)
+        if (holds_bytes(i))
+            used += (size_t)snprintf(list + used, sizeof list - used, "%s.%s",
+                                     !used       ? ""
+                                     : i == last ? " or "
+                                                 : ", ",
+                                     lam_image_format_name(i));
+    return complain(error, LAM_UNSUPPORTED, "%s: a %s is written as %s%s", path, noun, others, list);
+}
+
 bool is_model_name(const char *name)
 {
     const char *dot = strrchr(name, '.');

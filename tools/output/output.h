@@ -37,6 +37,10 @@ const char *output_ending(const char *path);
 // The pixels of that format; bytes for a stream. Error: LAM_UNSUPPORTED.
 bool output_format(const char *path, lam_pixel_format *format, lam_error *error);
 
+// Checks that the file's format holds 8 bits a number. Errors: those of output_format, and "PATH: a sheet is written as .svg, .png
+// or .jpg" with the noun "sheet" and the endings `others` (".svg, " or ""), which the command writes itself.
+bool output_check_bytes(const char *path, const char *noun, const char *others, lam_error *error);
+
 // True if the name ends like a file of a model format. Scene files (.json) do not count: most JSON files are not one.
 bool is_model_name(const char *name);
 

@@ -205,7 +205,7 @@ static void fill_materials(const struct bound_rows *w, int count, int capacity, 
             if (i >= count)
                 continue;
             const struct light_products *products = &materials[m].lights[w->number[i]];
-            diffuse[i] = max_channel(products->diffuse) + (frame->gl1 ? max_channel(products->ambient) : 0);
+            diffuse[i] = max_channel(products->diffuse) + (frame->settings.gl1 ? max_channel(products->ambient) : 0);
             specular[i] = max_channel(products->specular) * max_lobe;
         }
     }
@@ -242,26 +242,26 @@ bool light_bounds_make(struct light_bounds *table, struct buffer *storage, const
     }
     fill_materials(&w, count, capacity, frame, materials);
     // Tone curves are nowhere steeper than the light itself, but for those with a sigmoid.
-    float steep = frame->tone == LAM_TONE_ACES || frame->tone == LAM_TONE_AGX ? 4.0f : 1.0f;
-    float slope = steep * (frame->color == LAM_COLOR_RAW ? 1.0f : SRGB_SLOPE) * frame->exposure;
-    *table =
-        (struct light_bounds){.count = count,
-                              .capacity = capacity,
-                              .number = w.number,
-                              .position = {w.position[0], w.position[1], w.position[2]},
-                              .far = w.far,
-                              .axis = {w.axis[0], w.axis[1], w.axis[2]},
-                              .min_cosine = w.min_cosine,
-                              .attenuation = {w.attenuation[0], w.attenuation[1], w.attenuation[2]},
-                              .inverse_range = w.inverse_range,
-                              .max_diffuse = w.max_diffuse,
-                              .max_specular = w.max_specular,
-                              .group_count = group_count,
-                              .group_capacity = group_capacity,
-                              .group_low = {w.group_low[0], w.group_low[1], w.group_low[2]},
-                              .group_high = {w.group_high[0], w.group_high[1], w.group_high[2]},
-                              .group_reach = w.group_reach,
-                              .all = w.all,
-                              .cutoff = count > LIGHTS_ALL_SUMMED ? (slope > 0 ? frame->light_cutoff / slope : 0) : 0};
+    float steep = frame->settings.tone == LAM_TONE_ACES || frame->settings.tone == LAM_TONE_AGX ? 4.0f : 1.0f;
+    float slope = steep * (frame->settings.color == LAM_COLOR_RAW ? 1.0f : SRGB_SLOPE) * frame->exposure;
+    *table = (struct light_bounds){
+        .count = count,
+        .capacity = capacity,
+        .number = w.number,
+        .position = {w.position[0], w.position[1], w.position[2]},
+        .far = w.far,
+        .axis = {w.axis[0], w.axis[1], w.axis[2]},
+        .min_cosine = w.min_cosine,
+        .attenuation = {w.attenuation[0], w.attenuation[1], w.attenuation[2]},
+        .inverse_range = w.inverse_range,
+        .max_diffuse = w.max_diffuse,
+        .max_specular = w.max_specular,
+        .group_count = group_count,
+        .group_capacity = group_capacity,
+        .group_low = {w.group_low[0], w.group_low[1], w.group_low[2]},
+        .group_high = {w.group_high[0], w.group_high[1], w.group_high[2]},
+        .group_reach = w.group_reach,
+        .all = w.all,
+        .cutoff = count > LIGHTS_ALL_SUMMED ? (slope > 0 ? frame->settings.light_cutoff / slope : 0) : 0};
     return true;
 }

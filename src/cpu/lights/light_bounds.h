@@ -42,7 +42,7 @@ bool light_bounds_make(struct light_bounds *table, struct buffer *storage, const
 // Whether the frame has enough lights for culling to pay off.
 static inline bool light_culling_wanted(const struct frame *frame)
 {
-    return frame->light_count > (frame->shading == LAM_SHADING_PHONG ? 4 : LIGHTS_ALL_SUMMED);
+    return frame->light_count > (frame->settings.shading == LAM_SHADING_PHONG ? 4 : LIGHTS_ALL_SUMMED);
 }
 
 #endif

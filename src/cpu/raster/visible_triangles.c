@@ -83,7 +83,7 @@ static void search_tile(void *user, size_t index, int number)
     uint32_t highest;
     add_triangles(cpu->raster.frame->makes_normals ? &cpu->shade.visible.triangles : NULL, &thread->fragments,
                   &fragment_store->lowest, &highest);
-    if (!cpu->kernels->save_fragments(fragment_store, &thread->fragments, cpu->raster.frame->samples, highest,
+    if (!cpu->kernels->save_fragments(fragment_store, &thread->fragments, cpu->raster.frame->settings.samples, highest,
                                       &search->arenas[number]))
         work_fail(&cpu->work, FAILED_MEMORY);
     thread->coverage_ns += now_ns() - start;
@@ -188,7 +188,7 @@ static bool make_normals(struct cpu_frame *cpu, struct visible_buffers *buffers,
 bool keeps_fragments(const struct cpu_frame *cpu)
 {
     const struct frame *frame = cpu->raster.frame;
-    return !frame->translucent && !cpu->shade.recorder && lam_output_is_light(frame->output);
+    return !frame->translucent && !cpu->shade.recorder && lam_output_is_light(frame->settings.output);
 }
 
 bool cover_in_advance(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error)

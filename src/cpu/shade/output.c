@@ -44,16 +44,16 @@ void output_tile(const struct resolve_target *target, const struct fragments *fr
                  const struct tile_samples *samples, struct pixel_sums *sums, const struct tile *tile)
 {
     const struct frame *frame = target->frame;
-    lam_output output = frame->output;
+    lam_output output = frame->settings.output;
     bool of_pixels = output == LAM_OUTPUT_COVERAGE || output == LAM_OUTPUT_OVERDRAW;
     float *const *sum = sums->sum;
     if (output != LAM_OUTPUT_CLIPPED)
         for (int c = 0; c < 4; c++)
             memset(sum[c], 0, TILE * TILE * sizeof(float));
     if (output == LAM_OUTPUT_COVERAGE)
-        sum_coverage(fragments, frame->samples, sum[0]);
+        sum_coverage(fragments, frame->settings.samples, sum[0]);
     else if (output == LAM_OUTPUT_OVERDRAW)
-        sum_overdraw(samples->counts, frame->samples, tile, sum[0]);
+        sum_overdraw(samples->counts, frame->settings.samples, tile, sum[0]);
     else if (output != LAM_OUTPUT_CLIPPED)
         pick_fragments(fragments, sum);
     lam_pixel_format format = target->image->format;

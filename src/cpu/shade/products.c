@@ -23,7 +23,7 @@ static void product(float out[3], const float *a, const float *b)
 static unsigned maps_of(const lam_material *material, const struct frame *frame)
 {
     unsigned maps = 0, drawn = ~(1u << LAM_MAP_DISPLACEMENT | 1u << LAM_MAP_REFLECTION);
-    if (frame->shading != LAM_SHADING_PHONG)
+    if (frame->settings.shading != LAM_SHADING_PHONG)
         drawn = 1u << LAM_MAP_DIFFUSE | 1u << LAM_MAP_OPACITY | 1u << LAM_MAP_EMISSION;
     for (int i = 0; i < LAM_MAP_COUNT; i++)
         if (material->maps[i] && (!map_layer((lam_map)i) || map_layer((lam_map)i) & frame_layers(frame, material)))
@@ -38,7 +38,8 @@ static void multiply_material(struct material_products *out, const lam_material 
     memcpy(out->diffuse, &material->diffuse, sizeof out->diffuse);
     out->given = material;
     out->maps = maps_of(material, frame);
-    out->converted = out->maps && frame->shading == LAM_SHADING_PHONG && frame_material_is_converted(frame, material);
+    out->converted =
+        out->maps && frame->settings.shading == LAM_SHADING_PHONG && frame_material_is_converted(frame, material);
     out->shininess = frame_shininess(frame, material);
     out->layers = frame_layers(frame, material);
     out->stretch[0] = (float)math_cos((double)material->anisotropy_rotation_rad);

@@ -165,6 +165,7 @@ static bool png_read(const struct picture_file *file, lam_image *image, lam_erro
 const struct codec codec_png = {
     .name = "png",
     .title = "PNG",
+    .written = "8 bits, sRGB, with alpha",
     .pixels = LAM_RGBA8,
     .write = png_write,
     .probe = png_probe,

@@ -97,7 +97,6 @@ static bool find_submissions(struct check_command *c, int operand_count, char **
 static bool check_outputs(const struct check_command *c, lam_error *error)
 {
     const struct options *o = c->options;
-    lam_pixel_format format;
     if (o->picture.has_size && o->picture.width != o->picture.height)
         return complain(error, LAM_BAD_ARGUMENT, "check: pictures are square, found %dx%d", o->picture.width,
                         o->picture.height);
@@ -108,9 +107,7 @@ static bool check_outputs(const struct check_command *c, lam_error *error)
                         "option '--output' names one sheet for %d shaders; name a folder: -o sheets/", c->batch.count);
     if (!o->picture.output || !output_is_named(o->picture.output) || output_is_stream(o->picture.output))
         return true;
-    return output_format(o->picture.output, &format, error) &&
-           (format == LAM_RGBA8 ||
-            complain(error, LAM_UNSUPPORTED, "%s: a sheet is written as .png or .ppm", o->picture.output));
+    return output_check_bytes(o->picture.output, "sheet", "", error);
 }
 
 static bool open_csv(struct check_command *c, lam_error *error)

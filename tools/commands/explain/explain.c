@@ -67,7 +67,6 @@ static char *figure_path(const struct options *o, const char *model, bool *faile
 
 static bool check_figure(const char *path, const struct options *o, const char *model, lam_error *error)
 {
-    lam_pixel_format format;
     bool to_stdout = strcmp(path, "-") == 0;
     if (to_stdout && isatty(STDOUT_FILENO) && !terminal_shows())
         return terminal_refuse("explain MODEL X,Y", error);
@@ -76,12 +75,8 @@ static bool check_figure(const char *path, const struct options *o, const char *
     if (!drawing_is_svg(path) && o->captions.title && !o->captions.no_captions &&
         !drawing_check_text("title", o->captions.title, o->captions.font != NULL, error))
         return false;
-    if (!to_stdout && !drawing_is_svg(path)) {
-        if (!output_format(path, &format, error))
-            return false;
-        if (format != LAM_RGBA8)
-            return complain(error, LAM_UNSUPPORTED, "%s: a figure is written as .svg, .png, .jpg, .webp or .ppm", path);
-    }
+    if (!to_stdout && !drawing_is_svg(path) && !output_check_bytes(path, "figure", ".svg, ", error))
+        return false;
     return to_stdout || output_check(path, model, output_given(o->picture.output), error);
 }
 

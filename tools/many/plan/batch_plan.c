@@ -41,7 +41,8 @@ static bool check_together(const struct options *o, lam_error *error)
     static const char *const sides[] = {"view", "camera", "azimuth", "elevation", NULL};
     for (int i = 0; o->batch.view_count && sides[i]; i++)
         if (option_given(o, sides[i]))
-            return complain(error, LAM_BAD_ARGUMENT, "options '--views' and '--%s' cannot be used together", sides[i]);
+            return complain(error, LAM_BAD_ARGUMENT, "several sides and the option '--%s' cannot be used together",
+                            sides[i]);
     const char *wants = o->batch.resume ? "resume" : o->batch.skip_same ? "skip-same" : NULL;
     if (wants && o->batch.journal && strcmp(o->batch.journal, "none") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' goes by a journal, and '--journal none' has none",
@@ -53,7 +54,7 @@ static bool check_together(const struct options *o, lam_error *error)
     if (o->batch.shard_by == SHARD_BY_LIST && !o->batch.shard)
         return complain(error, LAM_BAD_ARGUMENT, "option '--shard-by' goes with --shard K/N");
     if (o->batch.size_count && option_given(o, "size"))
-        return complain(error, LAM_BAD_ARGUMENT, "options '--sizes' and '--size' cannot be used together");
+        return complain(error, LAM_BAD_ARGUMENT, "option '--size': found one size and several");
     if (o->picture.save_scene && (o->batch.view_count > 1 || o->batch.size_count > 1))
         return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' goes only with a single picture");
     return true;

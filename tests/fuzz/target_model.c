@@ -1,0 +1,8 @@
+// target_model.c: fuzz target for model files of one format, whose ending NAME has.
+#include "target.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    load_model(data, size, NAME, NULL, NULL, NULL);
+    return 0;
+}

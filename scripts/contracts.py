@@ -17,9 +17,9 @@ from lectures import LECTURES  # noqa: E402
 
 # The correct program of each contract that the page shows. Lambent's own is printed by `lambent shader`.
 CORRECT = {"pittsburgh": "pittsburgh", "oregon": "oregon", "nyu": "nyu", "learnopengl": "learnopengl", "learnopengl-pbr": "learnopengl-pbr", "gltf": "gltf", "angel": "angel", "mdn": "mdn",
-           "threejs": "threejs"}
+           "threejs": "threejs", **{name: name for name in ("webglfundamentals", "feup", "stthomas", "chile", "glsl120")}}
 SPACES = {"eye": "eye space", "world": "world space", "object": "the model's space"}
-REPORT = "`lambent check %s.frag --vertex %s.vert` reports:"
+REPORT = "`lambent check %s.frag --vertex %s.vert%s` reports:"
 
 
 def read(*path):
@@ -31,9 +31,9 @@ def indented(text):
     return "".join("    " + line if line.strip() else line for line in text.rstrip().splitlines(keepends=True)) + "\n"
 
 
-def report(program, name):
+def report(program, name, options):
     """The report of a program of tests/check, without the driver's name."""
-    done = subprocess.run([program, "check", name + ".frag", "--vertex", name + ".vert"], cwd=os.path.join(ROOT, SHADERS),
+    done = subprocess.run([program, "check", name + ".frag", "--vertex", name + ".vert", *options.split()], cwd=os.path.join(ROOT, SHADERS),
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     if done.returncode == 3:
         return None
@@ -136,7 +136,8 @@ def section(program, contract, meaning):
         yield "Its fragment shader:"
         yield ""
         yield indented(read(SHADERS, correct + ".frag"))
-        yield from reported(program, correct)
+        # The use of the inputs decides where strengths are any; the name prescribes the contract.
+        yield from reported(program, correct, " --contract " + name if contract.get("strengths") == "any" else "")
     if contract.get("printed"):
         yield ""
         yield "[Shaders](../shaders.md) are printed by `lambent shader`, and are correct programs of this contract.\n"
@@ -146,11 +147,11 @@ def section(program, contract, meaning):
             yield from reported(program, "lectures/" + lecture)
 
 
-def reported(program, name):
-    text = report(program, name) if program else ""
+def reported(program, name, options=""):
+    text = report(program, name, options) if program else ""
     if text is None:
         sys.exit(0)  # no OpenGL
-    yield REPORT % (name, name)
+    yield REPORT % (name, name, options)
     yield ""
     yield indented(text) if program else ""
 

@@ -100,14 +100,15 @@ def settings(program, _):
         if "$ref" in value and "color" in value["$ref"] and key != "ambient":
             yield "| `%s` | none | a colour | %s |" % (key, value["description"])
             continue
-        if key == "up" or "default" not in value or "`--%s" % key.replace("_", "-") not in manual:
+        if key == "up" or ("default" not in value and value.get("type") != "number") or "`--%s" % key.replace("_", "-") not in manual:
             continue
         if value["type" if "type" in value else "enum"] == "array":
             yield "| `%s` | none | a list of %s | %s |" % (key, ", ".join("`\"%s\"`" % word for word in value["items"]["enum"]), value["description"])
             continue
         values = ", ".join("`%s`" % word for word in value["enum"]) if "enum" in value else \
             "`true`, `false`" if value["type"] == "boolean" else "%.10g to %.10g" % (value["minimum"], value["maximum"])
-        yield "| `%s` | `%s` | %s | %s |" % (key, json.dumps(value["default"]).strip('"'), values, value["description"])
+        standard = "`%s`" % json.dumps(value["default"]).strip('"') if "default" in value else "–"
+        yield "| `%s` | %s | %s | %s |" % (key, standard, values, value["description"])
 
 
 def mistakes(program, _):

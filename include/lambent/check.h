@@ -298,7 +298,9 @@ typedef struct lam_check_scene {
     const char *looks_like;
     // The terms that the scene shows, bits of lam_check_term; 0: it is black, since none of its terms is asked for.
     unsigned terms;
-    LAM_RESERVED(7);
+    // The points that the scene is worth, `weights` of the contract: 1 unless it says otherwise.
+    double weight;
+    LAM_RESERVED(6);
 } lam_check_scene;
 
 // A mistake that explains the pictures.
@@ -352,13 +354,21 @@ typedef struct lam_check_report {
     int scenes_wanted;                 // that the shaders were to draw
     bool search_stopped;               // the search for mistakes ended at max_pictures
     uint64_t tried;                    // mistakes and sets of them that were compared
-    LAM_RESERVED(6);
+    const char *contract_text;         // the file of that contract
+    LAM_RESERVED(5);
 } lam_check_report;
 
 // Checks. False only without a verdict: LAM_BAD_ARGUMENT (no contract fits, an unknown scene), LAM_UNSUPPORTED (no
 // OpenGL), LAM_LIMIT. The caller frees the report.
 LAM_API bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam_error *error);
 LAM_API void lam_check_report_free(lam_check_report *report); // zeroed is fine
+
+// Writes a contract file for a pair of shaders: that of `report`, or without a report (NULL) what can be said of their inputs by
+// their use. A comment beside each entry says what it means and what to correct. The file gives the verdict of the report. The
+// caller frees `out` with lam_bytes_free. False: LAM_BAD_ARGUMENT (the vertex shader is missing, or the shaders are of a kind
+// that the check does not understand), LAM_LIMIT.
+LAM_API bool lam_check_contract_write(const lam_check_params *params, const lam_check_report *report, lam_bytes *out,
+                                      lam_error *error);
 
 LAM_API const char *lam_check_verdict_name(lam_check_verdict verdict); // "passes", …; NULL out of range
 

@@ -29,7 +29,7 @@ typedef struct lam_setting {
     const char *key;       // in scene files; an option has - in place of _
     lam_setting_type type; // what the member is
     size_t offset;         // of the member in lam_draw_params
-    // The range of WHOLE, NUMBER and ANGLE, and the default.
+    // The range of WHOLE, NUMBER and ANGLE, and the default; a default below `min`: it depends on the scene.
     double min, max, standard;
     bool zero; // WHOLE, NUMBER: 0 may be written too, whatever `min` is
     // NUMBER: a written 0 is −1 in the member, where 0 is the default.

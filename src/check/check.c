@@ -3,9 +3,9 @@
 #include "check_draw.h"
 #include "compiler_hints.h"
 #include "default_vertex_shader.h"
-#include "fixed_state.h"
 #include "gl_painter.h"
 #include "infer.h"
+#include "own_texts.h"
 #include "recognise.h"
 #include "shader_diagnostics.h"
 
@@ -300,7 +300,7 @@ static bool try_inferred(struct run *r, const struct contract *contract, enum fi
 
 // Finds the roles of the inputs by their use, in each space that the text leaves open; the first reading with which the shaders
 // are right counts, else one that a single mistake explains.
-static bool infer_and_run(struct run *r, const struct contract *nearest, lam_error *error)
+static bool run_inferred(struct run *r, const struct contract *nearest, lam_error *error)
 {
     const lam_check_params *p = r->params;
     const struct contract *engine = r->texts.owned[1] ? nearest : NULL;
@@ -319,9 +319,10 @@ static bool infer_and_run(struct run *r, const struct contract *nearest, lam_err
          prefix_read(&texts, true, &sides[0], error) && prefix_read(&texts, false, &sides[1], error);
     for (int guess = 0; ok && !done; guess++) {
         bool again = false;
-        char *text = contract_infer(&sides[0], &sides[1], engine, guess, why, sizeof why);
+        char *text = contract_infer(&sides[0], &sides[1], engine, guess, false, why, sizeof why);
         if (!text && (explained >= 0 || differs >= 0)) {
-            text = contract_infer(&sides[0], &sides[1], engine, explained >= 0 ? explained : differs, why, sizeof why);
+            text = contract_infer(&sides[0], &sides[1], engine, explained >= 0 ? explained : differs, false, why,
+                                  sizeof why);
             again = true;
         }
         if (!text) {
@@ -351,26 +352,6 @@ static bool infer_and_run(struct run *r, const struct contract *nearest, lam_err
     return ok && (done || fail_unknown(r, reason, error));
 }
 
-// The same, with the fixed state of GLSL 110 and 120 as inputs.
-static bool run_inferred(struct run *r, const struct contract *nearest, lam_error *error)
-{
-    const lam_check_params *const params = r->params;
-    lam_check_params own = *params;
-    bool vertex_ok = true, fragment_ok = true;
-    char *vertex = params->vertex ? fixed_state_rewrite(params->vertex, &vertex_ok) : NULL,
-         *fragment = fixed_state_rewrite(params->fragment, &fragment_ok);
-    own.vertex = vertex ? vertex : params->vertex;
-    own.fragment = fragment ? fragment : params->fragment;
-    r->params = &own;
-    bool ok =
-        vertex_ok && fragment_ok ? infer_and_run(r, nearest, error) : fail_memory(error, strlen(params->fragment));
-    r->params = params;
-    r->texts = (struct complete_texts){.owned = {r->texts.owned[0], r->texts.owned[1]}};
-    free(vertex);
-    free(fragment);
-    return ok;
-}
-
 // Compares by the contract that was asked for, or whose names the shaders have.
 static bool run_contract(struct run *r, const struct contract *contract, unsigned scenes, lam_error *error)
 {
@@ -397,7 +378,8 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     *report = (lam_check_report){0};
     if (!check_reserved("lam_check_params", params, error))
         return false;
-    struct run r = {.params = params, .report = report};
+    lam_check_params own = *params; // with the fixed state of GLSL 110 and 120 as inputs
+    struct run r = {.params = &own, .report = report};
     r.arena = report->memory = calloc(1, sizeof *r.arena);
     if (!r.arena)
         return fail_memory(error, sizeof *r.arena);
@@ -406,7 +388,11 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     r.painter = params->painter ? *params->painter : gl_painter(params->gl_device);
     unsigned scenes = 0;
     const struct contract *contract = NULL;
-    bool ok = check_params(&r, error) && choose_contract(&r, &contract, error);
+    struct own_texts texts;
+    bool readable = own_texts_make(params->vertex, params->fragment, &texts, error);
+    own.vertex = texts.vertex;
+    own.fragment = texts.fragment;
+    bool ok = readable && check_params(&r, error) && choose_contract(&r, &contract, error);
     if (ok && contract)
         ok = prepare(&r, contract, &scenes, error) && draw(&r, scenes, error);
     if (ok && contract && (params->contract || suits_contract(&r)))
@@ -415,6 +401,9 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
         ok = ok && run_inferred(&r, contract, error);
     if (ok) {
         report->contract = arena_string(r.arena, r.interface.contract->name);
+        report->contract_text = arena_string(r.arena, r.interface.contract->text);
+        for (int i = 0; i < report->scene_count; i++)
+            report->scenes[i].weight = r.interface.contract->weights[reference_scene_find(report->scenes[i].name)];
         report->vertex_lit = r.interface.vertex_lit;
     }
     if (ok && r.diagnostics.failed)
@@ -428,6 +417,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     lam_check_contract_free(r.inferred);
     free(r.vertex);
     lam_bytes_free(&r.bytes);
+    own_texts_free(&texts);
     if (!ok)
         lam_check_report_free(report);
     return ok;

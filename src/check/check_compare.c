@@ -311,6 +311,8 @@ static bool explain(struct run *r, bool writes, lam_error *error)
             "a name that is not in the contract has the value 0, which may be the only mistake: correct the "
             "names first");
     report_findings(r, &s);
+    if (!r->report->finding_count && !s.has_unset_names)
+        check_describe(r);
     return true;
 }
 

@@ -4,9 +4,8 @@
 // exponent, and forms or a fault. The factors of its terms, the same in every scene, are those of the least squares. The shader
 // passes if some reading of a correct shader explains every scene, and differs if one with a single known mistake does.
 // Otherwise there is no verdict: what the check does not understand may well be right.
-#include "check_run.h"
+#include "readings.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,35 +14,13 @@
 #include "elementary.h"
 #include "fail.h"
 #include "fault_search.h"
-#include "number.h"
 #include "render_cache.h"
 
-enum {
-    MAX_EXPONENTS = 6,
-    MAX_FORMS = 3,
-    MAX_READINGS = 400,
-    FIRST_SCENES = 1,
-    MAX_BASES = 12,
-    MAX_FAULTS = 2,
-    MAX_NEAREST = 3
-};
+enum { FIRST_SCENES = 1, MAX_BASES = 12, MAX_NEAREST = 3 };
 
 static const double min_diffuse = 0.02;  // the least factor of a diffuse term that is evidence of lighting
 static const double min_mean = 0.02;     // the least difference that is one without an explanation
 static const double max_negative = 0.01; // a factor below its negative is no strength
-
-struct reading {
-    lam_reflection reflection;
-    bool has_highlight, decoded; // pow(x, 1/2.2) is undone before
-    fault_set set;
-    const struct fault *forms[MAX_FORMS];
-    int form_count;
-    const struct fault *faults[MAX_FAULTS];
-    int fault_count;
-    double factors[3][3]; // of red, green and blue; of the ambient, diffuse and specular term
-    double mean;          // difference
-    bool fits;
-};
 
 struct fit {
     struct run *r;
@@ -152,202 +129,7 @@ static bool try_reading(struct fit *f, struct reading *g, lam_error *error)
     return measure(f, first, g, error) && (!g->fits || measure(f, f->r->scene_count, g, error));
 }
 
-// --- readings
-
-static const struct fault *row_of(const char *id)
-{
-    for (int i = 0; i < fault_count; i++)
-        if (strcmp(faults[i].id, id) == 0)
-            return &faults[i];
-    return NULL;
-}
-
-static bool uses(const struct run *r, const char *word)
-{
-    return declarations_uses(&r->interface.vertex, word) || declarations_uses(&r->interface.fragment, word);
-}
-
-static bool read_literal(const char *text, double *out)
-{
-    const uint8_t *end = (const uint8_t *)text + strcspn(text, "fF");
-    return text[0] && strchr("0123456789", text[0]) && number_double((const uint8_t *)text, end, out) == end;
-}
-
-static void add_exponent(float out[MAX_EXPONENTS], int *count, double x)
-{
-    bool known = x < 2 || x > 4096 || *count == MAX_EXPONENTS;
-    for (int k = 0; k < *count; k++)
-        known = known || (double)out[k] == x;
-    if (!known)
-        out[(*count)++] = (float)x;
-}
-
-// The second argument of pow, whose bracket is word `at`: a number, or a variable that is given one.
-static bool read_exponent(const struct declarations *d, int at, double *out)
-{
-    int depth = 0;
-    for (int i = at; i + 2 < d->word_count; i++) {
-        const char *text = d->words[i].text;
-        depth += (strcmp(text, "(") == 0) - (strcmp(text, ")") == 0);
-        if (depth == 0)
-            return false;
-        if (depth != 1 || strcmp(text, ",") != 0 || strcmp(d->words[i + 2].text, ")") != 0)
-            continue;
-        if (read_literal(d->words[i + 1].text, out))
-            return true;
-        for (int k = 0; k + 2 < d->word_count; k++)
-            if (strcmp(d->words[k].text, d->words[i + 1].text) == 0 && strcmp(d->words[k + 1].text, "=") == 0 &&
-                read_literal(d->words[k + 2].text, out))
-                return true;
-        return false;
-    }
-    return false;
-}
-
-// The factor of the exponent that the text writes in pow(x, shininess * factor); 0: none.
-static float find_factor(const struct declarations *d)
-{
-    for (int i = 0; i + 2 < d->word_count; i++) {
-        int depth = 0;
-        bool second = false;
-        for (int k = i + 1; strcmp(d->words[i].text, "pow") == 0 && k + 1 < d->word_count; k++) {
-            const char *text = d->words[k].text;
-            double x = 0;
-            depth += (strcmp(text, "(") == 0) - (strcmp(text, ")") == 0);
-            if (depth == 0)
-                break;
-            second = second || (depth == 1 && strcmp(text, ",") == 0);
-            if (second && read_literal(text, &x) && x > 0 && strcmp(d->words[k - 1].text, "/") == 0)
-                return (float)(1 / x);
-            if (second && read_literal(text, &x) && x > 0 &&
-                (strcmp(d->words[k - 1].text, "*") == 0 || strcmp(d->words[k + 1].text, "*") == 0))
-                return (float)x;
-        }
-    }
-    return 0;
-}
-
-// The numbers of the text that may be the exponent.
-static int find_exponents(const struct run *r, float out[MAX_EXPONENTS])
-{
-    const struct declarations *d = r->interface.vertex_lit ? &r->interface.vertex : &r->interface.fragment;
-    int count = 0;
-    if (shader_interface_uses(&r->interface, SEMANTIC_SHININESS)) {
-        out[0] = 0;
-        return 1;
-    }
-    for (int i = 0; i + 1 < d->word_count; i++) {
-        double x = 0;
-        if (strcmp(d->words[i].text, "pow") == 0 && read_exponent(d, i + 1, &x))
-            add_exponent(out, &count, x);
-    }
-    for (int i = 0; i < d->word_count && !count && uses(r, "pow"); i++) { // behind a parameter, perhaps
-        double x = 0;
-        if (read_literal(d->words[i].text, &x))
-            add_exponent(out, &count, x);
-    }
-    return count;
-}
-
-static void add_bit(struct reading *g, enum fault_bit bit) { g->set.words[bit / 64] |= (uint64_t)1 << (bit % 64); }
-
-static void add_form(const struct run *r, struct reading *g, const struct fault *form)
-{
-    if (g->form_count < MAX_FORMS && fault_is_style(form, &r->interface)) {
-        g->set = fault_set_add(&g->set, form);
-        g->forms[g->form_count++] = form;
-    }
-}
-
-// All readings of a correct shader that the text permits.
-static int list_readings(const struct run *r, struct reading out[MAX_READINGS])
-{
-    const struct fault *gate = row_of("no-gate"), *late = row_of("normal-unit-late"),
-                       *dim = row_of("ambient-attenuated");
-    const struct shader_interface *interface = &r->interface;
-    float exponents[MAX_EXPONENTS];
-    int exponent_count = find_exponents(r, exponents), count = 0;
-    bool eye = shader_interface_uses(interface, SEMANTIC_EYE_POSITION);
-    bool attenuated = shader_interface_uses(interface, SEMANTIC_ATTENUATION_LINEAR) ||
-                      shader_interface_uses(interface, SEMANTIC_ATTENUATION_QUADRATIC) || uses(r, "length") ||
-                      uses(r, "distance");
-    bool direction = shader_interface_uses(interface, SEMANTIC_LIGHT_DIRECTION) ||
-                     shader_interface_uses(interface, SEMANTIC_LIGHT_TRAVEL) || interface->defaults.has_direction ||
-                     (interface->supports & NEED_DIRECTIONAL);
-    bool gamma = declarations_uses(&interface->fragment, "2.2");
-    // reversed, falloff, viewer, phong, exponent, gate, late, dim, gamma
-    for (int k = 0; k < 2 * 3 * 2 * 2 * MAX_EXPONENTS * 2 * 2 * 2 * 2; k++) {
-        int n = k, choices[9];
-        const int sizes[9] = {2, 2, 2, 2, 3, 2, 2, 2, MAX_EXPONENTS};
-        for (int i = 0; i < 9; i++) {
-            choices[i] = n % sizes[i];
-            n /= sizes[i];
-        }
-        bool bare = choices[0], long_normal = choices[1], blinn = choices[2], dims = choices[3], reversed = choices[5];
-        int falloff = choices[4], viewer = choices[6], decoded = choices[7], exponent = choices[8];
-        bool highlight = exponent_count > 0;
-        if ((!highlight && (bare || blinn || exponent || viewer)) || (highlight && exponent >= exponent_count) ||
-            (long_normal && interface->vertex_lit) || (dims && !attenuated) || (falloff && !attenuated) ||
-            (reversed && !direction) || (viewer && eye) || (decoded && !gamma) || count == MAX_READINGS)
-            continue;
-        struct reading *g = &out[count++];
-        *g = (struct reading){.reflection = blinn ? LAM_REFLECTION_BLINN_PHONG : LAM_REFLECTION_PHONG,
-                              .has_highlight = highlight,
-                              .decoded = decoded};
-        g->set.constant = highlight ? exponents[exponent] : 0;
-        if (highlight && exponents[exponent] == 0)
-            g->set.factor = find_factor(interface->vertex_lit ? &interface->vertex : &interface->fragment);
-        if (bare)
-            add_form(r, g, gate);
-        if (long_normal)
-            add_form(r, g, late);
-        if (dims)
-            add_form(r, g, dim);
-        if (falloff)
-            add_bit(g, falloff == 1 ? BIT_INVERSE_SQUARE : BIT_INVERSE_DISTANCE);
-        if (reversed)
-            add_bit(g, BIT_DIRECTION_REVERSED);
-        if (viewer)
-            add_bit(g, BIT_VIEWER_INFINITE);
-    }
-    return count;
-}
-
-// Faults of colours, strengths and alpha are within the factors, or no matter of them.
-static bool is_geometric(const struct fault *row)
-{
-    static const enum fault_bit others[] = {BIT_KD_KS_SWAPPED,
-                                            BIT_KA_KD_SWAPPED,
-                                            BIT_SPECULAR_TINTED,
-                                            BIT_SPECULAR_AS_DIFFUSE,
-                                            BIT_BARE_KA,
-                                            BIT_BARE_KD,
-                                            BIT_BARE_KS,
-                                            BIT_WHITE_LIGHT,
-                                            BIT_SPECULAR_LIGHT_AS_DIFFUSE,
-                                            BIT_ENCODED,
-                                            BIT_ALPHA_ONE,
-                                            BIT_ALPHA_SUM,
-                                            BIT_AMBIENT_EACH_LIGHT,
-                                            BIT_NO_AMBIENT,
-                                            BIT_NO_DIFFUSE,
-                                            BIT_NO_SPECULAR,
-                                            BIT_VERTEX_CLAMPED,
-                                            BIT_FLIP,
-                                            BIT_OTHER_LOBE,
-                                            BIT_DIRECTION_REVERSED};
-    for (int i = 0; i < MAX_FAULT_BITS && row->bits[i]; i++)
-        for (size_t k = 0; k < sizeof others / sizeof *others; k++)
-            if (row->bits[i] == others[k])
-                return false;
-    return true;
-}
-
-static bool is_single(const struct fault *row)
-{
-    return is_geometric(row) && !row->style && !row->demand && !row->whole_term && !row->fit && row->factor == 0 &&
-           !row->maps;
-}
+// --- faults
 
 static bool has_bit(const struct fault *row, enum fault_bit bit)
 {
@@ -367,7 +149,7 @@ static bool add_faults(struct fit *f, const struct reading *readings, int count,
         for (int i = 0; i < count && !best->fits; i++) {
             struct reading g = readings[i];
             bool early = fault_set_has(&g.set, BIT_LONG_NORMAL_VERTEX) && has_bit(&faults[m], BIT_LONG_NORMAL);
-            if (early || !is_single(&faults[m]) || g.mean >= 1e9 ||
+            if (early || !readings_allow_fault(&faults[m]) || g.mean >= 1e9 ||
                 !fault_applies(&faults[m], &f->r->interface, f->r->interface.light_frame, g.reflection, ~0u))
                 continue;
             g.set = fault_set_add(&g.set, &faults[m]);
@@ -471,7 +253,7 @@ static int choose_bases(const struct run *r, struct reading *readings, int count
     int kept = 0;
     for (int i = 0; i < count; i++) {
         bool fits = readings[i].decoded == best->decoded &&
-                    (readings[i].reflection == LAM_REFLECTION_PHONG || !uses(r, "reflect"));
+                    (readings[i].reflection == LAM_REFLECTION_PHONG || !readings_use(r, "reflect"));
         for (size_t k = 0; k < sizeof same / sizeof *same; k++) {
             bool has = fault_set_has(&readings[i].set, same[k]);
             fits = fits && (!has || fault_set_has(&best->set, same[k]));
@@ -526,49 +308,6 @@ static bool find_inside(struct run *r, double *missing, lam_error *error)
     return true;
 }
 
-// Whether the texts are made of nothing but the words of an ambient, a diffuse and a specular term: then pictures that no reading
-// explains are wrong. Steps, cones, distances, rims and the like may be right, and are not understood.
-static bool is_plain(const struct run *r)
-{
-    static const char *const known =
-        " if for while return main normalize dot max min clamp pow reflect vec2 vec3 vec4 mat3 mat4 "
-        "float int abs sqrt inversesqrt inverse transpose location layout binding defined ";
-    const struct declarations *sides[] = {&r->interface.vertex, &r->interface.fragment};
-    if (strstr(r->interface.contract->title, "exclusion"))
-        return false;
-    for (int s = 0; s < 2; s++)
-        for (int i = 1; i + 1 < sides[s]->word_count; i++) {
-            const struct word *w = &sides[s]->words[i];
-            const char *next = w[1].text, *before = w[-1].text;
-            char padded[70];
-            double x = 0;
-            snprintf(padded, sizeof padded, " %s ", w->text);
-            bool call = strcmp(next, "(") == 0 && (isalpha((unsigned char)w->text[0]) || w->text[0] == '_');
-            bool own = false; // a function of the text: its name follows a type
-            for (int k = 1; call && k < sides[s]->word_count && !own; k++)
-                own = strcmp(sides[s]->words[k].text, w->text) == 0 && sides[s]->words[k].depth == 0 &&
-                      isalpha((unsigned char)sides[s]->words[k - 1].text[0]);
-            double divisor = 0; // a division by w is that of a projection; by a distance, it may be an attenuation
-            bool of_w = i + 3 < sides[s]->word_count && strcmp(w[2].text, ".") == 0 && strcmp(w[3].text, "w") == 0;
-            bool quotient = strcmp(w->text, "/") == 0 && !read_literal(next, &divisor) && !of_w;
-            bool number = read_literal(w->text, &x);
-            bool compared = false; // with anything but 0, outside of a loop's head
-            if (w->text[0] == '<' || w->text[0] == '>') {
-                const char *after = next[0] == '=' ? w[2].text : next;
-                double zero = 1;
-                bool in_head = false;
-                for (int k = i; k > 0 && k > i - 10; k--)
-                    in_head = in_head || strcmp(sides[s]->words[k].text, "for") == 0;
-                compared = !in_head && !((read_literal(after, &zero) || read_literal(before, &zero)) && zero == 0);
-            }
-            bool rim = number && x == 1 && strcmp(next, "-") == 0;
-            if ((call && !own && !strstr(known, padded)) || compared || rim || strcmp(w->text, "discard") == 0 ||
-                quotient || strcmp(w->text, "flat") == 0 || strcmp(w->text, "gl_FrontFacing") == 0)
-                return false;
-        }
-    return true;
-}
-
 bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reason, size_t capacity, lam_error *error)
 {
     struct fit f = {0};
@@ -584,7 +323,7 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
     struct reading *readings = arena_array(r->arena, MAX_READINGS, sizeof *readings), best = {.mean = 1e9};
     if (!readings || !open_fit(&f, r, error))
         return readings ? false : fail_memory(error, MAX_READINGS * sizeof *readings);
-    int count = list_readings(r, readings);
+    int count = readings_list(r, readings);
     bool ok = true;
     for (int i = 0; ok && i < count && !best.fits; i++) {
         ok = try_reading(&f, &readings[i], error);
@@ -599,7 +338,7 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
     render_cache_keep_shader(r->params->cache, f.shader);
     if (!ok)
         return false;
-    bool plain = !best.fits && best.mean > min_mean && is_plain(r);
+    bool plain = !best.fits && best.mean > min_mean && readings_are_plain(r);
     if (!best.fits && !plain) {
         snprintf(reason, capacity,
                  "its pictures are no sum of an ambient, a diffuse and a specular term that the check knows");
@@ -622,6 +361,8 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
         snprintf(reason, capacity, "its pictures are near to those of a right shader, and not the same");
     else if (explained)
         report_faults(r, &best, before);
+    if (*outcome == FIT_DIFFERS)
+        check_describe(r);
     if (*outcome == FIT_RIGHT)
         hint_forms(r, &best);
     return true;

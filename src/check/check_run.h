@@ -47,6 +47,9 @@ enum fit_outcome { FIT_UNKNOWN, FIT_RIGHT, FIT_EXPLAINED, FIT_DIFFERS };
 bool check_fit(struct run *run, bool writes, enum fit_outcome *outcome, char *reason, size_t capacity,
                lam_error *error);
 
+// Says of a shader that differs, and gets no name, what its scenes show.
+void check_describe(struct run *run);
+
 // Compares the pictures of `drawn` with the reference scenes `scenes` (bits), and fills the report: scenes, verdict,
 // findings. `writes`: the fragment shader writes a colour.
 bool check_compare(struct run *run, unsigned scenes, bool writes, lam_error *error);

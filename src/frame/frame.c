@@ -19,18 +19,16 @@
 
 static float rounded(double x) { return (float)x; }
 
-// Samples per pixel of pictures of up to side² pixels, and of larger ones. Thin wires break into dashes with fewer.
-static const struct {
-    int side, samples;
-} small_pictures[] = {{256, 16}, {512, 8}};
-enum { LARGE_SAMPLES = 4 };
+// Samples per pixel of pictures of up to TINY_SIDE² pixels, of up to SMALL_SIDE², and of larger ones. Thin wires break into dashes
+// with fewer.
+enum { TINY_SIDE = 256, TINY_SAMPLES = 16, SMALL_SIDE = 512, SMALL_SAMPLES = 8, LARGE_SAMPLES = 4 };
 
 int lam_default_samples(int width, int height)
 {
-    for (size_t i = 0; i < sizeof small_pictures / sizeof *small_pictures; i++)
-        if ((int64_t)width * height <= small_pictures[i].side * small_pictures[i].side)
-            return small_pictures[i].samples;
-    return LARGE_SAMPLES;
+    int64_t pixels = (int64_t)width * height;
+    return pixels <= TINY_SIDE * TINY_SIDE     ? TINY_SAMPLES
+           : pixels <= SMALL_SIDE * SMALL_SIDE ? SMALL_SAMPLES
+                                               : LARGE_SAMPLES;
 }
 
 // Sets the planes to enclose all objects, with a margin. With perspective the near distance is at least 1/10000 of the

@@ -32,7 +32,11 @@ bool json_vfail(const struct json_reader *r, const struct place *place, const ch
     char where[200] = "", sentence[sizeof r->error->text];
     print_place(place, where, sizeof where);
     vsnprintf(sentence, sizeof sentence, format, arguments);
-    return fail(r->error, LAM_CANNOT_READ, "%s: %s%s%s", r->file, where, *where ? ": " : "", sentence);
+    int line = r->text ? json_line_of(r->text, r->size, place) : 0;
+    char number[16] = "";
+    if (line)
+        snprintf(number, sizeof number, ":%d", line);
+    return fail(r->error, LAM_CANNOT_READ, "%s%s: %s%s%s", r->file, number, where, *where ? ": " : "", sentence);
 }
 
 bool json_fail(const struct json_reader *r, const struct place *place, const char *format, ...)

@@ -12,7 +12,10 @@
 
 struct json_reader {
     const char *file; // its name, for messages
-    lam_error *error; // LAM_CANNOT_READ with "FILE: PLACE: sentence"
+    lam_error
+        *error; // LAM_CANNOT_READ with "FILE: PLACE: sentence", or "FILE:LINE: PLACE: sentence" if there is a text
+    const char *text; // the file's, of `size` bytes; NULL: errors name no line
+    size_t size;
 };
 
 // A value's place in the file: objects[1].material.shininess, from its end to its beginning.
@@ -26,6 +29,9 @@ struct place {
 
 // Writes "objects[1].material.shininess"; a longer place is cut.
 void json_place(const struct place *place, char *out, size_t capacity);
+
+// The line of a value, or of its key, from 1; of the innermost value around it that there is. 0: none of them, or `place` is NULL.
+int json_line_of(const char *text, size_t size, const struct place *place);
 
 // Returns false.
 bool json_fail(const struct json_reader *r, const struct place *place, const char *format, ...)

@@ -50,11 +50,12 @@ LIGHTING = """vec3 n = $unit_normal;
         float base = $base, S = $S;
         diffuse $add $kept_d * D * $light_color;
         specular $add $kept_s * S * $light_specular;
+        $after
     }
     vec3 color = $sum;"""
 
 COMMON = {
-    "extra": "", "each": "", "end": "", "flip": "", "point": "eye.xyz", "eye_point": "eye.xyz", "to_eye": "-eye_point", "view": "$to_eye", "infinite": "vec3(0.0, 0.0, 1.0)",
+    "extra": "", "each": "", "end": "", "after": "", "flat": "", "flip": "", "point": "eye.xyz", "eye_point": "eye.xyz", "to_eye": "-eye_point", "view": "$to_eye", "infinite": "vec3(0.0, 0.0, 1.0)",
     "both": "", "light": "seen",
     "way": "seen.w == 0.0 ? lamp.xyz : lamp.xyz - point", "position": "$pr * eye", "normal": "normalize($nm_n)", "unit_normal": "normalize(N)",
     "unit_view": "normalize(V)", "unit_light": "normalize(way)", "distance": "length(way)", "attenuation": "1.0 / ($a + $b * d + $c * d * d)",
@@ -165,6 +166,7 @@ ATTENUATED = ("pittsburgh", "nyu", "nyu-point", "lambent", "learnopengl")
 MATERIAL = ("pittsburgh", "oregon", "lambent", "learnopengl", "angel") + THREES
 BLINN = ("pittsburgh", "lambent", "angel") + NYUS + THREES
 MIRROR = ("oregon",) + LEARN
+TERMS = ("pittsburgh", "oregon", "lambent", "learnopengl", "angel") + THREES
 EVERY = tuple(CONTRACTS)
 ALL = tuple(c for c in EVERY if c != "mdn")  # with a highlight
 SHINY = tuple(c for c in ALL if c != "learnopengl-basic")  # whose exponent is no number in the text, which may be any
@@ -296,6 +298,35 @@ MISTAKES = [
     ("alpha-one", P_ONLY + M_ONLY, "fv", {"alpha": "1.0"}),
     ("vertex-colour-clamped", P_ONLY + A_ONLY, "v", {"sum": "clamp($ambient + $kd * diffuse + $ks * specular, 0.0, 1.0)"}),
     ("encoded", ALL, "fv", {"out_color": "vec4(pow(clamp(color, 0.0, 1.0), vec3(1.0 / 2.2)), $alpha)"}),
+    # --- the position and its light
+    ("point-as-direction", ("pittsburgh",) + EYE_LIGHT, "fv", {"way": "lamp.xyz"}),
+    ("point-as-direction", ATTENUATED, "f", {"extra": "varying vec3 X[$count];", "each": "X[i] = lamp.xyz;", "unit_light": "normalize(X[i])"}),
+    ("light-plus-point", ("pittsburgh",) + EYE_LIGHT, "fv", {"way": "seen.w == 0.0 ? lamp.xyz : lamp.xyz + point"}),
+    ("point-transformed-twice", ("pittsburgh",) + EYE_LIGHT, "fv", {"point": "($mv * eye).xyz", "eye_point": "($mv * eye).xyz"}),
+    ("position-as-normal", ALL, "fv", [{"normal": "normalize($at.xyz)"}, {"normal": "normalize(($mv * vec4($at.xyz, 0.0)).xyz)"},
+                                         {"normal": "normalize(eye.xyz)"}, {"n": "$at.xyz"}]),
+    ("normal-transformed-twice", EVERY, "fv", {"normal": "normalize($nm_twice)"}),
+    ("normal-transformed-twice", EVERY, "fv", {"normal": "normalize(($mv * vec4($mv_n, 0.0)).xyz)"}),
+    ("normal-flat", tuple(c for c in ALL if c != "threejs"), "f", {"flat": "flat"}),  # not in the old versions
+    # --- terms
+    ("attenuation-twice", ATTENUATED, "fv", {"kept_d": "attenuation * attenuation * spot", "kept_s": "attenuation * attenuation * spot"}),
+    ("ambient-times-n.l", ("pittsburgh", "oregon", "learnopengl", "angel", "threejs"), "fv",
+     {"extra": "float lit_cosine;", "after": "lit_cosine = max(nl, 0.0);", "sum": "lit_cosine * $ambient + $kd * diffuse + $ks * specular"}),
+    ("n.r-for-v.r", MIRROR, "fv", {"base": "dot(r, n)"}),
+    ("v.h-for-n.h", BLINN, "fv", {"base": "dot(v, h)"}),
+    ("ambient-twice", TERMS, "fv", {"sum": "$ambient + $ambient + $kd * diffuse + $ks * specular"}),
+    ("ambient-halved", TERMS, "fv", {"sum": "0.5 * $ambient + $kd * diffuse + $ks * specular"}),
+    ("diffuse-twice", TERMS + NYUS, "fv", {"sum": "$ambient + 2.0 * $kd * diffuse + $ks * specular"}),
+    ("diffuse-halved", TERMS + NYUS, "fv", {"sum": "$ambient + $kd * diffuse / 2.0 + $ks * specular"}),
+    ("specular-twice", TERMS + NYUS, "fv", {"sum": "$ambient + $kd * diffuse + $ks * specular + $ks * specular"}),
+    ("specular-halved", TERMS + NYUS, "fv", {"sum": "$ambient + $kd * diffuse + 0.5 * $ks * specular"}),
+    ("lights-averaged", ("nyu", "threejs-raw") + M_ONLY, "fv", {"sum": "$ambient + ($kd * diffuse + $ks * specular) / float($count)"}),
+    ("lights-multiplied", ("nyu", "threejs-raw"), "fv", {"extra": "vec3 product;", "after": "product = (i == 0 ? vec3(1.0) : product) * "
+                                                        "($kd * $kept_d * D * $light_color + $ks * $kept_s * S * $light_specular);", "sum": "$ambient + product"}),
+    ("lights-multiplied", M_ONLY, "f", {"extra": "vec3 product;", "after": "product = (i == 0 ? vec3(1.0) : product) * "
+                                        "($kd * $kept_d * D * $light_color + $ks * $kept_s * S * $light_specular);", "sum": "$ambient + product"}),
+    ("channels-mixed", ALL, "fv", [{"out_color": "vec4(color.bgr, $alpha)"}, {"out_color": "vec4(color.rrr, $alpha)"}]),
+    ("tone-curve", ALL, "fv", [{"out_color": "vec4(color / (color + 1.0), $alpha)"}, {"out_color": "vec4(1.0 - exp(-color), $alpha)"}]),
     ("upside-down", EVERY, "fv", {"end": "gl_Position.y = -gl_Position.y;"}),
 ]
 
@@ -309,9 +340,10 @@ def fill(text, parts):
 def shader(contract, stage, dialect, parts):
     """The texts of a shader. `stage`: f or v, which computes the lighting."""
     all_parts = {**COMMON, **CONTRACTS[contract]}
+    all_parts["nm_twice"] = all_parts["nm_n"].replace("$n", "(%s)" % all_parts["nm_n"])
     both = all_parts["both"]
     all_parts.update({"vertex_uniforms": all_parts["vertex_uniforms"] + "\n" + both, "fragment_uniforms": all_parts["fragment_uniforms"] + "\n" + both})
-    all_parts.update({"varyings": "varying vec3 N, V, L[$count];", "local_varyings": "", "light_here": "", "light_in_fragment": LIGHTING, "out": "$out_color"})
+    all_parts.update({"varyings": "$flat varying vec3 N; varying vec3 V, L[$count];", "local_varyings": "", "light_here": "", "light_in_fragment": LIGHTING, "out": "$out_color"})
     if stage == "v":
         all_parts.update({"varyings": "varying vec4 lit;", "local_varyings": "vec3 N, V, L[$count];", "light_here": LIGHTING + " lit = $out_color;",
                           "light_in_fragment": "", "out": "lit", "vertex_uniforms": all_parts["vertex_uniforms"] + "\n" + all_parts["fragment_uniforms"],
@@ -338,9 +370,9 @@ def dialects_of(contract):
 
 def clashes(a, b):
     """Whether two mistakes cannot be made in one shader, or hide one another."""
-    groups = ("normal", "unit_normal"), ("light", "point", "eye_point", "way", "view", "unit_view", "unit_light", "mirror", "base", "each"), \
+    groups = ("normal", "unit_normal", "flat", "n"), ("light", "point", "eye_point", "way", "view", "unit_view", "unit_light", "mirror", "base", "each"), \
         ("attenuation", "distance", "kept_d", "kept_s", "extra"), ("S", "mirror", "base"), ("sum", "kd", "ks", "ambient", "alpha", "out_color"), ("D", "S", "kept_s"), \
-        ("first", "last", "add", "light_color", "light_specular"), ("spot", "inside", "cos", "spot_exponent"), ("end", "flip")
+        ("first", "last", "add", "light_color", "light_specular", "after"), ("spot", "inside", "cos", "spot_exponent"), ("end", "flip")
     return any(set(group) & set(a) and set(group) & set(b) for group in groups)
 
 
@@ -376,7 +408,7 @@ def mutants(versions=20, several=4):
                     made += 1
             for name, right, parts in sets:
                 turn += 1
-                known = dialects_of(contract)
+                known = [d for d in dialects_of(contract) if "flat" not in parts or d not in dialects.OLD]
                 for dialect in [known[(turn + k * len(known) // min(versions, len(known))) % len(known)] for k in range(min(versions, len(known)))]:
                     yield name, contract, stage, dialect, right, shader(contract, stage, dialect, parts)
 

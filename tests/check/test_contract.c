@@ -125,72 +125,74 @@ static void test_errors(void **state)
     bad("{", "my.json:1: ");
     bad("[]", "my.json: found a list of 0, expected an object");
     bad("{\"name\": \"x\"}", "my.json: the key 'contract' is missing");
-    bad("{\"contract\": 2, \"name\": \"x\"}", "my.json: contract: found 2, expected a number from 1 to 1");
+    bad("{\"contract\": 2, \"name\": \"x\"}", "my.json:1: contract: found 2, expected a number from 1 to 1");
     bad("{\"contract\": 1}", "my.json: the key 'name' is missing");
-    bad("{\"contract\": 1, \"nam\": \"x\"}", "my.json: nam: unknown key; did you mean 'name'?");
+    bad("{\"contract\": 1, \"nam\": \"x\"}", "my.json:1: nam: unknown key; did you mean 'name'?");
     bad("{\"contract\": 1, \"name\": \"x\", \"space\": \"clip\"}",
-        "my.json: space: found \"clip\", expected eye, world or object");
+        "my.json:1: space: found \"clip\", expected eye, world or object");
     bad(GOOD LIGHT "}, \"maps\": {\"colors\": \"gama\"}}",
-        "my.json: maps.colors: found \"gama\", expected linear or gamma; did you mean 'gamma'?");
-    bad(GOOD LIGHT "}, \"maps\": {\"v\": \"left\"}}", "my.json: maps.v: found \"left\", expected up or down");
+        "my.json:1: maps.colors: found \"gama\", expected linear or gamma; did you mean 'gamma'?");
+    bad(GOOD LIGHT "}, \"maps\": {\"v\": \"left\"}}", "my.json:1: maps.v: found \"left\", expected up or down");
     bad(GOOD LIGHT ", \"bumps\": {\"role\": \"normal_map\", \"type\": \"vec3\"}}}",
-        "my.json: uniforms.bumps.type: found \"vec3\", expected a type that fits the role normal_map: sampler2D");
+        "my.json:1: uniforms.bumps.type: found \"vec3\", expected a type that fits the role normal_map: sampler2D");
     bad(GOOD LIGHT "}, \"physical\": {\"masking\": \"smth\"}}",
-        "my.json: physical.masking: found \"smth\", expected smith or schlick; did you mean 'smith'?");
+        "my.json:1: physical.masking: found \"smth\", expected smith or schlick; did you mean 'smith'?");
     bad(GOOD LIGHT "}, \"highlight\": \"metallic-roughness\"}",
-        "my.json: uniforms: found no name with the role metallic or roughness, which the highlight metallic-roughness "
+        "my.json:1: uniforms: found no name with the role metallic or roughness, which the highlight "
+        "metallic-roughness "
         "needs");
     bad("{\"contract\": 1, \"name\": \"x\", \"highlight\": \"fong\"}",
-        "my.json: highlight: found \"fong\", expected phong, blinn-phong or metallic-roughness; did you mean 'phong'?");
-    bad("{\"contract\": 1, \"name\": \"x\", \"terms\": []}", "my.json: terms: found a list of 0, expected a list of");
-    bad("{\"contract\": 1, \"name\": \"x\", \"terms\": [\"shiny\"]}", "my.json: terms[0]: found \"shiny\", expected");
-    bad(GOOD END, "my.json: uniforms: found no light: expected a name with the role light_position");
+        "my.json:1: highlight: found \"fong\", expected phong, blinn-phong or metallic-roughness; did you mean "
+        "'phong'?");
+    bad("{\"contract\": 1, \"name\": \"x\", \"terms\": []}", "my.json:1: terms: found a list of 0, expected a list of");
+    bad("{\"contract\": 1, \"name\": \"x\", \"terms\": [\"shiny\"]}", "my.json:1: terms[0]: found \"shiny\", expected");
+    bad(GOOD END, "my.json:1: uniforms: found no light: expected a name with the role light_position");
     bad("{\"contract\": 1, \"name\": \"x\", \"uniforms\": {" LIGHT END,
-        "my.json: attributes: found no name with the role position");
+        "my.json:1: attributes: found no name with the role position");
     bad(GOOD "\"a\": {\"role\": \"light_positon\", \"type\": \"vec3\"}" END,
-        "my.json: uniforms.a.role: found \"light_positon\", expected a role of uniforms; did you mean "
+        "my.json:1: uniforms.a.role: found \"light_positon\", expected a role of uniforms; did you mean "
         "'light_position'?");
-    bad(GOOD "\"a\": {\"type\": \"vec3\"}" END, "my.json: uniforms.a: the key 'role' is missing");
+    bad(GOOD "\"a\": {\"type\": \"vec3\"}" END, "my.json:1: uniforms.a: the key 'role' is missing");
     bad(GOOD "\"a\": {\"role\": \"shininess\"}" END,
-        "my.json: uniforms.a: the key 'type' is missing, expected float, int, bool");
+        "my.json:1: uniforms.a: the key 'type' is missing, expected float, int, bool");
     bad(GOOD "\"a\": {\"role\": \"model\", \"type\": \"vec3\"}" END,
-        "my.json: uniforms.a.type: found \"vec3\", expected a type that fits the role model: mat3, mat4");
+        "my.json:1: uniforms.a.type: found \"vec3\", expected a type that fits the role model: mat3, mat4");
     bad(GOOD "\"a b\": {\"role\": \"model\", \"type\": \"mat4\"}" END,
-        "my.json: uniforms.a b: found \"a b\", expected a name of GLSL");
+        "my.json:1: uniforms.a b: found \"a b\", expected a name of GLSL");
     bad(GOOD "\"a.\": {\"role\": \"model\", \"type\": \"mat4\"}" END,
-        "my.json: uniforms.a.: found \"a.\", expected a name of GLSL");
+        "my.json:1: uniforms.a.: found \"a.\", expected a name of GLSL");
     bad(GOOD "\"a\": {\"role\": \"model\", \"type\": \"mat4\", \"space\": \"eye\"}" END,
-        "my.json: uniforms.a.space: the role model has no space");
+        "my.json:1: uniforms.a.space: the role model has no space");
     bad(GOOD LIGHT ", \"lampPlace\": {\"role\": \"light_position\", \"type\": \"vec3\"}" END,
-        "my.json: uniforms.lampPlace: this name has a role already");
+        "my.json:1: uniforms.lampPlace: this name has a role already");
     bad(GOOD LIGHT ", \"a\": {\"role\": \"model\", \"type\": \"mat4\", \"also\": [\"b\", \"lamp.place\"]}" END,
-        "my.json: uniforms.a.also[1]: 'lamp.place' has a role already");
+        "my.json:1: uniforms.a.also[1]: 'lamp.place' has a role already");
     bad(GOOD LIGHT ", \"a\": {\"role\": \"normal\", \"type\": \"vec3\"}" END,
-        "my.json: uniforms.a.role: found \"normal\", expected a role of uniforms");
+        "my.json:1: uniforms.a.role: found \"normal\", expected a role of uniforms");
     bad(GOOD LIGHT "}, \"varyings\": {\"normals\": []}}",
-        "my.json: varyings.normals: unknown key; expected normal, position");
-    bad(GOOD LIGHT "}, \"varyings\": {\"normal\": [1]}}", "my.json: varyings.normal[0]: found 1, expected a text");
+        "my.json:1: varyings.normals: unknown key; expected normal, position");
+    bad(GOOD LIGHT "}, \"varyings\": {\"normal\": [1]}}", "my.json:1: varyings.normal[0]: found 1, expected a text");
     bad(GOOD LIGHT "}, \"undeclared\": {\"shininess\": -1}}",
-        "my.json: undeclared.shininess: found -1, expected a number");
+        "my.json:1: undeclared.shininess: found -1, expected a number");
     bad(GOOD LIGHT "}, \"undeclared\": {\"light_color\": \"light\"}}",
-        "my.json: undeclared.light_color: found \"light\", expected a list of 3 numbers");
+        "my.json:1: undeclared.light_color: found \"light\", expected a list of 3 numbers");
     bad(GOOD LIGHT "}, \"undeclared\": {\"light_ambient\": \"sun\"}}",
-        "my.json: undeclared.light_ambient: found \"sun\", expected \"light\" or a list of 3 numbers");
+        "my.json:1: undeclared.light_ambient: found \"sun\", expected \"light\" or a list of 3 numbers");
     bad(GOOD LIGHT "}, \"undeclared\": {\"attenuation\": [0, 0, 0]}}",
-        "my.json: undeclared.attenuation: found 0, 0, 0");
+        "my.json:1: undeclared.attenuation: found 0, 0, 0");
     bad(GOOD LIGHT "}, \"undeclared\": {\"light_direction\": [0, 0, 0]}}",
-        "my.json: undeclared.light_direction: found 0, 0, 0");
+        "my.json:1: undeclared.light_direction: found 0, 0, 0");
     bad(GOOD LIGHT "}, \"constants\": {\"k\": \"model\"}}",
-        "my.json: constants.k: found \"model\", expected ambient_strength, diffuse_strength, specular_strength");
+        "my.json:1: constants.k: found \"model\", expected ambient_strength, diffuse_strength, specular_strength");
     bad(GOOD LIGHT "}, \"constants\": {\"a b\": \"shininess\"}}",
-        "my.json: constants.a b: found \"a b\", expected a name");
-    bad(GOOD LIGHT "}, \"prefix\": {\"vertex\": []}}", "my.json: prefix: the key 'fragment' is missing");
+        "my.json:1: constants.a b: found \"a b\", expected a name");
+    bad(GOOD LIGHT "}, \"prefix\": {\"vertex\": []}}", "my.json:1: prefix: the key 'fragment' is missing");
     bad(GOOD LIGHT "}, \"prefix\": {\"vertex\": [], \"fragment\": [1]}}",
-        "my.json: prefix.fragment[0]: found 1, expected");
-    bad(GOOD LIGHT "}, \"outputs\": [\"a.b\"]}", "my.json: outputs[0]: found \"a.b\", expected a name of GLSL");
-    bad(GOOD LIGHT "}, \"varyings\": {\"object_to_eye\": [\"e\"]}}", "my.json: varyings.object_to_eye: unknown key");
+        "my.json:1: prefix.fragment[0]: found 1, expected");
+    bad(GOOD LIGHT "}, \"outputs\": [\"a.b\"]}", "my.json:1: outputs[0]: found \"a.b\", expected a name of GLSL");
+    bad(GOOD LIGHT "}, \"varyings\": {\"object_to_eye\": [\"e\"]}}", "my.json:1: varyings.object_to_eye: unknown key");
     bad(GOOD LIGHT "}, \"built_ins\": \"gl_Vertex\"}",
-        "my.json: built_ins: found \"gl_Vertex\", expected a list of texts");
+        "my.json:1: built_ins: found \"gl_Vertex\", expected a list of texts");
 }
 
 // Every cut of a file is refused, and every failed allocation reported, without a leak.

@@ -91,7 +91,8 @@ class Right(CheckTest):
                                     ("angel", "angel", "fragment"), ("angel-vertex", "angel", "vertex"), ("mdn", "mdn", "vertex"),
                                     ("threejs", "threejs", "fragment"), ("threejs-raw", "threejs", "fragment"),
                                     ("learnopengl-pbr", "learnopengl-pbr", "fragment"), ("gltf", "gltf", "fragment"),
-                                    ("threejs-pbr", "threejs", "fragment"), ("learnopengl-pbr-maps", "learnopengl-pbr", "fragment"),
+                                    ("threejs-pbr", "threejs", "fragment"), ("webglfundamentals", "webglfundamentals", "fragment"),
+                                    ("feup", "feup", "fragment"), ("stthomas", "stthomas", "fragment"), ("learnopengl-pbr-maps", "learnopengl-pbr", "fragment"),
                                     ("gltf-maps", "gltf", "fragment"), ("threejs-pbr-maps", "threejs", "fragment")):
             with self.subTest(name):
                 report = self.report_of(*self.shader(name), size=128)
@@ -864,7 +865,7 @@ class Contracts(CheckTest):
         self.bad(2, "check", *words, "--contract", "none.json", says="none.json", leaves=("s.frag", "s.vert"))
         (self.folder / "my.json").write_text('{"contract": 1, "name": "mine", "uniforms": {"x": {"role": "ligth_position"}}}')
         self.bad(2, "check", *words, "--contract", "my.json", leaves=("s.frag", "s.vert", "my.json"),
-                 says=("my.json: uniforms.x.role: found \"ligth_position\"", "did you mean 'light_position'"))
+                 says=("my.json:1: uniforms.x.role: found \"ligth_position\"", "did you mean 'light_position'"))
 
 
 class Several(CheckTest):

@@ -62,7 +62,7 @@ class Models(Case):
         """60 kB of mtllib lines took gigabytes."""
         self.write("big.mtl", b"".join(b"newmtl m%d\nKd 1 0 0\nmap_Kd %d.png\n" % (i, i) for i in range(2000)))
         self.write("many.obj", b"mtllib big.mtl\n" * 4000 + b"v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m3\nf 1 2 3\n")
-        self.good("many.obj", "-s", 8, "-o", "-", "--memory-limit", "20M", "--threads", 2)
+        self.good("many.obj", "-s", 8, "-o", "-", "--memory-limit", "36M", "--threads", 2)
 
     def test_thousand_spheres(self):
         spheres = [{"shape": "sphere", "transform": [["translate", i % 32, i // 32, 0], ["scale", 0.4]]} for i in range(1000)]

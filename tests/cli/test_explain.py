@@ -218,11 +218,11 @@ class Explain(Case):
 
     def test_text(self):
         text = self.good("explain", "teapot", "31,34", "-s", 64, "--rig", "headlight").stdout.decode()
-        for part in ("teapot: pixel 31,34 of 64x64", "triangle", "8 samples a pixel", "weights of the corners", "θ", "φ", "ψ", "°   between n and l",
+        for part in ("teapot: pixel 31,34 of 64x64", "triangle", "16 samples a pixel", "weights of the corners", "θ", "φ", "ψ", "°   between n and l",
                      "base^α", "spot · attenuation · kd ⊙ Ld · D = 1 · 1 · (", "weighted sum", "sRGB curve", "floor(255 x + ½)"):
             self.assertIn(part, text)
         counts = [tuple(map(int, pair)) for pair in re.findall(r": (\d+) of (\d+) samples", text)]
-        self.assertTrue(counts and all(of == 8 for _, of in counts) and sum(n for n, _ in counts) <= 8)
+        self.assertTrue(counts and all(of == 16 for _, of in counts) and sum(n for n, _ in counts) <= 16)
         landed = tuple(map(int, re.search(r"bytes +(\d+) +(\d+) +(\d+) +(\d+)", text).groups()))
         self.assertEqual(landed, pixel(self.png("teapot", "-s", 64, "--rig", "headlight"), 31, 34))
         self.assertIn("Only the background is visible here", self.good("explain", "teapot", "0,0", "-s", 64).stdout.decode())

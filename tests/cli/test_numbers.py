@@ -75,7 +75,7 @@ LAYERS = constant("src/cpu/raster/tile.h", "LAYERS_MAX")
 TILE = constant("src/cpu/raster/tile.h", "TILE")
 FEW_LIGHTS = constant("src/cpu/lights/light_bounds.h", "LIGHTS_ALL_SUMMED")
 FOVY = code("src/scene/camera.c", r"fovy_rad = (\d+) \* \(PI / 180\)")
-FILL = code("src/scene/camera_fit.c", r"view->fill : ([\d.]+)")
+FILL = constant("src/scene/camera_fit.c", "FILL")
 CREASE = code("src/scene/scene.c", r"math_radians\((\d+)\)")
 SPHERE = constant("src/environment/cube_map.h", "CUBE_SIDE_MOST")
 PERCENT_FILL = counted("100 times " + FILL.what, lambda: 100 * FILL.look_up())
@@ -85,7 +85,7 @@ OVER_CHECK = code("src/check", r"share_over <= ([\d.]+)")
 PIXELS_OVER_CHECK = counted("1 divided by " + OVER_CHECK.what, lambda: 1 / OVER_CHECK.look_up())
 TOLERANCE = code("src/check/check.c", r"p->tolerance : ([\d.]+) / 255")
 
-SAMPLES = [constant("src/frame/frame.c", name) for name in ("SMALL_SAMPLES", "SMALL_SIDE", "LARGE_SAMPLES")]
+SAMPLES = [constant("src/frame/frame.c", name) for name in ("TINY_SAMPLES", "TINY_SIDE", "SMALL_SAMPLES", "SMALL_SIDE", "LARGE_SAMPLES")]
 BLOCK = constant("src/cpu/lights/light_cull_blocks.inc", "BLOCK_SHIFT")
 LEAST_ID = code("src/device/encode_values.c", r"uint8_t\)\((\d+) \+")
 OVERDRAW = code("src/device/encode_values.c", r"/ \(v\[c\] \+ ([\d.]+)f")
@@ -94,10 +94,10 @@ OVERDRAW = code("src/device/encode_values.c", r"/ \(v\[c\] \+ ([\d.]+)f")
 ROWS = [
     ("docs/lighting/pixels.md", "snapped to 1/{} of a pixel", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
     ("docs/lighting/pixels.md", "lies up to 1/{} of a pixel outside", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
-    ("docs/lighting/pixels.md", "(by default {} in pictures of up to {}² pixels, {} above)", *SAMPLES),
-    ("docs/scene-file.md", "| `samples` | {} up to {}² pixels, {} above |", *SAMPLES),
-    ("tools/options/option_table.c", "\"{} up to {}x512 pixels, {} above\"", *SAMPLES),
-    ("include/lambent/device.h", "where lam_draw_params do not say: {} up to {}² pixels, whose edges show steps at 4, and {} above", *SAMPLES),
+    ("docs/lighting/pixels.md", "(by default {} in pictures of up to {}² pixels, {} up to {}², {} above)", *SAMPLES),
+    ("docs/scene-file.md", "| `samples` | {} up to {}² pixels, {} up to {}², {} above |", *SAMPLES),
+    ("tools/options/option_table.c", "\"{} up to {}x256 pixels, {} up to {}x512, {} above\"", *SAMPLES),
+    ("include/lambent/device.h", "if lam_draw_params give none: {} up to {}² pixels, where thin wires would break into dashes, {} up to {}², and {} above", *SAMPLES),
     ("docs/view.md", "more than {} triangles, lines and points", constant("tools/view/view_draw.h", "VIEW_TRIANGLES_MAX")),
     ("docs/view.md", "files of more than {} MB", counted("megabytes of PAGE_FILES_MAX", lambda: constant("tools/page/page_write.h", "PAGE_FILES_MAX").look_up() / 1e6)),
     ("docs/view.md", "minutes, by default {}", constant("tools/view/view_server.c", "IDLE_MINUTES")),
@@ -109,7 +109,6 @@ ROWS = [
     ("docs/lighting/surfaces.md", "At most {} translucent triangles may lie over one pixel", LAYERS),
     ("docs/lighting/reflection.md", "Faces may have up to {} pixels on a side", SPHERE),
     ("docs/lighting/reflection.md", "built in, computed, {} pixels on a side", constant("src/environment/environment_made.c", "SIDE")),
-    ("docs/scene-file.md", "With more than {} lights", FEW_LIGHTS),
     ("docs/rooms/cpu.md", "tiles of {}×{} pixels", TILE, TILE),
     ("docs/rooms/cpu.md", "A thread holds {} such fragments", LAYERS),
     ("docs/rooms/cpu.md", "shaded in batches of {}", constant("src/cpu/shade/shading_batch.h", "BATCH_MAX")),
@@ -185,7 +184,7 @@ class Sentences(Case):
         script = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(script)
         pages = script.pages_with_sections(PROGRAM)
-        self.assertEqual(set(pages), {"docs/lighting/lights.md", "docs/lighting/explain.md", "docs/check/contract-file.md", "docs/scene-file.md", "docs/teaching.md"})
+        self.assertEqual(set(pages), {"docs/lighting/lights.md", "docs/lighting/explain.md", "docs/check/contract-file.md", "docs/scene-file.md", "docs/teaching.md", "docs/formats.md"})
         for path, text in pages.items():
             self.assertEqual((ROOT / path).read_text(), text, f"{path}: python3 scripts/docs.py build/lambent --text rewrites it")
 
@@ -197,17 +196,17 @@ class Sentences(Case):
 
 
 # Options whose default is not a value that can be given, with what stands there.
-NOT_VALUES = {"output", "quality", "color", "view", "camera", "light", "material", "back-material", "cull", "segments", "environment", "reflectivity", "threads",
+NOT_VALUES = {"point-size", "output", "quality", "color", "view", "camera", "light", "material", "back-material", "cull", "segments", "environment", "reflectivity", "threads",
               "gl-device", "edges", "time-limit", "memory-limit", "triangle-limit", "object-limit", "layer-limit", "expansion-limit", "pixel-limit", "file-limit", "json-depth-limit", "allow-path", "show", "up", "reflection", "isa", "device", "repeat", "scene", "variant", "animation", "time", "views", "sizes", "journal"}
 # What else to give so that the option matters, and another value of it.
 CONTEXT = {
     "turntable-light": (["--turntable", "3"], "model"), "frames": (["--sweep", "zoom=1..2"], "4"), "fps": (["--turntable", "3"], "12"),
-    "sandbox": ([], None), "retry-failed": ([], None), "shard": ([], None), "shard-by": ([], None), "size": ([], "64"), "samples": ([], "16"), "exposure": ([], "1"), "tone": ([], "aces"), "crease-angle": ([], "20"), "compress": ([], None), "term": ([], None),
+    "sandbox": ([], None), "retry-failed": ([], None), "shard": ([], None), "shard-by": ([], None), "size": ([], "64"), "samples": ([], "2"), "exposure": ([], "1"), "tone": ([], "aces"), "crease-angle": ([], "20"), "compress": ([], None), "term": ([], None),
     "background": ([], "white"), "color-mode": ([], "raw"), "azimuth": ([], "31"), "elevation": ([], "21"), "zoom": ([], "1.1"), "fov": ([], "40"),
     "projection": ([], "orthographic"), "rig": ([], "headlight"), "ambient": ([], "0.1"), "light-cutoff": (["lights.json"], "0.1"),
     "light-scale": ([], "1.1"), "shading": ([], "flat"), "stage": ([], None), "flat-normal": (["--shading", "flat"], "vertex"),
     "reference": (["--environment", "studio", "--material", "#ffc356,metallic=1,roughness=0.3"], "64"),
-    "anisotropy": (["floor.obj"], "8"), "line-width": (["lines.obj"], "3"), "point-size": (["lines.obj"], "5"), "viewer": ([], "infinite"), "normals": ([], "facet"),
+    "anisotropy": (["floor.obj"], "8"), "line-width": (["lines.obj"], "3"), "viewer": ([], "infinite"), "normals": ([], "facet"),
     "texture-filter": (["floor.obj"], None),
     "shadow-terminator": (["--shadows", "--light", "point:position=2r/3r/1r"], "off"),
     "shadow-samples": (["--shadows", "--light", "point:position=2r/3r/1r,radius=0.5"], "3"),

@@ -14,7 +14,7 @@ class Picture(Case):
     def test_default_size_and_samples(self):
         image = self.report("cube.obj")["image"]
         self.assertEqual((image["width"], image["height"], image["samples"]), (1024, 1024, 4))
-        for size, samples in ("512x512", 8), ("1024x256", 8), ("513x512", 4), ("16", 8):
+        for size, samples in ("512x512", 8), ("1024x256", 8), ("513x512", 4), ("16", 16), ("257x256", 8):
             image = self.report("cube.obj", "-s", size, "-o", "a.png", "--save-scene", "a.json")["image"]
             self.assertEqual(image["samples"], samples, size)
             whole = (self.folder / "a.png").read_bytes()
@@ -46,7 +46,7 @@ class Picture(Case):
         for n in (2, 4, 8, 16):
             self.assertGreater(len(set(pictures[n][2][3::4])), 2)
             self.assertTrue(all(abs(a * n / 255 - round(a * n / 255)) < 0.05 for a in pictures[n][2][3::4]))
-        self.assertEqual(pictures[8], self.png("cube.obj", "-s", 40))
+        self.assertEqual(pictures[16], self.png("cube.obj", "-s", 40))
 
     def test_color_mode(self):
         raw, plain = self.png("cube.obj", "-s", 32, "--color-mode", "raw"), self.png("cube.obj", "-s", 32)

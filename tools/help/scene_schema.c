@@ -115,9 +115,11 @@ static void print_settings(void)
         case LAM_SETTING_WHOLE:
         case LAM_SETTING_NUMBER:
         case LAM_SETTING_ANGLE:
-            printf("\"type\": \"%s\", \"minimum\": %.10g, \"maximum\": %.10g, \"default\": %.3g",
+            printf("\"type\": \"%s\", \"minimum\": %.10g, \"maximum\": %.10g",
                    setting->type == LAM_SETTING_WHOLE ? "integer" : "number", setting->zero ? 0 : setting->min,
-                   setting->max, setting->standard);
+                   setting->max);
+            if (setting->standard >= setting->min || setting->zero) // else the default depends on the scene
+                printf(", \"default\": %.3g", setting->standard);
             break;
         }
         printf(", \"description\": \"%s\"}", setting->summary);

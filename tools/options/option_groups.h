@@ -218,8 +218,9 @@ struct check_options {
     int highlight;        // lam_reflection; AUTO: the contract's
     int terms;            // bits of lam_check_term; 0: as the shaders declare
     double stop_after_s;
-    int search_limit;               // lam_check_params.max_pictures
-    const char *class_folder, *csv; // NULL: none
+    int search_limit;                                            // lam_check_params.max_pictures
+    const char *class_folder, *csv;                              // NULL: none
+    const char *moodle, *gradescope, *submitty, *write_contract; // files; NULL: none
     bool list;
 };
 

@@ -44,6 +44,27 @@ static const struct word *words_of(const lam_setting *setting)
     return first;
 }
 
+// A number of at least 0 with up to five decimals, three digits in all if it has some. printf would take a tenth of the start.
+static void put_number(char *text, double number)
+{
+    long long scaled = (long long)(number * 100000 + 0.5), unit = 1;
+    for (; scaled / unit >= 1000 && unit < 100000; unit *= 10)
+        ;
+    scaled = (scaled + unit / 2) / unit * unit;
+    char digits[24];
+    int count = 0, skipped = 0;
+    for (long long rest = scaled; rest || count < 6; rest /= 10)
+        digits[count++] = (char)('0' + rest % 10);
+    while (skipped < 5 && digits[skipped] == '0')
+        skipped++;
+    while (count > skipped) {
+        if (count == 5)
+            *text++ = '.';
+        *text++ = digits[--count];
+    }
+    *text = 0;
+}
+
 // The word of 0, or the number.
 static const char *standard_of(const lam_setting *setting, char text[NAME_SIZE])
 {
@@ -56,7 +77,7 @@ static const char *standard_of(const lam_setting *setting, char text[NAME_SIZE])
     for (int i = 0; setting->word && (word = setting->word(i, &value)); i++)
         if (value == 0)
             return word;
-    snprintf(text, NAME_SIZE, "%.3g", setting->standard);
+    put_number(text, setting->standard);
     return text;
 }
 
@@ -70,29 +91,43 @@ static const struct {
     [LAM_SETTING_WORDS] = {store_words, "WORDS"},      [LAM_SETTING_RGBA] = {NULL, NULL},
 };
 
-static struct option *row_of(const lam_setting *setting, int rows)
+// The rows that leave something to the settings' table, and the number of all rows. Returns the number of the former.
+static int open_rows(struct option *table, struct option *open[LAM_SETTINGS_MAX], int *rows)
 {
-    for (int i = 0; i < rows; i++)
-        if (is_named(option_table[i].name, setting->key))
-            return &option_table[i];
+    int count = 0;
+    for (*rows = 0; table[*rows].name; ++*rows)
+        if ((!table[*rows].store || !table[*rows].summary) && count < LAM_SETTINGS_MAX)
+            open[count++] = &table[*rows];
+    return count;
+}
+
+static struct option *row_of(const lam_setting *setting, struct option *const *rows, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (*rows[i]->name == *setting->key && is_named(rows[i]->name, setting->key))
+            return rows[i];
     return NULL;
 }
 
-int option_settings_fill(int rows)
+void option_settings_fill(struct option table[OPTIONS_MAX])
 {
     static char names[LAM_SETTINGS_MAX][NAME_SIZE], standards[LAM_SETTINGS_MAX][NAME_SIZE];
     const lam_setting *setting;
-    int count = rows;
-    pool_used = 0;
+    struct option *open[LAM_SETTINGS_MAX];
+    int rows, count = open_rows(table, open, &rows);
+    if (rows >= OPTIONS_MAX - LAM_SETTINGS_MAX)
+        abort(); // OPTIONS_MAX must grow
+    if (pool_used)
+        return; // it is full already
     for (int i = 0; (setting = lam_draw_setting(i)); i++) {
-        struct option *o = row_of(setting, rows);
+        struct option *o = row_of(setting, open, count);
         if (!o && !kinds[setting->type].store)
             continue; // a colour is set by another option: it depends on --color-mode
         if (!o) {
             snprintf(names[i], NAME_SIZE, "%s", setting->key);
             for (char *c = names[i]; *c; c++)
                 *c = *c == '_' ? '-' : *c;
-            o = &option_table[count++];
+            o = &table[rows++];
             *o = (struct option){.name = names[i], .group = GROUP_SHADING, .value = kinds[setting->type].value};
         }
         o->setting = setting;
@@ -104,5 +139,4 @@ int option_settings_fill(int rows)
             o->field = offsetof(struct options, draw) + setting->offset;
         }
     }
-    return count;
 }

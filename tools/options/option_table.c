@@ -6,8 +6,6 @@
 
 #include <lambent/check.h>
 
-#include <string.h>
-
 // Degrees of --fov, and of --camera with fovy alone.
 #define FOV_MIN 0.1
 #define FOV_MAX 179.9
@@ -230,7 +228,7 @@ static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest that 
                                         {"wasm", LAM_ISA_WASM, "WebAssembly's SIMD128, 4 lanes"},
                                         {NULL, 0, NULL}};
 
-static const struct option rows[] = {
+struct option option_table[OPTIONS_MAX] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", output_summary,
      "The extension selects the format; `lambent formats` says which numbers each holds. `-` writes a PNG to standard "
      "output; a pipe or device whose name has no such extension also gets a PNG, and so does a file whose name has no "
@@ -574,7 +572,7 @@ static const struct option rows[] = {
      "colour and width: light, exposure, tone and distance do not change them. `docs/edges.md` has pictures.",
      .others = "wire mesh mesh-lines show-edges polygons topology", .loads = true},
     {"wireframe-width", 0, GROUP_SHADING, "PIXELS", .others = "wire-width"},
-    {"wireframe-color", 0, GROUP_SHADING, "COLOR", NULL, NULL, "An alpha below 1 lets the surfaces through.",
+    {"wireframe-color", 0, GROUP_SHADING, "COLOR", "black", NULL, "An alpha below 1 lets the surfaces through.",
      .kind = VALUE_COLOR, .store = store_color, .others = "wire-color", FIELD(shading.wireframe_color)},
     {"edges", 0, GROUP_SHADING, "KINDS", "none", NULL,
      "`crease`: two faces meet at more than `--edge-angle`, or more than two faces meet; `boundary`: a surface ends; "
@@ -583,7 +581,7 @@ static const struct option rows[] = {
      .others = "edge feature-edges outline outlines contour toon lineart line-art", .loads = true},
     {"edge-angle", 0, GROUP_SHADING, "DEGREES", .others = "feature-angle sharp-angle"},
     {"edge-width", 0, GROUP_SHADING, "PIXELS", .others = "outline-width"},
-    {"edge-color", 0, GROUP_SHADING, "COLOR", NULL, NULL, NULL, .kind = VALUE_COLOR, .store = store_color,
+    {"edge-color", 0, GROUP_SHADING, "COLOR", "black", NULL, NULL, .kind = VALUE_COLOR, .store = store_color,
      .others = "outline-color", FIELD(shading.edge_color)},
     {"hidden-lines", 0, GROUP_SHADING, "HOW", NULL, NULL,
      "What is hidden is decided by rays from each edge to the eye: exact, so that no line is broken where it runs "
@@ -906,8 +904,9 @@ static const struct option rows[] = {
      "Without it a correct one is generated, which recognises varyings by name and type (`docs/check.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.vertex)},
     {"contract", 0, GROUP_CHECK, "NAME", "auto", "The names that the shaders use: a contract's name, or its file.",
-     "The contracts that are built in, which `auto` recognises, are printed by `--list`. A file of your own is JSON "
-     "(`docs/check.md`).",
+     "`auto` recognises the built-in contracts by their names, and else the use of each input; `--list` prints them. A "
+     "file "
+     "of your own is JSON (`docs/check/contract-file.md`).",
      contract_words, .kind = VALUE_FILE, .store = store_text, FIELD(check.contract)},
     {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's", "The space of light positions: object or camera.", NULL,
      light_frame_words, .store = store_word, FIELD(check.light_frame)},
@@ -933,8 +932,19 @@ static const struct option rows[] = {
      "fragment shader and the vertex shader of the same name beside it. With `-o FOLDER/` there is a page for the "
      "whole class, `index.html`, and a sheet of each submission.",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.class_folder)},
-    {"csv", 0, GROUP_CHECK, "FILE", NULL, "Also write a line for each shader: points by scene and term, mistakes.",
-     NULL, .kind = VALUE_FILE, .store = store_text, .others = "grades marks table", FIELD(check.csv)},
+    {"csv", 0, GROUP_CHECK, "FILE", NULL, "A line for each shader: points and mistakes.", NULL, .kind = VALUE_FILE,
+     .store = store_text, .others = "grades marks table", FIELD(check.csv)},
+    {"moodle", 0, GROUP_CHECK, "FILE", NULL, "Grades as a worksheet of Moodle (CSV).",
+     "Folders that Moodle names after their participants are recognised.", .kind = VALUE_FILE, .store = store_text,
+     FIELD(check.moodle)},
+    {"gradescope", 0, GROUP_CHECK, "FILE", NULL, "One submission's results.json for Gradescope.", NULL,
+     .kind = VALUE_FILE, .store = store_text, FIELD(check.gradescope)},
+    {"submitty", 0, GROUP_CHECK, "FILE", NULL, "One submission's result for Submitty.",
+     "The file is its validation_results.json.", .kind = VALUE_FILE, .store = store_text, FIELD(check.submitty)},
+    {"write-contract", 0, GROUP_CHECK, "FILE", NULL, "Write a commented contract for the shaders.",
+     "It is the contract that was recognised, or the roles that the inputs have by their use: correct it, and check "
+     "with `--contract FILE` (`docs/check/contract-file.md`).",
+     .kind = VALUE_FILE, .store = store_text, FIELD(check.write_contract)},
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
      .store = store_switch, FIELD(check.list)},
     {"glsl", 0, GROUP_SHADER, "VERSION", "330", "The version of GLSL: 330, 120 or 300es.",
@@ -1026,11 +1036,6 @@ static const struct option rows[] = {
      "`lambent help TOPIC` explains a subject, a command or an option.", .store = store_switch, .others = "? usage",
      FIELD(report.help), .letter_field = offsetof(struct options, report.brief_help)},
 };
-enum { ROWS = sizeof rows / sizeof *rows };
-_Static_assert(ROWS + LAM_SETTINGS_MAX < OPTIONS_MAX, "more options than struct options has marks for");
-
-struct option option_table[OPTIONS_MAX];
-
 static char *append(char *to, const char *text)
 {
     while (*text)
@@ -1041,8 +1046,7 @@ static char *append(char *to, const char *text)
 // Runs at every start of the program, so it avoids printf.
 void option_table_fill(void)
 {
-    memcpy(option_table, rows, sizeof rows);
-    option_settings_fill(ROWS);
+    option_settings_fill(option_table);
     char *end = append(reflection_summary, "The reflection model:");
     for (int i = 0; i < LAM_REFLECTION_COUNT; i++) {
         const lam_reflection_info *model = lam_reflection_describe((lam_reflection)i);

@@ -138,9 +138,9 @@ struct option {
 extern struct option option_table[OPTIONS_MAX];
 // Fills the table, with the words and settings that come from the library's tables. main calls it before anything reads the table.
 void option_table_fill(void);
-// Of the first `rows` options, those of settings get what their rows leave to the library's table; an option for each other setting
-// follows. Returns the number of options.
-int option_settings_fill(int rows);
+// The rows of settings get what they leave to the library's table; an option for each other setting follows the last row. A second
+// call changes nothing.
+void option_settings_fill(struct option table[OPTIONS_MAX]);
 extern const char *const group_titles[GROUP_COUNT];
 
 struct options option_defaults(void);

@@ -26,6 +26,11 @@ static const struct {
     {"threejs", text_threejs_json},
     {"learnopengl-pbr", text_learnopengl_pbr_json},
     {"gltf", text_gltf_json},
+    {"webglfundamentals", text_webglfundamentals_json},
+    {"feup", text_feup_json},
+    {"stthomas", text_stthomas_json},
+    {"chile", text_chile_json},
+    {"glsl120", text_glsl120_json},
 };
 enum { SHIPPED = sizeof shipped / sizeof *shipped };
 

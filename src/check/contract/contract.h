@@ -101,7 +101,7 @@ enum contract_demand {
 };
 
 enum contract_term { TERM_AMBIENT = 1, TERM_DIFFUSE = 2, TERM_SPECULAR = 4 };
-enum { MAX_LIGHT_GROUPS = 8 };
+enum { MAX_LIGHT_GROUPS = 8, MAX_WEIGHTS = 32 };
 
 struct contract {
     const char *name, *title, *text;         // `text`: the file
@@ -132,7 +132,10 @@ struct contract {
     bool has_attenuation;    // names or constants
     bool material_strengths; // colours and their strengths are apart
     bool any_strengths;      // strengths and colours are the shader's own: those that fit its pictures count
-    bool printed;            // shaders of `lambent shader`, whose loops name the kinds of lights
+    // Of GLSL 110 and 120: names of gl_LightSource and the like; the texts are rewritten (fixed_state.h).
+    bool fixed_state;
+    const double *weights; // the points of each reference scene
+    bool printed;          // shaders of `lambent shader`, whose loops name the kinds of lights
 };
 
 // A contract that owns its memory.

@@ -1,5 +1,6 @@
 // contract_names.c: reads the attributes and uniforms of a contract.
 #include "contract_reader.h"
+#include "fixed_state.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -79,6 +80,14 @@ static bool find_group(struct contract_reader *r, const struct place *place, con
     return c->groups[c->group_count++] || contract_no_memory(r);
 }
 
+// A name of the fixed state as it is in rewritten texts: fixed_LightSource[].position.
+static const char *fixed_state_name(struct arena *arena, const char *name)
+{
+    char text[80];
+    snprintf(text, sizeof text, "fixed_%s", name + 3);
+    return arena_string(arena, text);
+}
+
 static bool is_taken(const struct contract_reader *r, const char *name, bool attribute)
 {
     size_t length = strlen(name);
@@ -97,11 +106,12 @@ static bool is_taken(const struct contract_reader *r, const char *name, bool att
 static bool read_name(struct contract_reader *r, const struct place *place, const char *name, const json_t *value,
                       bool attribute)
 {
-    static const char *const keys[] = {"role", "type", "space", "also", "meaning", NULL};
+    static const char *const keys[] = {"role", "type", "space", "also", "meaning", "comment", NULL};
     const struct role *role = NULL;
     int space = r->contract->space;
     struct contract_name row = {.attribute = attribute, .group = -1};
     if (!contract_check_name(r, place, name, attribute) || !json_check_keys(&r->json, place, value, keys) ||
+        !contract_check_comment(r, place, value) ||
         !read_role(r, place, json_object_get(value, "role"), attribute, &role) ||
         !read_type(r, place, json_object_get(value, "type"), role, &row.type) ||
         !json_take_word(&r->json, place, value, "space", contract_spaces, &space))
@@ -120,11 +130,15 @@ static bool read_name(struct contract_reader *r, const struct place *place, cons
         if (is_taken(r, json_string_value(json_array_get(also, i)), attribute))
             return json_fail(&r->json, ELEMENT_OF(KEY_OF(place, "also"), i), "'%s' has a role already",
                              json_string_value(json_array_get(also, i)));
-    if (role->uses & ROLE_LIGHT && !find_group(r, place, name, &row.group))
+    const char *inner = fixed_state_has(name) ? fixed_state_name(r->arena, name) : name;
+    if (!inner)
+        return contract_no_memory(r);
+    if (role->uses & ROLE_LIGHT && !find_group(r, place, inner, &row.group))
         return false;
     row.semantic = role->semantic;
     row.space = (lam_light_frame)space;
-    row.name = arena_string(r->arena, name);
+    r->contract->fixed_state = r->contract->fixed_state || fixed_state_has(name);
+    row.name = arena_string(r->arena, inner);
     row.meaning = arena_string(r->arena, meaning);
     if (!row.name || !row.meaning)
         return contract_no_memory(r);

@@ -44,12 +44,78 @@ static bool read_demands(struct contract_reader *r, const json_t *root)
     return true;
 }
 
+// How many points each scene is worth.
+static bool read_weights(struct contract_reader *r, const json_t *root)
+{
+    const json_t *object = json_object_get(root, "weights");
+    const struct place *place = KEY_OF(NULL, "weights");
+    const char *names[MAX_WEIGHTS + 1] = {NULL};
+    double *weights = arena_alloc_zeroed(r->arena, MAX_WEIGHTS * sizeof *weights);
+    if (!weights)
+        return contract_no_memory(r);
+    r->contract->weights = weights;
+    for (int i = 0; i < MAX_WEIGHTS; i++) {
+        weights[i] = 1;
+        names[i] = i < reference_scene_count ? reference_scenes[i].name : NULL;
+    }
+    if (object && !json_check_keys(&r->json, place, object, names))
+        return false;
+    for (int i = 0; object && names[i]; i++)
+        if (!json_take_number(&r->json, place, object, names[i], 0, 1000, &weights[i]))
+            return false;
+    return true;
+}
+
 static bool has(const struct contract *c, enum uniform_semantic semantic)
 {
     for (const struct contract_name *n = c->names; n->name; n++)
         if (n->semantic == semantic)
             return true;
     return false;
+}
+
+static bool has_any(const struct contract *c, const enum uniform_semantic *list)
+{
+    for (; *list != SEMANTIC_NONE; list++)
+        if (has(c, *list))
+            return true;
+    return false;
+}
+
+// What a shader has no name for because the contract has none either: no attenuation, strengths of 1, white colours. Products of
+// colours have strengths in them.
+static void complete_defaults(struct contract *c)
+{
+    static const enum uniform_semantic attenuations[] = {SEMANTIC_ATTENUATION, SEMANTIC_ATTENUATION_CONSTANT,
+                                                         SEMANTIC_ATTENUATION_LINEAR, SEMANTIC_ATTENUATION_QUADRATIC,
+                                                         SEMANTIC_NONE};
+    struct contract_defaults *d = &c->defaults;
+    const struct {
+        struct default_color *color;
+        enum uniform_semantic names[5];
+    } colors[] = {
+        {&d->ambient_color, {SEMANTIC_AMBIENT, SEMANTIC_AMBIENT_PRODUCT, SEMANTIC_LIGHT_AMBIENT_PRODUCT}},
+        {&d->diffuse_color, {SEMANTIC_DIFFUSE, SEMANTIC_DIFFUSE_PRODUCT, SEMANTIC_COLOR}},
+        {&d->specular_color, {SEMANTIC_SPECULAR, SEMANTIC_SPECULAR_PRODUCT, SEMANTIC_SPECULAR_COLOR}},
+        {&d->light_color, {SEMANTIC_LIGHT_COLOR, SEMANTIC_DIFFUSE_PRODUCT}},
+        {&d->light_specular, {SEMANTIC_LIGHT_SPECULAR, SEMANTIC_SPECULAR_PRODUCT}},
+        {&d->light_ambient,
+         {SEMANTIC_LIGHT_AMBIENT, SEMANTIC_AMBIENT_LIGHT, SEMANTIC_AMBIENT_PRODUCT, SEMANTIC_LIGHT_AMBIENT_PRODUCT}}};
+    const struct {
+        enum uniform_semantic strength;
+        struct default_number *value;
+    } strengths[] = {
+        {SEMANTIC_KA, &d->ambient_strength}, {SEMANTIC_KD, &d->diffuse_strength}, {SEMANTIC_KS, &d->specular_strength}};
+    if (!d->has_attenuation && !has_any(c, attenuations)) {
+        d->has_attenuation = true;
+        d->attenuation[0] = 1;
+    }
+    for (size_t i = 0; i < sizeof strengths / sizeof *strengths; i++)
+        if (!has(c, strengths[i].strength) && !strengths[i].value->given)
+            *strengths[i].value = (struct default_number){true, 1};
+    for (size_t i = 0; i < sizeof colors / sizeof *colors; i++)
+        if (colors[i].color->source == COLOR_OF_SCENE && !has_any(c, colors[i].names))
+            *colors[i].color = (struct default_color){COLOR_GIVEN, {1, 1, 1}};
 }
 
 // What follows from the names.
@@ -71,6 +137,7 @@ static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
     c->has_attenuation = has(c, SEMANTIC_ATTENUATION) || has(c, SEMANTIC_ATTENUATION_CONSTANT) ||
                          has(c, SEMANTIC_ATTENUATION_LINEAR) || has(c, SEMANTIC_ATTENUATION_QUADRATIC) ||
                          (d->has_attenuation && (d->attenuation[1] > 0 || d->attenuation[2] > 0));
+    complete_defaults(c);
     c->material_strengths = has(c, SEMANTIC_KA) || has(c, SEMANTIC_KD) || has(c, SEMANTIC_KS);
     c->supports = (c->terms & TERM_AMBIENT ? NEED_AMBIENT : 0) | (c->has_attenuation ? NEED_ATTENUATION : 0) |
                   (position ? NEED_POINT : 0) | (direction ? NEED_DIRECTIONAL : 0) |
@@ -101,11 +168,11 @@ static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
 
 static bool read_root(struct contract_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"contract",   "name",         "title",        "glsl",      "space",
-                                       "terms",      "highlight",    "alpha",        "two_sided", "printed",
-                                       "attributes", "uniforms",     "built_ins",    "varyings",  "outputs",
-                                       "constants",  "undeclared",   "prefix",       "physical",  "maps",
-                                       "gate",       "unit_normals", "bare_ambient", "strengths", NULL};
+    static const char *const keys[] = {
+        "contract",     "name",         "title",      "glsl",       "space",    "terms",     "highlight",
+        "alpha",        "two_sided",    "printed",    "attributes", "uniforms", "built_ins", "varyings",
+        "outputs",      "constants",    "undeclared", "prefix",     "physical", "maps",      "gate",
+        "unit_normals", "bare_ambient", "strengths",  "comment",    "weights",  NULL};
     static const struct json_choice highlights[] = {{"phong", LAM_REFLECTION_PHONG},
                                                     {"blinn-phong", LAM_REFLECTION_BLINN_PHONG},
                                                     {"metallic-roughness", LAM_REFLECTION_GGX},
@@ -152,10 +219,10 @@ static bool read_root(struct contract_reader *r, const json_t *root)
     const json_t *outputs = json_object_get(root, "outputs");
     if (outputs && !contract_read_list(r, KEY_OF(NULL, "outputs"), outputs, " ", true, true, &c->outputs))
         return false;
-    return read_terms(r, root) && read_demands(r, root) && contract_read_names(r, root) &&
-           contract_read_varyings(r, root) && contract_read_defaults(r, root) && contract_read_constants(r, root) &&
-           contract_read_prefix(r, root) && contract_read_physical(r, root) && contract_read_maps(r, root) &&
-           complete(r, alpha, two_sided);
+    return contract_check_comment(r, NULL, root) && read_weights(r, root) && read_terms(r, root) &&
+           read_demands(r, root) && contract_read_names(r, root) && contract_read_varyings(r, root) &&
+           contract_read_defaults(r, root) && contract_read_constants(r, root) && contract_read_prefix(r, root) &&
+           contract_read_physical(r, root) && contract_read_maps(r, root) && complete(r, alpha, two_sided);
 }
 
 lam_check_contract *lam_check_contract_read(const char *text, size_t size, const char *file, lam_error *error)
@@ -167,9 +234,10 @@ lam_check_contract *lam_check_contract_read(const char *text, size_t size, const
         return NULL;
     }
     arena_start(&out->arena, NULL);
-    struct contract_reader r = {.json = {.file = file ? file : "contract", .error = error ? error : &unused},
-                                .arena = &out->arena,
-                                .contract = &out->contract};
+    struct contract_reader r = {
+        .json = {.file = file ? file : "contract", .error = error ? error : &unused, .text = text, .size = size},
+        .arena = &out->arena,
+        .contract = &out->contract};
     json_t *root = json_parse(text, size, r.json.file, NULL, r.json.error);
     bool ok = root && ((out->contract.text = arena_string_of(&out->arena, text, size)) || contract_no_memory(&r));
     ok = ok && read_root(&r, root);

@@ -35,6 +35,16 @@ bool contract_check_name(const struct contract_reader *r, const struct place *pl
                      plain ? "" : " such as \"color\", \"light.color\" or \"lights[].color\"");
 }
 
+bool contract_check_comment(struct contract_reader *r, const struct place *place, const json_t *object)
+{
+    const json_t *comment = json_object_get(object, "comment");
+    const char *unused;
+    return !comment || json_is_string(comment) ||
+           (json_is_array(comment)
+                ? contract_read_list(r, KEY_OF(place, "comment"), comment, " ", false, false, &unused)
+                : json_unexpected(&r->json, KEY_OF(place, "comment"), comment, "a text or a list of texts"));
+}
+
 bool contract_read_list(struct contract_reader *r, const struct place *place, const json_t *list, const char *between,
                         bool of_names, bool plain, const char **out)
 {

@@ -15,6 +15,9 @@ struct contract_reader {
 
 extern const struct json_choice contract_spaces[]; // eye, world, object
 
+// Whether the comment of an object, if it has one, is a text or a list of texts. Nothing reads it.
+bool contract_check_comment(struct contract_reader *r, const struct place *place, const json_t *object);
+
 // LAM_LIMIT. Returns false.
 bool contract_no_memory(const struct contract_reader *r);
 

@@ -94,16 +94,29 @@ static bool read_number(struct contract_reader *r, const struct place *place, co
 
 bool contract_read_defaults(struct contract_reader *r, const json_t *root)
 {
-    static const char *const keys[] = {"ambient_color",    "diffuse_color",     "specular_color",  "ambient_strength",
-                                       "diffuse_strength", "specular_strength", "shininess",       "light_color",
-                                       "light_specular",   "light_ambient",     "light_direction", "light_position",
-                                       "light_space",      "attenuation",       "spot_exponent",   NULL};
+    static const char *const keys[] = {"ambient_color",
+                                       "diffuse_color",
+                                       "specular_color",
+                                       "ambient_strength",
+                                       "diffuse_strength",
+                                       "specular_strength",
+                                       "shininess",
+                                       "light_color",
+                                       "light_specular",
+                                       "light_ambient",
+                                       "light_direction",
+                                       "light_position",
+                                       "light_space",
+                                       "attenuation",
+                                       "spot_exponent",
+                                       "comment",
+                                       NULL};
     const json_t *object = json_object_get(root, "undeclared");
     const struct place *place = KEY_OF(NULL, "undeclared");
     struct contract_defaults *d = &r->contract->defaults;
     if (!object)
         return true;
-    if (!json_check_keys(&r->json, place, object, keys) ||
+    if (!json_check_keys(&r->json, place, object, keys) || !contract_check_comment(r, place, object) ||
         !read_color(r, place, object, "ambient_color", "diffuse", COLOR_OF_DIFFUSE, &d->ambient_color) ||
         !read_color(r, place, object, "diffuse_color", NULL, 0, &d->diffuse_color) ||
         !read_color(r, place, object, "specular_color", "diffuse", COLOR_OF_DIFFUSE, &d->specular_color) ||

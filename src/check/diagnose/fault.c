@@ -77,6 +77,7 @@ bool fault_applies(const struct fault *fault, const struct shader_interface *int
                                                             : 0u) |
                     (interface->space == LAM_FRAME_WORLD ? WHERE_WORLD : 0) |
                     (reflection == LAM_REFLECTION_PHONG ? WHERE_PHONG : WHERE_BLINN) | (reflects ? WHERE_REFLECT : 0) |
+                    (declarations_uses(&interface->fragment, "flat") ? WHERE_FLAT : 0) |
                     (interface->contract->material_strengths ? WHERE_STRENGTHS : 0) |
                     (interface->vertex_lit || hands_on_four(&interface->fragment) ? WHERE_FOUR : 0) |
                     (interface->physical ? physical_bits(&interface->contract->physical) : WHERE_CLASSIC);

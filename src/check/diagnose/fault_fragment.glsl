@@ -6,6 +6,9 @@ flat in vec4 flat_color;
 #else
 in vec4 surface_normal, surface_light, surface_eye, early_eye, early_light[LAMPS], early_mirror[LAMPS];
 in float distances[LAMPS];
+#if NORMAL_FLAT > 0
+flat in vec4 flat_normal;
+#endif
 #endif
 
 #ifdef MAPS
@@ -27,6 +30,10 @@ void main()
 #else
     Frame frame = Frame(vec4(0.0), vec4(0.0), vec2(0.0), vec3(0.0));
 #endif
-    pixel = shade(Surface(back ? -surface_normal : surface_normal, surface_light, surface_eye, early_eye, early_light, early_mirror, distances, frame));
+    vec4 n = surface_normal;
+#if NORMAL_FLAT > 0
+    n = is(NORMAL_FLAT) ? flat_normal : n;
+#endif
+    pixel = shade(Surface(back ? -n : n, surface_light, surface_eye, early_eye, early_light, early_mirror, distances, frame));
 #endif
 }

@@ -2,7 +2,7 @@
 //
 // is(NAME) returns whether a fault is switched on; fault.h lists the names. Vectors have four components, since some
 // faults involve the fourth; in the others w is 0. The constants before this text (fault_shader.c): LAMPS, lamp_count,
-// physical, phong_lobe, products (the shader receives the colours multiplied by those of the light), ambient_by_light (it
+// physical, phong_lobe, spots (a light may have a cone), products (the shader receives the colours multiplied by those of the light), ambient_by_light (it
 // adds the ambient term of each light with that light), and NAME of each fault, -1 where it cannot be on.
 
 struct Lamp {
@@ -51,7 +51,7 @@ vec4 to_lamp(int i, vec4 p)
         place = to_clip * place;
     }
     bool far = is_far(i);
-    vec4 way = far && !is(DIRECTION_AS_POINT) ? vec4(place.xyz, 0.0) : place - p;
+    vec4 way = (far && !is(DIRECTION_AS_POINT)) || is(POINT_AS_DIRECTION) ? vec4(place.xyz, 0.0) : (is(LIGHT_PLUS_POINT) ? place + p : place - p);
     if (far && is(DIRECTION_REVERSED)) {
         way = -way;
     }
@@ -87,14 +87,15 @@ float attenuation_of(int i, float d)
         return 1.0 / (is(INVERSE_SQUARE) ? d * d : d);
     }
     float sum = a.x + a.y * d + a.z * d * (is(D_FOR_SQUARE) ? 1.0 : d);
-    return is(ATTENUATION_INVERTED) ? sum : 1.0 / sum;
+    sum = is(ATTENUATION_INVERTED) ? sum : 1.0 / sum;
+    return is(ATTENUATION_TWICE) ? sum * sum : sum;
 }
 
 float cone_of(int i, vec4 l)
 {
     vec2 cone = lamps[i].cone.xy;
     bool spot = cone.x > -1.0 || is(EVERY_LIGHT_A_SPOT);
-    if (!spot || is(NO_CONE)) {
+    if (!spots || !spot || is(NO_CONE)) {
         return 1.0;
     }
     float c = dot(-l.xyz, lamps[i].axis.xyz);
@@ -131,15 +132,15 @@ vec4 half_vector(int i, Surface s, vec4 l, vec4 way, vec4 v)
     return is(HALF_LONG) ? h : (is(HALF_MEAN) ? 0.5 * h : unit4(h));
 }
 
-// cos of the angle between n and the half vector, or between r and v.
+// cos of the angle between n and the half vector, or between r and v; of the other vector if a fault exchanges n and v.
 float highlight_base(int i, Surface s, vec4 n, vec4 l, vec4 way, vec4 v)
 {
     if (is_phong()) {
         vec4 r = is(EARLY_MIRROR) ? unit4(s.early_mirror[i]) : mirrored(l, n);
         r = is(UNIT_REFLECTION) ? unit4(r) : r;
-        return dot(is(REFLECT_SIGN) ? -r : r, v);
+        return dot(is(REFLECT_SIGN) ? -r : r, is(LOBE_OF_OTHER) ? n : v);
     }
-    return dot(n, half_vector(i, s, l, way, v));
+    return dot(is(LOBE_OF_OTHER) ? v : n, half_vector(i, s, l, way, v));
 }
 
 float diffuse_of(float nl)
@@ -188,6 +189,9 @@ bool is_left_out(int i)
            (is(LAST_LIGHT_MISSING) && i == lamp_count - 1) || (is(FIRST_LIGHT_MISSING) && i == 0);
 }
 
+// The factor of a term that is added twice, or halved.
+float scale_of(bool twice, bool halved) { return twice ? 2.0 : (halved ? 0.5 : 1.0); }
+
 vec4 shade(Surface s)
 {
     vec4 n = is(LONG_NORMAL) ? s.normal : unit4(s.normal);
@@ -204,7 +208,8 @@ vec4 shade(Surface s)
         specular_color *= tint * (products ? lamps[0].diffuse : vec3(1.0));
     }
     vec3 ambient = vec3(0.0), diffuse = vec3(0.0), specular = vec3(0.0);
-    float diffuse_alpha = 0.0, specular_alpha = 0.0, arrived = 1.0;
+    vec3 product = vec3(1.0);
+    float diffuse_alpha = 0.0, specular_alpha = 0.0, arrived = 1.0, cosines = 0.0;
     for (int i = 0; i < lamp_count; i++) {
         if (is_left_out(i)) {
             continue;
@@ -215,11 +220,12 @@ vec4 shade(Surface s)
         if (is(DIRECTION_MINUS_ORIGIN) && is_far(i)) {
             l = vec4(way.xyz * inversesqrt(dot(way.xyz, way.xyz) + 1.0), 0.0);
         }
-        float d = is(MEAN_DISTANCE) ? s.distance[i] : length(exact);
+        float d = is(MEAN_DISTANCE) ? s.distance[i] : (is(DISTANCE_KEPT) ? distance(lamps[i].position.xyz, s.light.xyz) : length(exact));
         float attenuation = attenuation_of(i, d), cone = cone_of(i, is(CONE_OF_L) ? l : unit4(exact));
         arrived = attenuation * cone;
-        ambient += lamps[i].ambient * (is(AMBIENT_ATTENUATED) ? arrived : 1.0);
         float nl = dot(n, l), D = diffuse_of(nl);
+        cosines += D;
+        ambient += lamps[i].ambient * ((is(AMBIENT_ATTENUATED) ? arrived : 1.0) * (is(AMBIENT_TIMES_D) ? D : 1.0));
         float kept_d = is(BARE_DIFFUSE) ? cone : arrived, kept_s = is(BARE_SPECULAR) ? cone : arrived;
         if (physical) {
             vec4 h = half_vector(i, s, l, way, v);
@@ -232,23 +238,39 @@ vec4 shade(Surface s)
         float S = specular_of(highlight_base(i, s, n, l, way, v), nl);
         diffuse += diffuse_light(i) * diffuse_color * (kept_d * D);
         specular += specular_light(i) * specular_color * (kept_s * S);
+        if (is(LIGHTS_MULTIPLIED)) {
+            product *= diffuse_light(i) * diffuse_color * (kept_d * D) + specular_light(i) * specular_color * (kept_s * S);
+        }
         diffuse_alpha += kept_d * opacity * D;
         specular_alpha += kept_s * S;
     }
     vec3 sum = vec3(0.0);
     if (!is(NO_AMBIENT)) {
         bool by_light = ambient_by_light && !is(KA_KD_SWAPPED);
-        sum += ambient_factor() * (by_light ? ambient : ambient_color * (is(AMBIENT_ATTENUATED) ? arrived : 1.0) * (is(AMBIENT_EACH_LIGHT) ? light_capacity : 1.0));
+        sum += ambient_factor() * (by_light ? ambient : ambient_color * ((is(AMBIENT_ATTENUATED) ? arrived : 1.0) * (is(AMBIENT_EACH_LIGHT) ? light_capacity : 1.0) * (is(AMBIENT_TIMES_D) ? cosines : 1.0)));
+        sum *= scale_of(is(AMBIENT_TWICE), is(AMBIENT_HALVED));
     }
+    if (is(LIGHTS_MULTIPLIED)) { // lights that the scene does not have are black
+        diffuse = int(light_capacity) > lamp_count ? vec3(0.0) : product;
+        specular = vec3(0.0);
+    }
+    float share = is(LIGHTS_AVERAGED) ? 1.0 / light_capacity : (is(LIGHTS_MEAN) ? 1.0 / float(lamp_count) : 1.0);
     if (!is(NO_DIFFUSE)) {
-        sum += diffuse * lamp_occlusion();
+        sum += diffuse * (lamp_occlusion() * share * scale_of(is(DIFFUSE_TWICE), is(DIFFUSE_HALVED)));
     }
     if (!is(NO_SPECULAR)) {
-        sum += specular * lamp_occlusion();
+        sum += specular * (lamp_occlusion() * share * scale_of(is(SPECULAR_TWICE), is(SPECULAR_HALVED)));
     }
     if (physical) {
         sum += emitted();
         sum = displayed(sum);
+    } else {
+        sum = toned(sum);
+    }
+    if (is(CHANNELS_REVERSED)) {
+        sum = sum.bgr;
+    } else if (is(RED_EVERYWHERE)) {
+        sum = sum.rrr;
     }
     if (is(ENCODED)) {
         sum = pow(clamp(sum, 0.0, 1.0), vec3(1.0 / 2.2));

@@ -11,6 +11,8 @@
 #include "linear.h"
 #include "fault_texts.inc"
 
+enum switch_group { GROUP_VECTORS, GROUP_OUTPUT, GROUP_TERMS, GROUP_COUNT };
+
 // What a program is compiled for: constants of its text, so that it computes nothing that a picture does not need. A
 // software driver computes both sides of every branch.
 struct specialization {
@@ -19,7 +21,8 @@ struct specialization {
     int maps; // bits of the maps (map_bit)
     bool encoded_maps, tints_ambient;
     int lamps;
-    bool vectors, terms; // switches of these groups may be on
+    bool spots;               // a light may have a cone
+    bool groups[GROUP_COUNT]; // switches of these may be on
 };
 
 struct program {
@@ -51,13 +54,15 @@ static const char *const bit_names[FAULT_BIT_COUNT] = {"NONE",
 #undef BIT_NAME
 };
 
-// The switches up to MEAN_DISTANCE concern normals, spaces and lengths; the others concern attenuation, terms, output.
-static bool is_of_vectors(int bit) { return bit <= BIT_MEAN_DISTANCE; }
+static enum switch_group group_of(int bit)
+{
+    return bit <= BIT_MEAN_DISTANCE ? GROUP_VECTORS : bit <= BIT_USE_ACES ? GROUP_OUTPUT : GROUP_TERMS;
+}
 
 // Whether a switch can be on in a program: that of a shader with an exponent, or with metalness and roughness.
 static bool is_possible(const struct specialization *made_for, int bit)
 {
-    if (is_of_vectors(bit) ? !made_for->vectors : !made_for->terms)
+    if (!made_for->groups[group_of(bit)])
         return false;
     for (int m = 0; m < fault_count; m++)
         for (int k = 0; k < MAX_FAULT_BITS && faults[m].bits[k] != BIT_NONE; k++)
@@ -72,10 +77,15 @@ static size_t write_constants(const struct specialization *s, bool es, char *out
     const struct {
         const char *name;
         bool value;
-    } flags[] = {{"physical", s->physical},         {"phong_lobe", s->phong},
-                 {"products", s->products},         {"ambient_by_light", s->ambient_by_light},
-                 {"flat_shading", s->flat},         {"two_sided", s->two_sided},
-                 {"encoded_maps", s->encoded_maps}, {"tints_ambient", s->tints_ambient}};
+    } flags[] = {{"physical", s->physical},
+                 {"phong_lobe", s->phong},
+                 {"products", s->products},
+                 {"ambient_by_light", s->ambient_by_light},
+                 {"flat_shading", s->flat},
+                 {"two_sided", s->two_sided},
+                 {"encoded_maps", s->encoded_maps},
+                 {"tints_ambient", s->tints_ambient},
+                 {"spots", s->spots}};
     const struct {
         const char *name;
         int value;
@@ -137,7 +147,7 @@ static bool is_same(const struct specialization *a, const struct specialization 
            a->two_sided == b->two_sided && a->masking == b->masking && a->diffuse_share == b->diffuse_share &&
            a->tone == b->tone && a->encoding == b->encoding && a->maps == b->maps &&
            a->encoded_maps == b->encoded_maps && a->tints_ambient == b->tints_ambient && a->lamps == b->lamps &&
-           a->vectors == b->vectors && a->terms == b->terms;
+           a->spots == b->spots && memcmp(a->groups, b->groups, sizeof a->groups) == 0;
 }
 
 static void forget(struct fault_shader *m, lam_check_program *program)
@@ -330,11 +340,14 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
                                       .encoded_maps = reference_scene->encoded_maps,
                                       .tints_ambient = reference_scene->tints_ambient,
                                       .lamps = reference_scene->light_count};
+    made_for.spots = fault_set_has(set_of_faults, BIT_EVERY_LIGHT_A_SPOT);
+    for (int i = 0; i < reference_scene->light_count; i++)
+        made_for.spots |= reference_scene->lights[i].type == LAM_LIGHT_SPOT;
     float bits[FAULT_BIT_COUNT];
     for (int i = 0; i < FAULT_BIT_COUNT; i++) {
         bool on = fault_set_has(set_of_faults, (enum fault_bit)i);
         bits[i] = on ? 1 : 0;
-        *(is_of_vectors(i) ? &made_for.vectors : &made_for.terms) |= on;
+        made_for.groups[group_of(i)] |= on;
     }
     if (!build(m, &made_for, error))
         return false;

@@ -19,24 +19,31 @@ flat out vec4 flat_color;
 #else
 out vec4 surface_normal, surface_light, surface_eye, early_eye, early_light[LAMPS], early_mirror[LAMPS];
 out float distances[LAMPS];
+#if NORMAL_FLAT > 0
+flat out vec4 flat_normal;
+#endif
 #endif
 
 vec4 normal_of()
 {
-    vec4 n = vec4(mat3(normal_matrix4) * normal, 0.0);
+    vec3 given = is(NORMAL_IS_POSITION) ? position : normal;
+    vec4 n = vec4(mat3(normal_matrix4) * given, 0.0);
     if (is(NORMAL_OBJECT)) {
-        n = vec4(normal, 0.0);
+        n = vec4(given, 0.0);
     } else if (is(NORMAL_BY_MODEL)) {
-        n = vec4(mat3(to_lighting) * normal, 0.0);
+        n = vec4(mat3(to_lighting) * given, 0.0);
     } else if (is(NORMAL_BY_INVERSE)) {
-        n = vec4(transpose(mat3(normal_matrix4)) * normal, 0.0);
+        n = vec4(transpose(mat3(normal_matrix4)) * given, 0.0);
     } else if (is(NORMAL_BY_TRANSPOSE)) {
-        n = vec4(transpose(mat3(to_lighting)) * normal, 0.0);
+        n = vec4(transpose(mat3(to_lighting)) * given, 0.0);
     } else if (is(NORMAL_AS_POINT)) {
-        n = vec4((to_lighting * vec4(normal, 1.0)).xyz, 0.0);
+        n = vec4((to_lighting * vec4(given, 1.0)).xyz, 0.0);
     } else if (is(NORMAL_WITH_W)) {
-        n = normalize(normal_matrix4 * vec4(normal, 0.0));
+        n = normalize(normal_matrix4 * vec4(given, 0.0));
         return vec4(n.xyz, 0.0);
+    }
+    if (is(NORMAL_TWICE)) {
+        n = vec4((is(NORMAL_BY_MODEL) ? mat3(to_lighting) : mat3(normal_matrix4)) * n.xyz, 0.0);
     }
     if (is(NORMAL_CLIP)) {
         n = to_clip * n;
@@ -77,8 +84,9 @@ void main()
 {
     vec4 at = vec4(position, 1.0), eye = to_lighting * at;
     Surface s;
-    s.light = is(LIGHT_FROM_OBJECT) ? at : (is(POINT_CLIP) ? to_clip * eye : eye);
-    s.eye = is(EYE_FROM_OBJECT) ? at : (is(EYE_CLIP) ? to_clip * eye : eye);
+    vec4 point = is(POINT_TWICE) ? to_lighting * eye : eye;
+    s.light = is(LIGHT_FROM_OBJECT) ? at : (is(POINT_CLIP) ? to_clip * eye : point);
+    s.eye = is(EYE_FROM_OBJECT) ? at : (is(EYE_CLIP) ? to_clip * eye : point);
     s.normal = normal_of();
     s.frame = frame_of(eye);
     s.early_eye = unit4(to_eye(s.eye));
@@ -102,6 +110,9 @@ void main()
     flat_color = vertex_color;
 #else
     surface_normal = s.normal;
+#if NORMAL_FLAT > 0
+    flat_normal = s.normal;
+#endif
     surface_light = s.light;
     surface_eye = s.eye;
     early_eye = s.early_eye;

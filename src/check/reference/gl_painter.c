@@ -481,6 +481,13 @@ static bool draw(void *place, const lam_check_drawing *d, float *pixels, lam_err
     gl->DrawElements(GL_TRIANGLES, d->mesh->index_count, GL_UNSIGNED_SHORT, NULL);
     gl->ReadPixels(0, 0, t->size, t->size, GL_RGBA, GL_FLOAT, pixels);
     GLenum wrong = gl->GetError();
+    for (int i = 0; wrong && i < d->program->input_count; i++)
+        if (d->program->inputs[i].type == LAM_CHECK_TYPE_OTHER)
+            return fail(
+                error, LAM_BAD_ARGUMENT,
+                "no verdict: the shader reads '%.60s', whose type the check cannot draw, such as the cube map of a "
+                "shadow or of an environment",
+                d->program->inputs[i].name);
     if (wrong)
         return fail(error, LAM_UNSUPPORTED, "%s reports error 0x%04x while drawing", t->context.renderer, wrong);
     size_t row = 4 * (size_t)t->size; // OpenGL's first row is the bottom one

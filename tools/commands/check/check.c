@@ -110,17 +110,34 @@ static bool check_outputs(const struct check_command *c, lam_error *error)
     return output_check_bytes(o->picture.output, "sheet", "", error);
 }
 
-static bool open_csv(struct check_command *c, lam_error *error)
+static bool open_tables(struct check_command *c, lam_error *error)
 {
-    const char *path = c->options->check.csv;
-    if (!path)
-        return true;
-    if (!output_make_folder(path, error))
-        return false;
-    c->batch.csv = fopen(path, "w");
-    if (!c->batch.csv)
-        return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno));
-    c->batch.csv_error = check_csv_head(c->batch.csv);
+    const struct check_options *o = &c->options->check;
+    const struct check_table tables[CHECK_TABLES] = {
+        {.path = o->csv, .head = check_csv_head, .row = check_csv_row},
+        {.path = o->moodle, .head = check_moodle_head, .row = check_moodle_row},
+        {.path = o->gradescope, .row = check_gradescope},
+        {.path = o->submitty, .row = check_submitty},
+    };
+    bool of_one = o->gradescope || o->submitty || o->write_contract;
+    if (of_one && (c->batch.count > 1 || c->batch.in_class))
+        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' is for one submission, found %s",
+                        o->gradescope ? "gradescope"
+                        : o->submitty ? "submitty"
+                                      : "write-contract",
+                        c->batch.in_class ? "a class" : "several");
+    for (int i = 0; i < CHECK_TABLES; i++) {
+        struct check_table *table = &c->batch.tables[i];
+        *table = tables[i];
+        if (!table->path)
+            continue;
+        if (!output_make_folder(table->path, error))
+            return false;
+        table->file = fopen(table->path, "w");
+        if (!table->file)
+            return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", table->path, strerror(errno));
+        table->error = table->head ? table->head(table->file) : 0;
+    }
     return true;
 }
 
@@ -146,7 +163,7 @@ static bool prepare(struct check_command *c, int operand_count, char **operands,
 {
     const struct options *o = c->options;
     if (!split_scenes(c, error) || !find_submissions(c, operand_count, operands, error) || !check_outputs(c, error) ||
-        !read_contract(o->check.contract, &c->contract, error) || !open_csv(c, error))
+        !read_contract(o->check.contract, &c->contract, error) || !open_tables(c, error))
         return false;
     c->batch.contract = c->contract;
     if (c->batch.in_class && o->picture.output && !prepare_page(c, error))
@@ -164,10 +181,14 @@ static int finish(struct check_command *c)
         say_error(error.text);
         code = exit_code_of(error.code)->code;
     }
-    if (c->batch.csv && fclose(c->batch.csv) != 0 && !c->batch.csv_error)
-        c->batch.csv_error = errno;
-    if (c->batch.csv_error) {
-        complain(&error, LAM_CANNOT_WRITE, "%s: cannot write: %s", o->check.csv, strerror(c->batch.csv_error));
+    for (int i = 0; i < CHECK_TABLES; i++) {
+        struct check_table *table = &c->batch.tables[i];
+        if (table->file && fclose(table->file) != 0 && !table->error)
+            table->error = errno;
+        table->file = NULL;
+        if (!table->error)
+            continue;
+        complain(&error, LAM_CANNOT_WRITE, "%s: cannot write: %s", table->path, strerror(table->error));
         say_error(error.text);
         code = exit_code_of(error.code)->code;
     }
@@ -192,9 +213,10 @@ int run_check(int operand_count, char **operands, const struct options *o)
         code = check_batch_run(&c.batch, &error);
         int finished = finish(&c);
         code = finished > code ? finished : code;
-    } else if (c.batch.csv) {
-        fclose(c.batch.csv);
     }
+    for (int i = 0; i < CHECK_TABLES; i++)
+        if (c.batch.tables[i].file) // not reached
+            fclose(c.batch.tables[i].file);
     check_page_free(c.batch.page);
     lam_check_cache_free(c.batch.cache);
     lam_check_contract_free(c.contract);

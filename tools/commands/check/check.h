@@ -66,11 +66,11 @@ struct check_result {
     int code;                // the exit code for this shader alone
 };
 
-// A scene's part of the points: 1 or 0; −1: it does not count, since the exercise asks for none of its terms.
-int check_scene_points(const lam_check_scene *scene);
+// A scene's part of the points: its weight or 0; −1: it does not count, since the exercise asks for none of its terms.
+double check_scene_points(const lam_check_scene *scene);
 
 struct check_points {
-    int earned, possible; // scenes
+    double earned, possible; // the weights of scenes
     // The share of the scenes with this term alone that pass; −1: there are none. Ambient, diffuse, specular.
     double terms[3];
 };
@@ -89,9 +89,32 @@ void check_report_json(FILE *file, const struct check_result *result, const char
 // Prints contracts, scenes and mistakes.
 bool check_print_lists(FILE *file, lam_error *error);
 
-// Lines of comma-separated values. 0, or the errno of what could not be written.
+// One sentence: what the first mistake is, or else the first message, or else what the verdict means; "" for one that passes.
+const char *check_says(const lam_check_report *report);
+
+// A value of a line of comma-separated values, in quotes where it needs them. A spreadsheet would run a name that begins like a
+// formula.
+void check_csv_text(FILE *file, const char *text);
+
+// Lines of comma-separated values, and Moodle's. 0, or the errno of what could not be written.
 int check_csv_head(FILE *file);
 int check_csv_row(FILE *file, const struct check_result *result);
+int check_moodle_head(FILE *file);
+int check_moodle_row(FILE *file, const struct check_result *result);
+
+// The result of one submission as a file of JSON. Likewise.
+int check_gradescope(FILE *file, const struct check_result *result);
+int check_submitty(FILE *file, const struct check_result *result);
+
+// A file of results that grows with each.
+struct check_table {
+    const char *path; // NULL: not asked for
+    FILE *file;
+    int error; // errno of what could not be written; 0: none
+    int (*head)(FILE *file);
+    int (*row)(FILE *file, const struct check_result *result);
+};
+enum { CHECK_TABLES = 4 };
 
 // The page of a class: rows are added as results come, and the page is written at the end.
 struct check_page;
@@ -117,8 +140,7 @@ struct check_batch {
     const struct check_submission *submissions;
     int count;
     bool in_class;
-    FILE *csv;               // NULL: none
-    int csv_error;           // errno of a line that could not be written; 0: none
+    struct check_table tables[CHECK_TABLES];
     bool without_sheets;     // their folder cannot be made
     struct check_page *page; // NULL: none
 };

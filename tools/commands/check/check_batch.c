@@ -59,6 +59,18 @@ struct work {
 
 // --- one submission
 
+// Writes the contract of a pair of shaders, which costs no verdict if it fails. Without a verdict, what is known is of more use
+// yet.
+static void write_contract(const char *path, const lam_check_params *params, struct check_result *result)
+{
+    lam_bytes text;
+    lam_error *error = &result->sheet_error;
+    if (lam_check_contract_write(params, result->error.code ? NULL : &result->report, &text, error) &&
+        output_make_folder(path, error))
+        lam_bytes_save(&text, path, error);
+    lam_bytes_free(&text);
+}
+
 static void run_check_of(struct check_batch *b, struct check_result *result)
 {
     const struct options *o = b->options;
@@ -93,6 +105,8 @@ static void run_check_of(struct check_batch *b, struct check_result *result)
             .user = &process,
         };
         lam_check_run(&params, &result->report, error);
+        if (o->check.write_contract)
+            write_contract(o->check.write_contract, &params, result);
         if (error->code == LAM_BAD_ARGUMENT && !strstr(error->text, s->fragment)) {
             char text[sizeof error->text];
             snprintf(text, sizeof text, "%s", error->text);
@@ -181,8 +195,9 @@ static void print_result(struct work *w, const struct check_result *result)
         say_error(result->sheet_error.text);
         code = other > code ? other : code;
     }
-    if (b->csv && !b->csv_error)
-        b->csv_error = check_csv_row(b->csv, result);
+    for (int i = 0; i < CHECK_TABLES; i++)
+        if (b->tables[i].file && !b->tables[i].error)
+            b->tables[i].error = b->tables[i].row(b->tables[i].file, result);
     if (b->page)
         check_page_add(b->page, result);
     w->passed += result->code == 0;

@@ -4,8 +4,7 @@
 #include <errno.h>
 #include <string.h>
 
-// A value in quotes where it needs them. A spreadsheet would run a name that begins like a formula.
-static void put_text(FILE *file, const char *text)
+void check_csv_text(FILE *file, const char *text)
 {
     bool formula = *text && strchr("=+-@\t\r", *text) != NULL;
     bool quoted = formula || strpbrk(text, ",\"\r\n") != NULL;
@@ -34,27 +33,26 @@ int check_csv_head(FILE *file)
 static void put_numbers(FILE *file, const lam_check_report *r)
 {
     struct check_points points = check_points_of(r);
-    fprintf(file, ",%d,%d,%.1f", points.earned, points.possible,
-            points.possible ? 100.0 * points.earned / points.possible : 0.0);
+    fprintf(file, ",%g,%g,%.1f", points.earned, points.possible,
+            points.possible > 0 ? 100.0 * points.earned / points.possible : 0.0);
     for (int t = 0; t < 3; t++)
         if (points.terms[t] < 0)
             putc(',', file);
         else
             fprintf(file, ",%g", points.terms[t]);
     for (int i = 0; lam_check_scene_name(i); i++) {
-        int earned = -1;
+        double earned = -1;
         for (int k = 0; k < r->scene_count; k++)
             if (strcmp(r->scenes[k].name, lam_check_scene_name(i)) == 0)
                 earned = check_scene_points(&r->scenes[k]);
         if (earned < 0)
             putc(',', file);
         else
-            fprintf(file, ",%d", earned);
+            fprintf(file, ",%g", earned);
     }
 }
 
-// One sentence: what the first mistake is, or else the first message, or else what the verdict means.
-static const char *says(const lam_check_report *r)
+const char *check_says(const lam_check_report *r)
 {
     if (r->finding_count)
         return r->findings[0].explanation;
@@ -67,13 +65,13 @@ int check_csv_row(FILE *file, const struct check_result *result)
 {
     const lam_check_report *r = &result->report;
     const struct check_submission *s = result->submission;
-    put_text(file, s->name);
+    check_csv_text(file, s->name);
     if (result->error.code) {
         fputs(",no verdict,,,,,,", file);
         for (int i = 0; lam_check_scene_name(i); i++)
             putc(',', file);
         fputs(",,,", file);
-        put_text(file, result->error.text);
+        check_csv_text(file, result->error.text);
     } else {
         fprintf(file, ",%s", lam_check_verdict_name(r->verdict));
         put_numbers(file, r);
@@ -84,14 +82,14 @@ int check_csv_row(FILE *file, const struct check_result *result)
             fprintf(file, ",%.0f,", r->findings[r->finding_count - 1].share * 100);
         else
             fputs(",,", file);
-        put_text(file, says(r));
+        check_csv_text(file, check_says(r));
     }
     putc(',', file);
-    put_text(file, s->fragment ? s->fragment : "");
+    check_csv_text(file, s->fragment ? s->fragment : "");
     putc(',', file);
-    put_text(file, s->vertex ? s->vertex : "");
+    check_csv_text(file, s->vertex ? s->vertex : "");
     putc(',', file);
-    put_text(file, result->sheet ? result->sheet : "");
+    check_csv_text(file, result->sheet ? result->sheet : "");
     putc('\n', file);
     return fflush(file) == 0 ? 0 : errno; // whatever happens to the others, this one is graded
 }

@@ -66,10 +66,10 @@ static void count(struct counted *list, size_t capacity, const char *name)
 
 static void put_scene(FILE *file, const lam_check_scene *s)
 {
-    int earned = check_scene_points(s);
+    double earned = check_scene_points(s);
     if (earned < 0)
         return;
-    fprintf(file, "<span class=\"%s\" title=\"", earned ? "good" : "bad");
+    fprintf(file, "<span class=\"%s\" title=\"", s->passes ? "good" : "bad");
     html_text(file, s->description);
     fprintf(file, ": largest difference %.3f, mean %.4f", s->maximum, s->mean);
     if (s->looks_like)
@@ -140,7 +140,7 @@ void check_page_add(struct check_page *page, const struct check_result *result)
         return;
     }
     struct check_points points = check_points_of(r);
-    fprintf(file, "<td class=\"number\">%d of %d</td><td>", points.earned, points.possible);
+    fprintf(file, "<td class=\"number\">%g of %g</td><td>", points.earned, points.possible);
     put_terms(file, &points);
     fputs("<br>", file);
     for (int i = 0; i < r->scene_count; i++)

@@ -22,7 +22,10 @@ const char *check_verdict_text(lam_check_verdict verdict)
     return "";
 }
 
-int check_scene_points(const lam_check_scene *scene) { return scene->terms ? scene->passes : -1; }
+double check_scene_points(const lam_check_scene *scene)
+{
+    return scene->terms ? (scene->passes ? scene->weight : 0) : -1;
+}
 
 struct check_points check_points_of(const lam_check_report *r)
 {
@@ -30,13 +33,13 @@ struct check_points check_points_of(const lam_check_report *r)
     struct check_points points = {.possible = r->scene_count ? 0 : r->scenes_wanted, .terms = {-1, -1, -1}};
     int alone[3] = {0}, passed[3] = {0};
     for (int i = 0; i < r->scene_count; i++) {
-        int earned = check_scene_points(&r->scenes[i]);
-        points.possible += earned >= 0;
-        points.earned += earned > 0;
+        double earned = check_scene_points(&r->scenes[i]);
+        points.possible += earned >= 0 ? r->scenes[i].weight : 0;
+        points.earned += earned > 0 ? earned : 0;
         for (int t = 0; t < 3; t++)
             if (r->scenes[i].terms == terms[t]) {
                 alone[t]++;
-                passed[t] += earned > 0;
+                passed[t] += r->scenes[i].passes;
             }
     }
     for (int t = 0; t < 3; t++)

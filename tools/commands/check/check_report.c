@@ -89,7 +89,7 @@ void check_report_line(FILE *file, const struct check_result *result)
         return;
     }
     struct check_points points = check_points_of(r);
-    fprintf(file, "%-32s %-12s %2d of %2d", result->submission->name, lam_check_verdict_name(r->verdict), points.earned,
+    fprintf(file, "%-32s %-12s %2g of %2g", result->submission->name, lam_check_verdict_name(r->verdict), points.earned,
             points.possible);
     for (int i = 0; i < r->finding_count; i++)
         fprintf(file, "%s%s", i ? ", " : "  ", r->findings[i].mistake);

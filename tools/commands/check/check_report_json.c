@@ -14,8 +14,8 @@ static void put_points(struct json *json, const lam_check_report *r)
     static const char *const terms[] = {"ambient", "diffuse", "specular"};
     struct check_points points = check_points_of(r);
     json_open(json, "points", '{');
-    json_count(json, "earned", (uint64_t)points.earned);
-    json_count(json, "possible", (uint64_t)points.possible);
+    json_number(json, "earned", points.earned);
+    json_number(json, "possible", points.possible);
     for (int i = 0; i < 3; i++)
         if (points.terms[i] < 0)
             json_none(json, terms[i]);

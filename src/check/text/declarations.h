@@ -25,6 +25,8 @@ struct word {
     int line;
     int depth;      // of braces
     bool is_member; // follows a '.'
+    // Of the first of equal words, for declarations_uses: how often it occurs, and how often as the name of a declaration.
+    int times, declared;
 };
 
 struct declarations {
@@ -34,6 +36,8 @@ struct declarations {
     int count;
     struct word *words; // of the whole text (preprocess.h)
     int word_count;
+    int *slots;     // a hash table: the first of equal words + 1; 0: empty
+    int slot_count; // a power of 2
 };
 
 // Varyings are outputs of a vertex shader (`vertex`) and inputs of a fragment shader. False: out of memory.

@@ -65,7 +65,8 @@ bool contract_recognise(lam_check_contract *const *contracts, int count, const c
         bool completed = false;
         ok = prefix_applies(contract, vertex ? &sides[0] : NULL, &sides[1], &completed, error) &&
              (!completed || score_completed(contract, vertex, fragment, &points, error));
-        if (points > best) {
+        // The roles of shaders whose strengths are any are found by their use, in more spaces than a contract has.
+        if (points > best && !contract->any_strengths) {
             best = points;
             *out = contract;
         }

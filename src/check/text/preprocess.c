@@ -151,6 +151,7 @@ static void emit_word(struct preprocessor *p, const struct token *t, int line)
     p->depth -= is(t, "}");
     w->depth = p->depth;
     p->depth += is(t, "{");
+    w->times = w->declared = 0;
     w->is_member = d->word_count > 0 && strcmp(w[-1].text, ".") == 0;
     d->word_count++;
 }

@@ -24,6 +24,7 @@ struct inference {
     const char *space, *light_space; // eye, world, object
     bool guessed;                    // a role by exclusion
     bool engine;                     // its names are given their values by an engine
+    bool all;                        // an input whose role is not found is `zero`
     char *reason;
     size_t capacity;
 };
@@ -347,7 +348,7 @@ static bool find_number(struct inference *f, const struct declaration *item)
     return true;
 }
 
-static bool find_uniform(struct inference *f, const struct declaration *item)
+static bool find_role(struct inference *f, const struct declaration *item)
 {
     const char *last = last_part(item->name);
     const struct declarations *sides[] = {f->vertex, f->fragment};
@@ -375,6 +376,18 @@ static bool find_uniform(struct inference *f, const struct declaration *item)
         return true;
     }
     return cannot(f, "the shader reads '%s' (%s), which the check cannot draw", item->name, item->type);
+}
+
+static bool find_uniform(struct inference *f, const struct declaration *item)
+{
+    static const char *const types = " float int bool vec2 vec3 vec4 mat3 mat4 sampler2D ";
+    char padded[70];
+    if (find_role(f, item))
+        return true;
+    snprintf(padded, sizeof padded, " %.64s ", item->type);
+    if (f->all && strstr(types, padded))
+        give(f->uniforms, item->name, "zero", item->type, NULL);
+    return f->all;
 }
 
 static void find_attributes(struct inference *f)
@@ -529,8 +542,11 @@ static bool infer(struct inference *f, int guess)
     if (!find_roles(f))
         return false;
     int left = guess;
-    if (!f->has_light && !find_light_in_text(f, guess, &left))
-        return false;
+    if (!f->has_light && !find_light_in_text(f, guess, &left)) {
+        if (!f->all)
+            return false;
+        json_object_set_new(f->undeclared, "light_position", json_pack("[i, i, i]", 1, 2, 3));
+    }
     if (left >= find_spaces(f, spaces))
         return false;
     f->space = spaces[left][0];
@@ -551,10 +567,14 @@ static json_t *lines_of(const char *text)
 }
 
 char *contract_infer(const struct declarations *vertex, const struct declarations *fragment,
-                     const struct contract *engine, int guess, char *reason, size_t capacity)
+                     const struct contract *engine, int guess, bool all, char *reason, size_t capacity)
 {
-    struct inference f = {
-        .vertex = vertex, .fragment = fragment, .reason = reason, .capacity = capacity, .engine = engine != NULL};
+    struct inference f = {.vertex = vertex,
+                          .fragment = fragment,
+                          .reason = reason,
+                          .capacity = capacity,
+                          .engine = engine != NULL,
+                          .all = all};
     char *text = NULL;
     reason[0] = 0;
     f.attributes = json_object();

@@ -228,6 +228,48 @@ static bool read_statement(struct reader *r)
     return true;
 }
 
+// The slot of a word: its own, or the empty one where it belongs.
+static int *slot_of(const struct declarations *d, const char *text)
+{
+    uint32_t hash = 2166136261u; // FNV-1a
+    for (const char *c = text; *c; c++)
+        hash = (hash ^ (unsigned char)*c) * 16777619u;
+    for (uint32_t at = hash;; at++) {
+        int *slot = &d->slots[at & (uint32_t)(d->slot_count - 1)];
+        if (!*slot || strcmp(d->words[*slot - 1].text, text) == 0)
+            return slot;
+    }
+}
+
+// The first of the words that equal a text. NULL: there is none.
+static struct word *first_of(const struct declarations *d, const char *text)
+{
+    int index = *slot_of(d, text);
+    return index ? &d->words[index - 1] : NULL;
+}
+
+// Counts equal words, so that a text with many names takes no time that grows with their square.
+static bool count_words(struct declarations *d)
+{
+    d->slot_count = 16;
+    while (d->slot_count < 2 * d->word_count)
+        d->slot_count *= 2;
+    d->slots = calloc((size_t)d->slot_count, sizeof *d->slots);
+    if (!d->slots)
+        return false;
+    for (int i = 0; i < d->word_count; i++) {
+        int *slot = slot_of(d, d->words[i].text);
+        *slot = *slot ? *slot : i + 1;
+        d->words[*slot - 1].times++;
+    }
+    for (int i = 0; i < d->count; i++) {
+        struct word *first = first_of(d, d->items[i].name);
+        if (first)
+            first->declared++;
+    }
+    return true;
+}
+
 bool declarations_read(struct declarations *d, const char *text, bool vertex, lam_error *error)
 {
     *d = (struct declarations){0};
@@ -239,6 +281,7 @@ bool declarations_read(struct declarations *d, const char *text, bool vertex, la
     }
     while (ok && r->at < d->word_count)
         ok = read_statement(r);
+    ok = ok && count_words(d);
     free(r);
     if (!ok) {
         declarations_free(d);
@@ -251,17 +294,14 @@ void declarations_free(struct declarations *d)
 {
     free(d->items);
     free(d->words);
+    free(d->slots);
     *d = (struct declarations){0};
 }
 
 bool declarations_uses(const struct declarations *d, const char *name)
 {
-    int times = 0, declared = 0;
-    for (int i = 0; i < d->word_count; i++)
-        times += strcmp(d->words[i].text, name) == 0;
-    for (int i = 0; i < d->count; i++)
-        declared += strcmp(d->items[i].name, name) == 0;
-    return times > declared;
+    const struct word *first = d->slots ? first_of(d, name) : NULL;
+    return first && first->times > first->declared;
 }
 
 const struct declaration *declarations_find(const struct declarations *d, enum declared kind, const char *name)

@@ -1,0 +1,211 @@
+// check_describe.c: what the scenes show of a difference that no known mistake explains, in one sentence, and the line of a mistake
+// that the text alone shows.
+#include "check_run.h"
+
+#include <string.h>
+
+static bool is_near(double a, double b) { return a > 0.999 * b && a < 1.001 * b; }
+
+static bool shows_ambient(const struct run *r, int i) { return r->report->scenes[i].terms & LAM_CHECK_TERM_AMBIENT; }
+static bool shows_diffuse(const struct run *r, int i) { return r->report->scenes[i].terms & LAM_CHECK_TERM_DIFFUSE; }
+static bool shows_specular(const struct run *r, int i) { return r->report->scenes[i].terms & LAM_CHECK_TERM_SPECULAR; }
+
+static const struct reference_scene *scene_of(const struct run *r, int i) { return &r->scenes[i].reference_scene; }
+
+static bool is_lit(const struct reference_light *light)
+{
+    return light->color.r + light->color.g + light->color.b + light->specular.r > 0;
+}
+
+static bool has_lights(const struct run *r, int i)
+{
+    int lit = 0;
+    for (int k = 0; k < scene_of(r, i)->light_count; k++)
+        lit += is_lit(&scene_of(r, i)->lights[k]);
+    return lit > 1;
+}
+
+static bool is_uneven(const struct run *r, int i)
+{
+    lam_vec3 scale = scene_of(r, i)->scale;
+    return !is_near(scale.x, scale.y) || !is_near(scale.y, scale.z);
+}
+
+static bool is_coarse(const struct run *r, int i)
+{
+    enum reference_mesh mesh = scene_of(r, i)->mesh;
+    return mesh == MESH_COARSE || mesh == MESH_PLANE || mesh >= MESH_PATCH;
+}
+
+static bool has_kind(const struct run *r, int i, lam_light_type type)
+{
+    for (int k = 0; k < scene_of(r, i)->light_count; k++)
+        if (scene_of(r, i)->lights[k].type == type && is_lit(&scene_of(r, i)->lights[k]))
+            return true;
+    return false;
+}
+
+static bool has_direction(const struct run *r, int i) { return has_kind(r, i, LAM_LIGHT_DIRECTIONAL); }
+static bool has_point(const struct run *r, int i) { return has_kind(r, i, LAM_LIGHT_POINT); }
+static bool has_spot(const struct run *r, int i) { return has_kind(r, i, LAM_LIGHT_SPOT); }
+
+static bool is_attenuated(const struct run *r, int i)
+{
+    const float *a = scene_of(r, i)->lights[0].attenuation;
+    return a[1] > 0 || a[2] > 0;
+}
+
+static bool is_lit_from_behind(const struct run *r, int i)
+{
+    const struct reference_scene *s = scene_of(r, i);
+    lam_vec3 eye = {s->eye.x - s->target.x, s->eye.y - s->target.y, s->eye.z - s->target.z};
+    lam_vec3 way = s->lights[0].type == LAM_LIGHT_DIRECTIONAL ? s->lights[0].to_light : s->lights[0].position;
+    return eye.x * way.x + eye.y * way.y + eye.z * way.z < 0;
+}
+
+static bool has_bumps(const struct run *r, int i)
+{
+    lam_vec3 bump = scene_of(r, i)->bump;
+    return bump.x != 0 || bump.y != 0 || bump.z != 0;
+}
+
+static bool is_flat(const struct run *r, int i) { return scene_of(r, i)->flat; }
+static bool has_two_sides(const struct run *r, int i) { return r->scenes[i].row->needs & NEED_TWO_SIDES; }
+static bool is_translucent(const struct run *r, int i) { return r->scenes[i].alpha; }
+static bool is_glossy(const struct run *r, int i) { return scene_of(r, i)->shininess > 30; }
+
+// A property of scenes. Where all that differ have it, and others without it match, it says where to look; of several the one
+// that the fewest scenes have.
+static const struct {
+    const char *sentence;
+    bool (*has)(const struct run *r, int scene);
+} properties[] = {
+    {"only the ambient term differs: scenes without it match", shows_ambient},
+    {"only the diffuse term differs: scenes without it match", shows_diffuse},
+    {"only the specular term differs: scenes without it match", shows_specular},
+    {"right with one light, wrong with several", has_lights},
+    {"right with even scales, and different where the model is scaled unevenly: look at the normals and their matrix",
+     is_uneven},
+    {"right at the vertices of small triangles, and different between those of large ones: each fragment has to "
+     "compute what "
+     "is interpolated here",
+     is_coarse},
+    {"only directional lights differ", has_direction},
+    {"only point lights differ", has_point},
+    {"only spots differ", has_spot},
+    {"different where the light is attenuated, and right where it is not", is_attenuated},
+    {"different where the light comes from behind, and right where it comes from the front", is_lit_from_behind},
+    {"only scenes with a normal map differ that is not flat: look at tangent, bitangent and the texel", has_bumps},
+    {"only flat shading differs", is_flat},
+    {"only the scene of back faces differs", has_two_sides},
+    {"only the scene of a translucent material differs: look at alpha", is_translucent},
+    {"only small highlights differ: look at the exponent", is_glossy},
+};
+
+// The number of scenes with a property, if all scenes that differ have it and nearly all that have it differ. 0: it does not set
+// these apart.
+static int count_with(const struct run *r, bool (*has)(const struct run *r, int scene))
+{
+    int with = 0, failed = 0;
+    for (int i = 0; i < r->scene_count; i++) {
+        bool found = has(r, i);
+        with += found;
+        failed += found && !r->scenes[i].passes;
+        if (!found && !r->scenes[i].passes)
+            return 0;
+    }
+    return with < r->scene_count && 4 * failed >= 3 * with ? with : 0;
+}
+
+// The factor by which every picture is too bright. False: it is no factor.
+static bool find_factor(struct run *r, double *factor)
+{
+    double products = 0, squares = 0, sum = 0, left = 0;
+    for (int turn = 0; turn < 2; turn++)
+        for (int i = 0; i < r->scene_count; i++) {
+            const float *theirs = r->scenes[i].samples;
+            size_t count = scene_comparison_sample_count(&r->scenes[i]);
+            scene_comparison_sample(&r->scenes[i], r->scenes[i].reference, r->numbers);
+            for (size_t k = 0; k < count && !r->scenes[i].spoilt && !r->scenes[i].alpha; k++) {
+                double x = (double)r->numbers[k], y = (double)theirs[k];
+                if (x >= 1 || y >= 1)
+                    continue;
+                products += turn == 0 ? x * y : 0;
+                squares += turn == 0 ? x * x : 0;
+                double d = turn == 1 ? y - *factor * x : 0;
+                left += d * d;
+                sum += turn == 1 ? y * y : 0;
+            }
+            *factor = squares > 0 ? products / squares : 0;
+        }
+    return *factor > 0.02 && !is_near(*factor, 1) && left < 1e-4 * sum;
+}
+
+static bool is_any(const char *word, const char *const *list, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (list[i] && strcmp(list[i], word) == 0)
+            return true;
+    return false;
+}
+
+// Reports the first line of the vertex shader that multiplies the normal by the projection.
+static void find_projected_normal(struct run *r)
+{
+    enum { MAX_CLIP = 12 };
+    const struct shader_interface *in = &r->interface;
+    const struct declarations *d = &in->vertex;
+    const char *clip[MAX_CLIP] = {"gl_ProjectionMatrix", "gl_ModelViewProjectionMatrix",
+                                  contract_name_used(in->contract, SEMANTIC_PROJECTION, d, &in->fragment),
+                                  contract_name_used(in->contract, SEMANTIC_VIEW_PROJECTION, d, &in->fragment),
+                                  contract_name_used(in->contract, SEMANTIC_MODEL_VIEW_PROJECTION, d, &in->fragment)};
+    const char *normal[] = {"gl_Normal", contract_name_used(in->contract, SEMANTIC_NORMAL, d, &in->fragment)};
+    int clip_count = 5;
+    for (int begin = 0, end; begin < d->word_count; begin = end + 1) {
+        bool projected = false, lit = false;
+        const char *assigned = NULL;
+        for (end = begin; end < d->word_count && !strchr(";{}", d->words[end].text[0]); end++) {
+            const char *word = d->words[end].text;
+            assigned = end > begin && strcmp(word, "=") == 0 && !assigned ? d->words[end - 1].text : assigned;
+            projected = projected || (d->words[end].depth > 0 && is_any(word, clip, clip_count));
+            lit = lit || is_any(word, normal, 2);
+        }
+        if (projected && lit) {
+            diagnostics_add(
+                &r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, r->params->vertex_name, d->words[begin].line,
+                "the normal is multiplied by the projection, after which angles mean nothing; use the normal "
+                "matrix (normal-clip-space)");
+            return;
+        }
+        if (projected && assigned && clip_count < MAX_CLIP && strcmp(d->words[begin].text, "mat4") == 0)
+            clip[clip_count++] = assigned;
+    }
+}
+
+void check_describe(struct run *r)
+{
+    const char *sentence = NULL;
+    double factor = 0;
+    int fewest = r->scene_count, worst = 0, failed = 0;
+    find_projected_normal(r);
+    for (size_t k = 0; k < sizeof properties / sizeof *properties; k++) {
+        int with = count_with(r, properties[k].has);
+        if (with > 0 && with < fewest) {
+            fewest = with;
+            sentence = properties[k].sentence;
+        }
+    }
+    for (int i = 0; i < r->scene_count; i++) {
+        failed += !r->scenes[i].passes;
+        worst = r->scenes[i].mean_difference > r->scenes[worst].mean_difference ? i : worst;
+    }
+    if (sentence)
+        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s", sentence);
+    else if (find_factor(r, &factor))
+        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
+                        "every picture is %.3g times as bright as the reference", factor);
+    else
+        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
+                        "%d of %d scenes differ, most of all '%s': %s", failed, r->scene_count,
+                        r->scenes[worst].row->name, r->scenes[worst].row->description);
+}

@@ -1,0 +1,217 @@
+// check_write.c: writes a contract as a file for people: an entry a line, and beside each one what it means and what to correct.
+#include <lambent/check.h>
+
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "contract.h"
+#include "fail.h"
+#include "fixed_state.h"
+#include "infer.h"
+#include "own_texts.h"
+#include "json_parse.h"
+#include "prefix.h"
+
+// What to correct in an entry, by its role; "": nothing can be wrong but the role.
+static const struct {
+    const char *role, *correct;
+} corrections[] = {
+    {"zero", "gets 0, since its role is not known or it is not used; give it a role if it matters"},
+    {"factor",
+     "its value is free. If the exercise prescribes it: a role such as color, light_color, diffuse_strength, and "
+     "\"strengths\": \"given\""},
+    {"light_position", "correct `space` if the program gives it in another one"},
+    {"light_direction", "it points to the light; if it points away from it, light_travel. Correct `space` too"},
+    {"light_travel", "it points away from the light; if it points to it, light_direction. Correct `space` too"},
+    {"eye_position", "correct `space` if the program gives it in another one"},
+    {"normal_matrix", "correct `space` if it leads to another one"},
+    {"shininess", "the exponent of the highlight, which the scenes choose"},
+};
+
+static const char *const root_comment[] = {
+    "Written by `lambent check --write-contract`; docs/check/contract-file.md explains every key and every role.",
+    "Correct `name` and `title` first, then `space`: eye or world, where the shaders light.",
+    "\"strengths\": \"any\" accepts every colour and strength. With \"given\", each name needs a role, and mistakes in "
+    "colours are found.",
+    "If the exercise demands them, add \"gate\": \"required\", \"unit_normals\": \"required\", \"bare_ambient\": "
+    "\"required\".",
+    "`weights` says how many points a scene is worth: {\"gate\": 2}. Comments may be removed."};
+
+static const char *meaning_of(const char *role)
+{
+    for (int i = 0; i < role_count; i++)
+        if (strcmp(roles[i].name, role) == 0)
+            return roles[i].meaning;
+    return "";
+}
+
+static json_t *comment_of(const json_t *entry)
+{
+    const char *role = json_string_value(json_object_get(entry, "role")), *correct = NULL;
+    for (size_t i = 0; role && i < sizeof corrections / sizeof *corrections; i++)
+        if (strcmp(corrections[i].role, role) == 0)
+            correct = corrections[i].correct;
+    return json_sprintf("%s%s%s", role ? meaning_of(role) : "", correct ? "; " : "", correct ? correct : "");
+}
+
+// Adds a comment to each entry that has none, and gives names of the fixed state back their own.
+static json_t *comment_entries(const json_t *entries)
+{
+    json_t *out = json_object();
+    const char *name;
+    json_t *entry;
+    json_object_foreach((json_t *)(uintptr_t)entries, name, entry)
+    {
+        char own[80];
+        snprintf(own, sizeof own, "gl_%.70s", strncmp(name, "fixed_", 6) == 0 ? name + 6 : "");
+        json_t *copy = json_copy(entry);
+        if (!json_object_get(copy, "comment"))
+            json_object_set_new(copy, "comment", comment_of(entry));
+        json_object_set_new(out, fixed_state_has(own) ? own : name, copy);
+    }
+    return out;
+}
+
+static json_t *lines_of(const char *const *lines, int count)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < count; i++)
+        json_array_append_new(list, json_string(lines[i]));
+    return list;
+}
+
+struct text {
+    char *bytes;
+    size_t size, capacity;
+    bool failed;
+};
+
+static void put(struct text *t, const char *some, size_t size)
+{
+    if (t->size + size + 1 > t->capacity) {
+        size_t capacity = 2 * (t->size + size) + 1024;
+        char *bytes = realloc(t->bytes, capacity);
+        t->failed = t->failed || !bytes;
+        if (!bytes)
+            return;
+        t->bytes = bytes;
+        t->capacity = capacity;
+    }
+    memcpy(t->bytes + t->size, some, size);
+    t->size += size;
+}
+
+static int put_chunk(const char *bytes, size_t size, void *text)
+{
+    put(text, bytes, size);
+    return ((struct text *)text)->failed ? -1 : 0;
+}
+
+static void put_line(struct text *t, int indent, const char *key, const json_t *value, bool last)
+{
+    char head[120];
+    int length = snprintf(head, sizeof head, "%*s", indent, "");
+    put(t, head, (size_t)length);
+    if (key) {
+        json_t *name = json_string(key);
+        json_dump_callback(name, put_chunk, t, JSON_ENCODE_ANY);
+        json_decref(name);
+        put(t, ": ", 2);
+    }
+    json_dump_callback(value, put_chunk, t, JSON_ENCODE_ANY | JSON_REAL_PRECISION(9));
+    put(t, last ? "\n" : ",\n", last ? 1 : 2);
+}
+
+// An object or a list of more than one line, with a member a line.
+static void put_members(struct text *t, const char *key, const json_t *value, bool last)
+{
+    bool list = json_is_array(value);
+    size_t count = list ? json_array_size(value) : json_object_size(value), i = 0;
+    char head[120];
+    int length = snprintf(head, sizeof head, "  \"%s\": %c\n", key, list ? '[' : '{');
+    put(t, head, (size_t)length);
+    const char *name;
+    json_t *member;
+    if (list)
+        json_array_foreach(value, i, member) put_line(t, 4, NULL, member, i + 1 == count);
+    else
+        json_object_foreach((json_t *)(uintptr_t)value, name, member) put_line(t, 4, name, member, ++i == count);
+    length = snprintf(head, sizeof head, "  %c%s\n", list ? ']' : '}', last ? "" : ",");
+    put(t, head, (size_t)length);
+}
+
+static bool write_contract(const char *contract, const char *found, lam_bytes *out, lam_error *error)
+{
+    static const char *const wide[] = {"comment", "attributes", "uniforms", "undeclared", "constants", "prefix"};
+    json_t *from = json_parse(contract, strlen(contract), "contract", NULL, error), *root = from ? json_object() : NULL;
+    struct text t = {0};
+    if (!root)
+        return false;
+    json_t *comment = lines_of(root_comment, sizeof root_comment / sizeof *root_comment);
+    if (found[0])
+        json_array_append_new(comment, json_sprintf("Not understood: %s.", found));
+    json_object_set_new(root, "comment", comment);
+    const char *key;
+    json_t *value;
+    json_object_foreach(from, key, value)
+    {
+        if (strcmp(key, "attributes") == 0 || strcmp(key, "uniforms") == 0)
+            json_object_set_new(root, key, comment_entries(value));
+        else if (!json_object_get(root, key))
+            json_object_set(root, key, value);
+    }
+    json_t *undeclared = json_object_get(root, "undeclared");
+    if (undeclared && !json_object_get(undeclared, "comment"))
+        json_object_set_new(
+            undeclared, "comment",
+            json_string("values of what a shader has no name for, because the exercise writes it as a number"));
+    size_t i = 0, count = json_object_size(root);
+    put(&t, "{\n", 2);
+    json_object_foreach(root, key, value)
+    {
+        bool is_wide = false;
+        for (size_t k = 0; k < sizeof wide / sizeof *wide; k++)
+            is_wide = is_wide || strcmp(wide[k], key) == 0;
+        if (is_wide)
+            put_members(&t, key, value, ++i == count);
+        else
+            put_line(&t, 2, key, value, ++i == count);
+    }
+    put(&t, "}\n", 2);
+    json_decref(root);
+    json_decref(from);
+    if (t.failed) {
+        free(t.bytes);
+        return fail_memory(error, t.capacity);
+    }
+    *out = (lam_bytes){(uint8_t *)t.bytes, t.size};
+    return true;
+}
+
+bool lam_check_contract_write(const lam_check_params *params, const lam_check_report *report, lam_bytes *out,
+                              lam_error *error)
+{
+    *out = (lam_bytes){0};
+    if (!check_reserved("lam_check_params", params, error))
+        return false;
+    if (report)
+        return write_contract(report->contract_text, "", out, error);
+    if (!params->vertex || !params->fragment)
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "a contract is written for a fragment shader and its vertex shader; one is missing");
+    struct own_texts own;
+    char why[300] = "";
+    bool ok = own_texts_make(params->vertex, params->fragment, &own, error);
+    struct complete_texts texts = {.vertex = own.vertex, .fragment = own.fragment};
+    struct declarations sides[2] = {{0}};
+    ok = ok && prefix_read(&texts, true, &sides[0], error) && prefix_read(&texts, false, &sides[1], error);
+    char *text = ok ? contract_infer(&sides[0], &sides[1], NULL, 0, true, why, sizeof why) : NULL;
+    ok = ok && (text ? write_contract(text, why, out, error) : fail(error, LAM_BAD_ARGUMENT, "no contract: %s", why));
+    free(text);
+    own_texts_free(&own);
+    declarations_free(&sides[0]);
+    declarations_free(&sides[1]);
+    return ok;
+}

@@ -1,0 +1,199 @@
+// fault_sets.c: the search for several faults that explain the pictures together.
+#include "fault_candidate.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "fail.h"
+
+enum { BEAM = 6 };
+
+// As fractions of the difference without faults:
+static const double max_score_for_a_third = 0.75; // may remain after two faults for a search of three to be worthwhile
+static const double min_gain = 0.03;              // each fault more must explain
+static const double max_rival = 1.25;             // times as much a rival may leave over all scenes
+static const double max_exact =
+    2e-4; // what rounding leaves of an exact explanation, as a mean difference over all scenes
+
+static int count_bits(uint32_t bits)
+{
+    int count = 0;
+    for (; bits; bits &= bits - 1)
+        count++;
+    return count;
+}
+
+// --- several faults
+
+// Takes away what is not needed, and checks what is left: each name is supported by a scene that it explains alone, or
+// the explanation is exact.
+static bool reduce(struct state *t, struct candidate *c, lam_error *error)
+{
+    for (int i = 0; i < c->count && c->count > 1;) {
+        struct candidate less = *c;
+        memmove(&less.members[i], &less.members[i + 1], (size_t)(c->count - i - 1) * sizeof *less.members);
+        less.count--;
+        candidate_rebuild(&less);
+        if (!candidate_try(t, &less, no_limit, error))
+            return false;
+        if (less.fits) {
+            *c = less;
+            i = 0;
+        } else {
+            i++;
+        }
+    }
+    bool supported = c->mean <= max_ratio_explained * t->s->before;
+    for (int i = 0; i < c->count && c->mean > max_exact; i++)
+        supported = supported &&
+                    (fault_is_style(c->members[i].row, t->s->interface) || outcome_of(t, c->members[i].row)->explained);
+    c->fits = c->fits && supported;
+    return true;
+}
+
+// Whether a fault is the one that explains some scene: no other explains it and leaves about as little over all scenes.
+static bool is_the_one(struct state *t, const struct outcome *o, lam_error *error, bool *ok)
+{
+    for (int k = 0; k < t->m.differ_count; k++) {
+        uint32_t scene = (uint32_t)1 << t->m.order[k];
+        bool alone = (o->exactly & scene) != 0;
+        for (int m = 0; alone && m < fault_count; m++) {
+            struct outcome *other = &t->outcomes[m];
+            if (!(other->explained & scene) || strcmp(faults[m].id, o->fault.row->id) == 0 ||
+                other->score > max_rival * o->score)
+                continue;
+            *ok = *ok && outcome_find_spoils(t, other, error);
+            alone = *ok && other->spoils;
+        }
+        if (alone)
+            return true;
+    }
+    return false;
+}
+
+bool sets_try_supported(struct state *t, bool all, struct candidate *c, lam_error *error)
+{
+    struct fault_search *s = t->s;
+    uint32_t covered = 0;
+    bool *used = calloc((size_t)fault_count, sizeof *used);
+    bool ok = used || fail_memory(error, (size_t)fault_count);
+    *c = (struct candidate){.mean = s->before, .score = 1};
+    while (ok && c->count < MAX_FOUND_FAULTS) {
+        struct outcome *next = NULL;
+        for (int m = 0; ok && m < fault_count; m++) {
+            struct outcome *o = &t->outcomes[m];
+            int mine = count_bits(o->explained & ~covered), most = next ? count_bits(next->explained & ~covered) : 0;
+            if (used[m] || !mine || fault_is_style(&faults[m], t->s->interface) || mine < most ||
+                (mine == most && o->mean >= next->mean))
+                continue;
+            ok = outcome_find_spoils(t, o, error);
+            if (ok && !o->spoils && (all || is_the_one(t, o, error, &ok)))
+                next = o;
+        }
+        if (!ok || !next)
+            break;
+        used[next - t->outcomes] = true;
+        struct candidate more = *c;
+        more.members[more.count++] = next->fault;
+        candidate_rebuild(&more);
+        s->tried++;
+        ok = candidate_try(t, &more, no_limit, error);
+        if (all || (ok && more.score < c->score && more.mean < c->mean)) {
+            *c = more;
+            covered |= next->explained;
+        }
+    }
+    free(used);
+    return ok && (!all || !c->fits || reduce(t, c, error));
+}
+
+static bool is_better(const struct candidate *a, const struct candidate *b)
+{
+    return a->fits != b->fits ? a->fits : a->score < b->score - 1e-6; // equal candidates keep the table's order
+}
+
+// Inserts a candidate into the best BEAM, which are sorted.
+static void beam_insert(struct candidate beam[BEAM], int *count, const struct candidate *c)
+{
+    for (int i = 0; i < *count; i++)
+        if (fault_set_equal(&beam[i].set, &c->set))
+            return;
+    int at = *count;
+    while (at > 0 && is_better(c, &beam[at - 1]))
+        at--;
+    if (at == BEAM)
+        return;
+    int last = *count < BEAM ? (*count)++ : BEAM - 1;
+    for (int i = last; i > at; i--)
+        beam[i] = beam[i - 1];
+    beam[at] = *c;
+}
+
+// Adds each fault to each candidate of the beam.
+static bool extend(struct state *t, const struct candidate *beam, int beam_count, struct candidate next[BEAM],
+                   int *count, lam_error *error)
+{
+    for (int b = 0; b < beam_count; b++)
+        for (int m = 0; m < fault_count && !search_is_spent(t); m++) {
+            struct outcome *o = &t->outcomes[m];
+            struct candidate c = beam[b];
+            fault_set same = fault_set_add(&c.set, &faults[m]);
+            if (!o->applies || !o->changed_count || (!faults[m].fit && fault_set_equal(&same, &c.set)))
+                continue;
+            if (!outcome_find_spoils(t, o, error))
+                return false;
+            bool possible = !o->spoils;
+            if (possible && !candidate_prepare(t, &beam[b].set, &faults[m], &c.members[c.count], &possible, error))
+                return false;
+            if (!possible)
+                continue;
+            c.count++;
+            candidate_rebuild(&c);
+            double max_score = *count == BEAM ? next[BEAM - 1].score : no_limit;
+            bool useful;
+            if (!candidate_try_child(t, &beam[b], o, &c, max_score, &useful, error))
+                return false;
+            if (useful)
+                beam_insert(next, count, &c);
+        }
+    return true;
+}
+
+bool sets_try(struct state *t, struct candidate *best, lam_error *error)
+{
+    struct candidate beam[BEAM];
+    int beam_count = 0;
+    for (int m = 0; m < fault_count; m++) {
+        struct outcome *o = &t->outcomes[m];
+        if (!o->applies || (o->spoils_known && o->spoils))
+            continue;
+        struct candidate c = {.members = {o->fault}, .count = 1, .mean = o->mean, .score = o->score};
+        memcpy(c.parts, o->parts, sizeof c.parts);
+        candidate_rebuild(&c);
+        // One that spoils a scene is no part of an explanation, and takes no place of one that may be.
+        bool near = beam_count < BEAM || is_better(&c, &beam[BEAM - 1]);
+        if (near && !outcome_find_spoils(t, o, error))
+            return false;
+        if (near && !o->spoils)
+            beam_insert(beam, &beam_count, &c);
+    }
+    for (int depth = 2; depth <= MAX_FOUND_FAULTS && beam_count > 0; depth++) {
+        struct candidate next[BEAM];
+        int count = 0;
+        double before = beam[0].score;
+        if (!extend(t, beam, beam_count, next, &count, error))
+            return false;
+        for (int i = 0; i < count && next[i].fits && !best->fits; i++) {
+            if (!reduce(t, &next[i], error))
+                return false;
+            if (next[i].fits)
+                *best = next[i];
+        }
+        // One more fault must explain more.
+        if (best->fits || count == 0 || next[0].score > before - min_gain || next[0].score > max_score_for_a_third)
+            break;
+        memcpy(beam, next, sizeof beam);
+        beam_count = count;
+    }
+    return true;
+}

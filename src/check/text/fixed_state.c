@@ -1,0 +1,102 @@
+// fixed_state.c: declares the fixed state that a text reads (GLSL 1.20, section 7.5).
+#include "fixed_state.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Lists have as many elements as the reference scenes have lights.
+static const struct {
+    const char *name, *elements;
+    const char *members[13]; // each with its type; ends with NULL
+} states[] = {
+    {"gl_LightSource",
+     "[4]",
+     {"vec4 ambient", "vec4 diffuse", "vec4 specular", "vec4 position", "vec4 halfVector", "vec3 spotDirection",
+      "float spotExponent", "float spotCutoff", "float spotCosCutoff", "float constantAttenuation",
+      "float linearAttenuation", "float quadraticAttenuation"}},
+    {"gl_FrontMaterial", "", {"vec4 emission", "vec4 ambient", "vec4 diffuse", "vec4 specular", "float shininess"}},
+    {"gl_LightModel", "", {"vec4 ambient"}},
+    {"gl_FrontLightModelProduct", "", {"vec4 sceneColor"}},
+    {"gl_FrontLightProduct", "[4]", {"vec4 ambient", "vec4 diffuse", "vec4 specular"}},
+};
+enum { STATES = sizeof states / sizeof *states, MAX_DECLARATIONS = 2048 };
+
+static bool is_name(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+// The state whose name stands at `at`. −1: none.
+static int state_at(const char *text, const char *at)
+{
+    for (int i = 0; i < STATES; i++) {
+        size_t length = strlen(states[i].name);
+        if (strncmp(at, states[i].name, length) == 0 && !is_name(at[length]) && (at == text || !is_name(at[-1])))
+            return i;
+    }
+    return -1;
+}
+
+// Whether a text has a word.
+static bool has_word(const char *text, const char *word)
+{
+    size_t length = strlen(word);
+    for (const char *at = text ? strstr(text, word) : NULL; at; at = strstr(at + 1, word))
+        if ((at == text || !is_name(at[-1])) && !is_name(at[length]))
+            return true;
+    return false;
+}
+
+// Declares a state with the members that one of the texts uses, the same in both: what is not declared is not expected.
+static void declare(int state, const char *text, const char *other, char out[MAX_DECLARATIONS])
+{
+    size_t at = strlen(out);
+    const char *name = states[state].name + 3;
+    at += (size_t)snprintf(out + at, MAX_DECLARATIONS - at, "struct fixed_%s_ {", name);
+    for (const char *const *member = states[state].members; *member; member++) {
+        const char *word = strchr(*member, ' ') + 1;
+        if (has_word(text, word) || has_word(other, word))
+            at += (size_t)snprintf(out + at, MAX_DECLARATIONS - at, " %s;", *member);
+    }
+    snprintf(out + at, MAX_DECLARATIONS - at, " };\nuniform fixed_%s_ fixed_%s%s;\n", name, name,
+             states[state].elements);
+}
+
+bool fixed_state_has(const char *name) { return state_at(name, name) >= 0; }
+
+char *fixed_state_rewrite(const char *text, const char *other, bool *ok)
+{
+    char declarations[MAX_DECLARATIONS] = "";
+    size_t names = 0;
+    unsigned used = 0;
+    *ok = true;
+    for (const char *at = strstr(text, "gl_"); at; at = strstr(at + 1, "gl_")) {
+        int state = state_at(text, at);
+        names += state >= 0;
+        if (state >= 0 && !(used >> state & 1))
+            declare(state, text, other, declarations); // all of them have room
+        used |= state >= 0 ? 1u << state : 0;
+    }
+    if (!names)
+        return NULL;
+    // After the version, which has to be first; the lines keep their numbers.
+    const char *version = strstr(text, "#version"), *rest = version ? version + strcspn(version, "\n") : text;
+    int line = version ? 1 : 0;
+    for (const char *c = text; c < rest; c++)
+        line += *c == '\n';
+    rest += *rest == '\n' && version;
+    size_t size = strlen(text) + strlen(declarations) + 3 * names + 40;
+    char *out = malloc(size);
+    if (!out) {
+        *ok = false;
+        return NULL;
+    }
+    int length = snprintf(out, size, "%.*s\n%s#line %d\n", (int)(rest - text), text, declarations, line);
+    for (const char *at = rest; *at; at++) {
+        bool found = strncmp(at, "gl_", 3) == 0 && state_at(text, at) >= 0;
+        length += snprintf(out + length, size - (size_t)length, "%s", found ? "fixed_" : (char[]){*at, 0});
+        at += found ? 2 : 0;
+    }
+    return out;
+}

@@ -7,7 +7,7 @@
 
 #include "option_groups.h"
 
-enum { OPTIONS_MAX = 224 };
+enum { OPTIONS_MAX = 256 };
 
 // The options of a command line; option_defaults() returns their defaults.
 struct options {

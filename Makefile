@@ -9,7 +9,7 @@ MAKEFLAGS += --no-print-directory
 # looks there. The compiler knows the folder too; it prints nothing where there is none.
 folders  = --prefix=$(prefix) $$(gcc -print-multiarch 2>/dev/null | sed 's:.:--libdir=lib/&:')
 
-.PHONY: all demo web site test test-more test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall clean help
+.PHONY: all demo web site test test-more test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall deb static release clean help
 
 all: $(build)/lambent
 
@@ -31,6 +31,9 @@ help:
 	@echo 'make bench-check-record  records them anew, where they were meant to change'
 	@echo 'make install    installs to $$(DESTDIR)$$(prefix), prefix=$(prefix)'
 	@echo 'make uninstall  removes what install put there'
+	@echo 'make deb        builds the Debian packages of the committed tree, in build-deb/ (docs/install.md)'
+	@echo 'make static     builds one program without shared libraries, build-static/lambent'
+	@echo 'make release    builds packages, static programs and the source in dist/, with checksums and the changes'
 	@echo 'make docs       writes the generated parts of docs/ anew, the pictures of the README, and $(build)/docs/reference.md'
 	@echo 'make gallery    all pictures of docs/: those of make docs, and the known mistakes'
 	@echo 'make clean      removes everything that was built'
@@ -124,6 +127,18 @@ uninstall: $(build)/build.ninja
 	@meson introspect --installed $(build) | python3 scripts/uninstall.py '$(DESTDIR)' '$(prefix)'
 	@test -n '$(DESTDIR)' || $(ldconfig)
 
+deb:
+	@scripts/setup.sh build package
+	@packaging/deb.sh build-deb
+
+static:
+	@scripts/setup.sh build
+	@python3 packaging/static.py build-static
+
+release:
+	@scripts/setup.sh build package
+	@python3 packaging/release.py dist
+
 docs: $(build)/lambent
 	@ninja -C $(build) docs/reference.md
 	@python3 scripts/docs.py $(build)/lambent
@@ -136,4 +151,4 @@ gallery: docs
 	$(build)/docs/shadow-mistakes examples/shadows.json docs/pictures
 
 clean:
-	rm -rf build build-* out
+	rm -rf build build-* out dist

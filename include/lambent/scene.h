@@ -16,7 +16,7 @@ typedef struct lam_scene lam_scene;
 
 // The axis that points up.
 typedef enum lam_up {
-    LAM_UP_AUTO = 0,   // the format's: y for glTF, OBJ and PLY, z for STL
+    LAM_UP_AUTO = 0,   // the format's: y for glTF, OBJ and PLY, z for STL and 3MF
     LAM_UP_X,          // +x
     LAM_UP_Y,          // +y
     LAM_UP_Z,          // +z
@@ -60,7 +60,7 @@ typedef void lam_release_fn(void *user, struct lam_bytes *bytes);
 
 // How a model is loaded. All zero is the default.
 typedef struct lam_load_params {
-    const char *format;   // "obj", "stl", "ply", "gltf", "scene"; NULL: by content
+    const char *format;   // "obj", "stl", "ply", "gltf", "3mf", "scene"; NULL: by content
     lam_up up;            // the up axis
     lam_color_mode color; // of the file's colours
     // Scene files: true: `color` counts whatever the file says. false: the file's mode, and `color` where it has none.
@@ -87,8 +87,8 @@ typedef struct lam_load_params {
     // glTF: the variant of the materials (KHR_materials_variants), by its name or its number from 0. NULL: the materials
     // of the primitives themselves.
     const char *variant;
-    // glTF: true: extensions that the file requires and this version does not know are ignored, as are primitive restart
-    // values among indices. false: LAM_UNSUPPORTED, LAM_CANNOT_READ.
+    // glTF and 3MF: true: extensions that the file requires and this version does not know are ignored, as are glTF's primitive
+    // restart values among indices. false: LAM_UNSUPPORTED, LAM_CANNOT_READ.
     bool lenient;
     // glTF: the animation whose pose at `time_s` is shown, by its name or its number from 0. NULL: the pose that the file
     // has without one.
@@ -255,7 +255,7 @@ typedef struct lam_file_image {
     LAM_RESERVED(4);
 } lam_file_image;
 
-// What a glTF file holds beside the scene that was made from it. Other formats leave all of it zero. Names that the file does
+// What a glTF or 3MF file contains beside the scene that was made from it. Other formats leave all of it zero. Names that the file does
 // not give are NULL.
 typedef struct lam_file_info {
     const char *version;                  // of the format: "2.0"
@@ -273,7 +273,9 @@ typedef struct lam_file_info {
     // In the order of "extensionsUsed", then those that are only in "extensionsRequired".
     const lam_file_extension *extensions;
     int extension_count; // elements of `extensions`
-    LAM_RESERVED(16);
+    // Metres of a unit of the file's lengths: 1 of glTF's, 0.001 of millimetres; 0: the format does not say.
+    double unit_m;
+    LAM_RESERVED(15);
 } lam_file_info;
 
 // Describes the file of a loaded scene. Valid until the scene is freed; all zero for scenes made by hand and for scene

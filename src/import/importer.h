@@ -49,7 +49,7 @@ struct importer {
 };
 
 // The formats, in the order in which lists name them. tests/fuzz/meson.build reads these names too.
-#define IMPORTERS(X) X(obj) X(stl) X(ply) X(gltf) X(scene)
+#define IMPORTERS(X) X(obj) X(stl) X(ply) X(gltf) X(3mf) X(scene)
 
 #define IMPORTER(name) extern const struct importer importer_##name;
 IMPORTERS(IMPORTER)

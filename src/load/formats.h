@@ -4,7 +4,7 @@
 
 #include "importer.h"
 
-// ".obj, .stl, .ply, .gltf, .glb and scene files (.json)": the formats that can be read. Returns `out`.
+// ".obj, .stl, .ply, .gltf, .glb, .3mf and scene files (.json)": the formats that can be read. Returns `out`.
 enum { FORMAT_LIST_SIZE = 128 };
 const char *format_list(char out[FORMAT_LIST_SIZE]);
 

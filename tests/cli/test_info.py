@@ -37,10 +37,31 @@ class Info(GltfCase):
                                             "memory_bytes": 0, "slots": []}])
         self.assertEqual(self.info(model, "--scene", "night")[0]["scenes"][1]["read"], True)
         text = self.good("info", model).stdout.decode()
-        for words in ("gltf 2.0, written by by?hand", "copyright   nobody", "2 × 2 × 0 m, y up", "2 triangles, 4 vertices", "0 'day', the one that is read",
+        for words in ("gltf 2.0, written by by?hand", "copyright   nobody", "2 × 2 × 0 m (2000 × 2000 × 0 mm), y up", "area 4e+06 mm², not closed", "2 triangles, 4 vertices", "0 'day', the one that is read",
                       "1 'night'", "0 unlit: base 1/0/0", "1 'mint'", "0 'near', perspective, 5.73 degrees high, at 0 0 9", "KHR_materials_dispersion: ignored",
                       "NO_such: unknown", "0 'skin.png', png; not read"):
             self.assertIn(words, text)
+
+    def test_measure(self):
+        """Area, and the volume of what is closed, in the model's units where the format names none."""
+        for model, area, volume in (("cube.obj", 24, 8), ("cube.stl", 24, 8), ("cube.ply", 24, 8), ("sphere", 12.566, 4.18879), ("plane", 4, None)):
+            measure = self.info(model)[0]["measure"]
+            self.assertAlmostEqual(measure["area"] / area, 1, 2, model)
+            self.assertEqual((measure["closed"], measure["size_mm"], measure["area_mm2"], measure["volume_mm3"]), (volume is not None, None, None, None))
+            self.assertEqual(measure["volume"] is None, volume is None, model)
+            if volume:
+                self.assertAlmostEqual(measure["volume"] / volume, 1, 2, model)
+        self.assertIn("area 24 units², closed: volume 8 units³", self.good("info", "cube.obj").stdout.decode())
+        # A triangle that is missing, and one that faces the other side.
+        faces = (self.folder / "cube.obj").read_text()
+        lines = [line for line in faces.splitlines() if line.startswith("f ")]
+        for change in ("", " ".join([lines[0].split()[0], *reversed(lines[0].split()[1:])])):
+            (self.folder / "open.obj").write_text(faces.replace(lines[0], change))
+            self.assertFalse(self.info("open.obj")[0]["measure"]["closed"])
+        # Objects of a scene each count, with their transforms.
+        (self.folder / "two.json").write_text(json.dumps({"lambent": 1, "objects": [{"file": "cube.obj"}, {"file": "cube.obj", "transform": [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1]}]}))
+        measure = self.info("two.json")[0]["measure"]
+        self.assertEqual((measure["area"], measure["volume"]), (24 + 96, 8 + 64))
 
     def test_drawing_memory(self):
         """What drawing takes besides the model: at least the picture, more with more threads; none within a limit that it exceeds."""

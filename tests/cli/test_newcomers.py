@@ -29,7 +29,7 @@ class Sentences(Case):
             "folder": (2, "lambent batch folder", "lambent view folder"),
             "https://example.com/a.glb": (2, "download it first", reads),
             "https://example.com/a.fbx": (2, "download it first", reads, "export the model as .glb"),
-            "a.fbx": (2, reads, "export the model as .glb"), "a.blend": (2, reads, ".glb"), "a.3mf": (2, reads, "as .stl"),
+            "a.fbx": (2, reads, "export the model as .glb"), "a.blend": (2, reads, ".glb"), "a.amf": (2, reads, "as .stl"),
             "a.step": (2, reads, "as .stl"), "noise.step": (3, "this is a STEP file", reads, "as .stl"),
             "cub.obj": (2, "did you mean 'cube.obj'?"), "cube.OBJ": (2, "did you mean 'cube.obj'?"),
             r"C:\models\cube.obj": (2, "folders are separated by /"), "640": (2, SIZE), "open": (2, "did you mean 'view'?"),

@@ -92,7 +92,13 @@ class Names(Case):
         self.bad(1, "cube.obj", "cube.stl", "-o", "deep/new/", says="would both be written")
         self.bad(2, "missing.obj", "-o", "deep/new/", says="missing.obj")
         self.bad(5, "cube.obj", "-o", "deep/x.png", says="deep")  # a named picture's folder may be a mistake
-        self.bad(3, "cube.obj", "-o", "deep", says="the name of a folder ends in a slash: deep/")
+        self.bad(1, "cube.obj", "torus", "-o", "deep", says="name a folder, -o pictures/")
+        self.good("-q", "cube.obj", "-o", "deep")  # no ending: a PNG, as thumbnailers name it
+        self.assertEqual((self.folder / "deep").read_bytes(), self.good("cube.obj", "-o", "-").stdout)
+        self.good("-q", "cube.obj", "-s", 32, "--turntable", 2, "-o", "deep")
+        self.assertIn(b"acTL", (self.folder / "deep").read_bytes())
+        self.good("-q", "compare", "cube.obj", "--sheet", "stages", "-s", 16, "-o", "deep")
+        os.remove(self.folder / "deep")
         self.bad(5, "cube.obj", "-o", "cube.mtl/", says="'cube.mtl' is not a folder")
         self.bad(5, "cube.obj", "-o", "cube.mtl/in/", says="cube.mtl/in")
         user = self.plain_user()

@@ -32,10 +32,11 @@ SEED_BYTES = 16384
 # Words of a format are the string literals of the files that read it, by default those of its folder in src/import; other dictionaries lie in dictionaries/.
 WORDS = {
     "obj": ["src/import/obj"], "mtl": ["src/import/obj/mtl.c", "src/import/obj/mtl_maps.c"], "gltf": ["src/import/gltf"], "glb": ["src/import/gltf"],
+    "3mf": ["src/import/threemf"],
     "scene": ["src/scene_file", "src/scene", "src/words"],
     "render": ["src/import/obj", "src/import/ply", "src/import/gltf"], "job": ["tools/many/jobs", "tools/options", "src/words"], "formula": ["src/shapes/formula_parse.c"],
 }
-NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "scene", "render", "job", "formula")
+NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "3mf", "scene", "render", "job", "formula")
 
 # A slow input is a find too: SECONDS on a busy machine, under sanitizers, for an input of at most 16 KB.
 LIMITS = ["-timeout=10", "-rss_limit_mb=1200", "-malloc_limit_mb=600", "-max_len=%d" % SEED_BYTES, "-report_slow_units=5"]
@@ -53,7 +54,7 @@ def build(jobs):
                         "-Db_sanitize=address,undefined", "-Db_lundef=false", "-Dc_args=-fsanitize=fuzzer-no-link"],
                        check=True, env={**os.environ, "CC": "clang"}, stdout=subprocess.DEVNULL)
     listed = subprocess.run(["ninja", "-C", OUT, "-t", "targets", "all"], check=True, capture_output=True, text=True).stdout
-    names = re.findall(r"^tests/fuzz/fuzz-([a-z]+): ", listed, re.M)
+    names = re.findall(r"^tests/fuzz/fuzz-([a-z0-9]+): ", listed, re.M)
     draco = ["lambent-draco.so"] if "\nlambent-draco.so: " in listed else []
     subprocess.run(["ninja", "-C", OUT, "-j", str(jobs)] + ["tests/fuzz/fuzz-" + name for name in names] + draco, check=True,
                    stdout=subprocess.DEVNULL)

@@ -81,7 +81,10 @@ const struct topic topics[] = {
      "extensions of glTF and "
      "what becomes of each (supported, ignored, or unknown), memory, the time that loading took, and warnings. Lists "
      "end after 8 rows; `--json` prints everything, one line for each model (`docs/info.schema.json`). Lengths of "
-     "glTF are metres; other formats do not say. A file that requires an unknown extension is read as with "
+     "glTF are metres, and 3MF names its unit: the size, the area and the volume are printed in millimetres; other "
+     "formats do not say. "
+     "The volume is that of a closed surface: one whose every edge belongs to as many triangles in one direction as in "
+     "the other. A file that requires an unknown extension is read as with "
      "`--lenient`, and the output says so. The memory is that of the model, and what drawing 1024x1024 pixels takes "
      "besides, the picture included: the depths are drawn once to find it. A model that cannot be read is reported, "
      "and the exit code is the highest one."},

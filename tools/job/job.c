@@ -418,11 +418,10 @@ bool job_draw(struct job *job, lam_pixel_format format, struct progress *progres
 
 bool job_check_output(struct job *job, lam_error *error)
 {
-    bool stream = !job->picture_bytes && output_is_stream(job->output);
     if (job->picture_bytes ? !lam_image_format_for(job->output, &job->pixels, error)
                            : !output_format(job->output, &job->pixels, error))
         return false;
-    job->format = stream ? "png" : strrchr(job->output, '.') + 1;
+    job->format = job->picture_bytes ? strrchr(job->output, '.') + 1 : output_ending(job->output);
     enum output_given given = output_given(job->options->picture.output);
     given = given == OUTPUT_NAMED && job->makes_folder ? OUTPUT_PATTERN : given;
     if (strcmp(job->output, "-") != 0 && !job->picture_bytes && !output_check(job->output, job->model, given, error))

@@ -143,7 +143,7 @@ static const struct word projection_words[] = {{"perspective", 0, "a vertical fi
                                                {"orthographic", 1, "parallel, as in a drawing"},
                                                {NULL, 0, NULL}};
 
-static const struct word up_words[] = {{"auto", LAM_UP_AUTO, "by format: z for STL, y for the others"},
+static const struct word up_words[] = {{"auto", LAM_UP_AUTO, "by format: z for STL and 3MF, y for the others"},
                                        {"x", LAM_UP_X, NULL},
                                        {"y", LAM_UP_Y, "the model's front is +Z"},
                                        {"z", LAM_UP_Z, "the model's front is -Y"},
@@ -231,7 +231,8 @@ static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest that 
 struct option option_table[OPTIONS_MAX] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", output_summary,
      "The extension selects the format; `lambent formats` says which numbers each holds. `-` writes a PNG to standard "
-     "output; a pipe or device whose name has no such extension also gets a PNG. Without this "
+     "output; a pipe or device whose name has no such extension also gets a PNG, and so does a file whose name has no "
+     "extension at all. Without this "
      "option the picture is written to the current folder under the model's name with the extension `.png` "
      "(`model.png` if the model comes from standard input); a file of that name that lambent did not write is "
      "never overwritten. `-o pictures/`, with a trailing slash, does the same in that folder, and makes it if it "
@@ -399,7 +400,7 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(view.projection)},
     {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z, -x, -y, -z or auto.",
      "The camera and the lights attached to it follow the axis; the model's coordinates do not change. STL "
-     "files are read as Z up, as in CAD and 3D printing; other formats as Y up. Capitals and a plus (`+Z`) are "
+     "and 3MF files are read as Z up, as in CAD and 3D printing; other formats as Y up. Capitals and a plus (`+Z`) are "
      "accepted.",
      up_words, .brief = "what is up in the file: y, z, -z ...", .store = store_up,
      .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up)},

@@ -108,17 +108,25 @@ bool output_is_stream(const char *path)
                                       !lam_image_format_for(path, &format, NULL));
 }
 
+// A picture's name without an ending, as thumbnailers are given them: it is a PNG.
+static bool is_without_ending(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    return *name && !strchr(name, '.');
+}
+
+const char *output_ending(const char *path)
+{
+    return output_is_stream(path) || is_without_ending(path) ? "png" : strrchr(path, '.') + 1;
+}
+
 bool output_format(const char *path, lam_pixel_format *format, lam_error *error)
 {
     *format = LAM_RGBA8; // of a stream
-    if (output_is_stream(path) || lam_image_format_for(path, format, error))
+    if (output_is_stream(path) || is_without_ending(path) || lam_image_format_for(path, format, error))
         return true;
-    const char *slash = strrchr(path, '/');
     size_t used = strlen(error->text);
-    if (!strchr(slash ? slash : path, '.'))
-        snprintf(error->text + used, sizeof error->text - used, "; the name of a folder ends in a slash: %.100s/",
-                 path);
-    else if (is_model_name(path))
+    if (is_model_name(path))
         snprintf(error->text + used, sizeof error->text - used, "; lambent draws models and does not convert them");
     return false;
 }
@@ -184,7 +192,7 @@ static bool save(const lam_image *image, const char *path, const lam_save_params
                  lam_error *error)
 {
     lam_bytes bytes = {0};
-    bool ok = lam_image_encode(image, output_is_stream(path) ? "png" : strrchr(path, '.') + 1, params, &bytes, error) &&
+    bool ok = lam_image_encode(image, output_ending(path), params, &bytes, error) &&
               output_save_bytes(&bytes, path, params->durable, size, error);
     lam_bytes_free(&bytes);
     return ok;
@@ -196,7 +204,7 @@ static bool save_shown(const lam_image *image, const lam_bytes *png, const char 
 {
     const char *dot = strrchr(path, '.');
     *size = 0;
-    if (output_is_stream(path) || (dot && strcmp(dot, ".png") == 0))
+    if (output_is_stream(path) || is_without_ending(path) || (dot && strcmp(dot, ".png") == 0))
         return strcmp(path, "-") == 0 || output_save_bytes(png, path, params->durable, size, error);
     return save(image, path, params, size, error);
 }

@@ -31,7 +31,10 @@ bool output_check(const char *path, const char *model, enum output_given given, 
 // True if the picture is written directly to `path` as a PNG: "-", or a pipe or device without a picture's extension.
 bool output_is_stream(const char *path);
 
-// The pixels of the format that the extension of `path` selects; bytes for a stream. Error: LAM_UNSUPPORTED.
+// The ending of the format that is written to `path`, as "jpg": "png" of a stream and of a name without an ending.
+const char *output_ending(const char *path);
+
+// The pixels of that format; bytes for a stream. Error: LAM_UNSUPPORTED.
 bool output_format(const char *path, lam_pixel_format *format, lam_error *error);
 
 // Checks that the file's format holds 8 bits a number. Errors: those of output_format, and "PATH: a sheet is written as .svg, .png

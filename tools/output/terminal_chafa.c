@@ -53,6 +53,10 @@ bool chafa_open(lam_error *error)
 {
     if (chafa.library)
         return true;
+#ifdef LAMBENT_STATIC
+    return complain(error, LAM_UNSUPPORTED,
+                    "option '--term': sixels and blocks need libchafa, which this static program does not contain");
+#endif
     void *library = dlopen("libchafa.so.0", RTLD_NOW | RTLD_LOCAL);
     if (!library)
         return complain(error, LAM_UNSUPPORTED,

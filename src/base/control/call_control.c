@@ -190,6 +190,15 @@ bool call_check_triangles(const struct call_control *call, const char *name, uin
                                   for_files(call, limit < LAM_TRIANGLE_LIMIT ? given : 1, text));
 }
 
+bool call_check_expanded(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error)
+{
+    uint64_t limit = expansion_bytes(call);
+    return bytes <= limit ||
+           fail(error, LAM_LIMIT,
+                "%s: unpacks to more than %.1f MB, expected at most that for files of %llu bytes (--expansion-limit)",
+                name, (double)limit / 1e6, (unsigned long long)call_input_bytes(call));
+}
+
 bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error)
 {
     uint64_t limit = call_file_limit(call);

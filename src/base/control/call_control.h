@@ -56,6 +56,9 @@ bool call_check_triangles(const struct call_control *call, const char *name, uin
 // Whether a model may have so many objects; false: LAM_LIMIT.
 bool call_check_objects(const struct call_control *call, const char *name, uint64_t count, lam_error *error);
 
+// Whether the parts of a compressed file may have so many bytes when they are unpacked: as many as reading it may take memory; false: LAM_LIMIT.
+bool call_check_expanded(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
+
 // Whether a file of this size may be read; false: LAM_LIMIT.
 bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
 

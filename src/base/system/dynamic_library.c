@@ -2,6 +2,7 @@
 #include "dynamic_library.h"
 
 #include <stddef.h>
+#include <stdint.h>
 #include <string.h>
 
 #if defined(__wasm__)
@@ -27,6 +28,35 @@ bool library_find(void *library, const char *name, void *function)
 {
     (void)library, (void)name, (void)function;
     return false;
+}
+
+#elif defined(LAMBENT_STATIC)
+
+#include "static_libraries.h"
+
+// A static program has its libraries inside, and no loader for others.
+void *library_open(const char *name, bool resident, const char **reason)
+{
+    (void)resident;
+    const void *library = static_library(name);
+    if (!library && reason)
+        *reason = "a static program opens no libraries";
+    return (void *)(uintptr_t)library;
+}
+
+void *library_open_own(const char *name)
+{
+    (void)name;
+    return NULL;
+}
+
+void library_close(void *library) { (void)library; }
+
+bool library_find(void *library, const char *name, void *function)
+{
+    void *found = static_function(library, name);
+    memcpy(function, &found, sizeof found);
+    return found != NULL;
 }
 
 #else

@@ -60,7 +60,7 @@ static bool open_libdeflate(struct libdeflate *d, lam_error *error)
         library_find(l, "libdeflate_deflate_compress", &d->compress) &&
         library_find(l, "libdeflate_deflate_compress_bound", &d->bound))
         return true;
-    return fail(error, LAM_UNSUPPORTED, "PNG: " LIBRARY " lacks functions of libdeflate 1.0; " NEEDED);
+    return fail(error, LAM_UNSUPPORTED, "PNG: " LIBRARY " lacks functions of its version 1.0; " NEEDED);
 }
 
 static size_t padded_width(const struct png_encoding *encoding) { return ((size_t)encoding->image->width + 3) / 4 * 4; }

@@ -130,6 +130,7 @@ static bool take_extensions(struct gltf *gltf, lam_file_info *info)
 bool gltf_file_info_note(struct gltf *gltf)
 {
     lam_file_info *info = &gltf->scene->file;
+    info->unit_m = 1;
     const json_t *asset = json_object_get(gltf->root, "asset");
     const json_t *variants = json_object_get(gltf_extension(gltf->root, "KHR_materials_variants"), "variants");
     return (take(gltf, asset, "version", &info->version) && take(gltf, asset, "generator", &info->generator) &&

@@ -41,8 +41,24 @@ struct info_counts {
 };
 struct info_counts info_count(const lam_scene *scene);
 
-const char *info_format(const lam_scene *scene);              // "shape" for a built-in shape
-const char *info_unit(const lam_scene *scene);                // of lengths: "metre"; NULL: the format does not say
+const char *info_format(const lam_scene *scene); // "shape" for a built-in shape
+
+// The unit of a model's lengths.
+struct info_unit {
+    const char *name, *symbol; // "millimetre", "mm"; NULL: the format does not say
+    double millimetres;        // of one unit; 0: unknown
+};
+struct info_unit info_unit(const lam_scene *scene);
+
+// The surface of all objects, in the model's units.
+struct info_measure {
+    double area;
+    // Every edge belongs to as many triangles in one direction as in the other, so that the surface has an inside.
+    bool closed;
+    double volume; // of what a closed surface encloses; objects that overlap count twice
+};
+struct info_measure info_measure(const lam_scene *scene);
+
 const char *info_material_kind(const lam_material *material); // "metallic-roughness", "classic" or "unlit"
 // The numbers of a field that is not among those printed of every material, where they differ from the default, as scene
 // files write them. Returns how many there are; 0: it has its default.

@@ -21,7 +21,17 @@ const char *info_format(const lam_scene *scene)
     return *format ? format : "shape";
 }
 
-const char *info_unit(const lam_scene *scene) { return strcmp(info_format(scene), "gltf") == 0 ? "metre" : NULL; }
+struct info_unit info_unit(const lam_scene *scene)
+{
+    static const struct info_unit units[] = {{"metre", "m", 1000},     {"millimetre", "mm", 1},
+                                             {"centimetre", "cm", 10}, {"micrometre", "µm", 1e-3},
+                                             {"inch", "in", 25.4},     {"foot", "ft", 304.8}};
+    double millimetres = lam_scene_file_info(scene)->unit_m * 1000;
+    for (size_t i = 0; millimetres > 0 && i < sizeof units / sizeof *units; i++)
+        if (millimetres > 0.999 * units[i].millimetres && millimetres < 1.001 * units[i].millimetres)
+            return units[i];
+    return (struct info_unit){0};
+}
 
 const char *info_material_kind(const lam_material *material)
 {

@@ -26,6 +26,33 @@ static void json_color(struct json *json, const char *key, lam_rgb c)
     json_close(json, ']');
 }
 
+// A number, or null.
+static void json_number_if(struct json *json, const char *key, bool known, double value)
+{
+    if (known)
+        json_number(json, key, value);
+    else
+        json_none(json, key);
+}
+
+static void write_measure(struct json *json, const lam_scene *scene, lam_vec3 size, double millimetres)
+{
+    struct info_measure measure = info_measure(scene);
+    double mm = millimetres, mm2 = mm * mm;
+    bool known = mm > 0;
+    json_open(json, "measure", '{');
+    json_flag(json, "closed", measure.closed);
+    json_number(json, "area", measure.area);
+    json_number_if(json, "volume", measure.closed, measure.volume);
+    if (known)
+        json_vector(json, "size_mm", (lam_vec3){size.x * mm, size.y * mm, size.z * mm});
+    else
+        json_none(json, "size_mm");
+    json_number_if(json, "area_mm2", known, measure.area * mm2);
+    json_number_if(json, "volume_mm3", known && measure.closed, measure.volume * mm2 * mm);
+    json_close(json, '}');
+}
+
 static void write_geometry(struct json *json, const struct job *job)
 {
     const lam_scene *scene = job->scene;
@@ -44,12 +71,15 @@ static void write_geometry(struct json *json, const struct job *job)
     json_count(json, "stored_vertices", stored.vertices);
     json_close(json, '}');
     json_text(json, "up", lam_up_name(lam_scene_up(scene)));
-    json_text(json, "unit", info_unit(scene));
+    struct info_unit unit = info_unit(scene);
+    json_text(json, "unit", unit.name);
     json_open(json, "bounds", '{');
     json_vector(json, "min", low);
     json_vector(json, "max", high);
     json_close(json, '}');
-    json_vector(json, "size", (lam_vec3){high.x - low.x, high.y - low.y, high.z - low.z});
+    lam_vec3 size = {high.x - low.x, high.y - low.y, high.z - low.z};
+    json_vector(json, "size", size);
+    write_measure(json, scene, size, unit.millimetres);
 }
 
 static void write_material(struct json *json, const lam_material *m, const struct info_textures *textures,

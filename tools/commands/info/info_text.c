@@ -61,6 +61,21 @@ static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
 // --- the sections
 
+// In mm² and mm³ if the unit is known, else in units of the model.
+static void print_measure(const lam_scene *scene, double millimetres)
+{
+    struct info_measure measure = info_measure(scene);
+    double scale = millimetres > 0 ? millimetres : 1;
+    const char *unit = millimetres > 0 ? " mm" : " units";
+    if (!lam_scene_triangle_count(scene))
+        return;
+    printf("%-12sarea %.4g%s²", "surface", measure.area * scale * scale, unit);
+    if (measure.closed)
+        printf(", closed: volume %.4g%s³\n", measure.volume * scale * scale * scale, unit);
+    else
+        printf(", not closed\n");
+}
+
 static void print_geometry(const struct info *info)
 {
     const struct job *job = info->job;
@@ -68,10 +83,16 @@ static void print_geometry(const struct info *info)
     struct info_counts stored = info_count(scene);
     lam_vec3 low, high;
     lam_scene_bounds(scene, &low, &high);
-    const char *unit = info_unit(scene);
-    printf("%-12s%.4g × %.4g × %.4g%s%s, %s up\n", "size", high.x - low.x, high.y - low.y, high.z - low.z,
-           unit ? " " : " (unit unknown)", unit ? "m" : "", lam_up_name(lam_scene_up(scene)));
+    struct info_unit unit = info_unit(scene);
+    lam_vec3 size = {high.x - low.x, high.y - low.y, high.z - low.z};
+    double mm = unit.millimetres;
+    printf("%-12s%.4g × %.4g × %.4g%s%s", "size", size.x, size.y, size.z, unit.name ? " " : " (unit unknown)",
+           unit.name ? unit.symbol : "");
+    if (unit.name && mm != 1)
+        printf(" (%.4g × %.4g × %.4g mm)", size.x * mm, size.y * mm, size.z * mm);
+    printf(", %s up\n", lam_up_name(lam_scene_up(scene)));
     printf("%-12sfrom %.6g %.6g %.6g to %.6g %.6g %.6g\n", "", low.x, low.y, low.z, high.x, high.y, high.z);
+    print_measure(scene, mm);
     uint64_t triangles = lam_scene_triangle_count(scene), vertices = lam_scene_vertex_count(scene);
     uint64_t lines = lam_scene_line_count(scene), points = lam_scene_point_count(scene);
     printf("%-12s", "geometry");

@@ -1,0 +1,133 @@
+// threemf.c: the 3MF importer: recognises the format, finds the model and runs the steps (threemf.h has the overview).
+#include "threemf.h"
+
+#include "fail.h"
+#include "threemf_xml.h"
+
+#include <string.h>
+
+// A ZIP archive that names a model part and the relationships that lead to it; names are not compressed.
+static int threemf_probe(const uint8_t *bytes, size_t size)
+{
+    static const char relationships[] = "_rels/.rels", model[] = ".model";
+    bool found = size > 4 && memcmp(bytes, "PK\3\4", 4) == 0 &&
+                 memmem(bytes, size, relationships, sizeof relationships - 1) &&
+                 memmem(bytes, size, model, sizeof model - 1);
+    return found ? 2 : 0;
+}
+
+#ifdef HAVE_3MF
+
+// --- the relationships of the package
+
+enum { IN_RELATIONSHIPS, IN_RELATIONSHIP };
+
+// Keeps the target of the relationship to the model: xml->user is where it goes.
+static bool begin_relationship(struct threemf_xml *xml, const char *const *attributes)
+{
+    static const char wanted[] = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
+    const char *type = threemf_attribute(attributes, NS_NONE, "Type");
+    const char *target = threemf_attribute(attributes, NS_NONE, "Target");
+    const char *mode = threemf_attribute(attributes, NS_NONE, "TargetMode");
+    const char **model = xml->user;
+    if (!type || strcmp(type, wanted) != 0)
+        return true;
+    if (!target || !*target || (mode && strcmp(mode, "Internal") != 0))
+        return threemf_xml_fail(xml, "the model's relationship names no part of this file");
+    if (*model)
+        return threemf_xml_fail(xml, "found a second 3D model, expected one");
+    *model = arena_string(xml->file->scratch, target);
+    return *model || threemf_no_memory(xml->file, strlen(target));
+}
+
+static const char *find_model(struct threemf *file)
+{
+    static const struct threemf_element elements[] = {
+        [IN_RELATIONSHIPS] = {NS_RELATIONSHIPS, "Relationships", -1, NULL, NULL},
+        [IN_RELATIONSHIP] = {NS_RELATIONSHIPS, "Relationship", IN_RELATIONSHIPS, begin_relationship, NULL},
+    };
+    const char *model = NULL;
+    struct threemf_xml xml = {
+        .file = file, .part = "_rels/.rels", .elements = elements, .element_count = 2, .user = &model};
+    if (!threemf_xml_parse(&xml))
+        return NULL;
+    if (!model)
+        fail(file->error, LAM_CANNOT_READ, "%s: _rels/.rels names no 3D model, so this is not a 3MF file",
+             file->source->name);
+    return model;
+}
+
+// --- the load
+
+static bool report_skipped(struct threemf *file, const struct threemf_part *root)
+{
+    const char *name = file->source->name;
+    if (!root->items.count)
+        return fail(file->error, LAM_CANNOT_READ, "%s: its build has no items, so there is nothing to draw", name);
+    if (!file->scene->objects.count)
+        return fail(file->error, LAM_CANNOT_READ, "%s: the objects of its build have no triangles", name);
+    if (file->flattened)
+        scene_warn(file->scene, "%s: not drawn: objects whose transform has no volume (%zu)", name, file->flattened);
+    if (file->layered_textures)
+        scene_warn(file->scene, "%s: of multiproperties with several textures the first is drawn (%zu)", name,
+                   file->layered_textures);
+    return true;
+}
+
+static bool read_all(struct threemf *file)
+{
+    if (!threemf_package_open(file) || !threemf_xml_open(file))
+        return false;
+    const char *path = find_model(file);
+    struct threemf_part *root = path ? threemf_part_at(file, path) : NULL;
+    if (!root || !threemf_build(file, root) || !report_skipped(file, root))
+        return false;
+    file->scene->file.unit_m = root->unit_m;
+    return true;
+}
+
+static bool threemf_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
+{
+    struct arena scratch;
+    lam_error unwanted;
+    arena_start(&scratch, source->call);
+    struct threemf file = {.source = source,
+                           .scene = scene,
+                           .scratch = &scratch,
+                           .error = error ? error : &unwanted,
+                           .part_names = {.memory = &scratch}};
+    bool ok = read_all(&file);
+    scene->shared_arrays = true;
+    struct threemf_part **parts = file.parts.items;
+    for (size_t i = 0; i < file.parts.count; i++) {
+        struct threemf_rows *lists[] = {&parts[i]->resources, &parts[i]->colors, &parts[i]->texcoords, &parts[i]->pairs,
+                                        &parts[i]->items};
+        for (size_t k = 0; k < sizeof lists / sizeof *lists; k++)
+            threemf_rows_free(&file, lists[k]);
+    }
+    threemf_rows_free(&file, &file.parts);
+    threemf_package_close(&file);
+    threemf_xml_close(&file);
+    arena_free(&scratch);
+    return ok;
+}
+
+#else // built without the headers of libzip and expat
+
+static bool threemf_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
+{
+    (void)scene;
+    return fail(error, LAM_UNSUPPORTED,
+                "%s: 3MF is not in this build; the Debian packages libzip-dev and libexpat1-dev were missing",
+                source->name);
+}
+
+#endif
+
+const struct importer importer_3mf = {
+    .name = "3mf",
+    .extensions = "3mf",
+    .up = LAM_UP_Z,
+    .probe = threemf_probe,
+    .load = threemf_load,
+};

@@ -1,0 +1,150 @@
+// threemf.h: internals of the 3MF importer.
+//
+// A 3MF file is a ZIP archive with model parts in XML. The steps are: threemf_package.c opens the archive (libzip), threemf_xml.c parses a
+// part (expat), threemf_model.c and threemf_properties.c take its elements, threemf_mesh.c makes meshes of its objects, and threemf_build.c
+// places them as the build items and their components say.
+#ifndef THREEMF_H
+#define THREEMF_H
+
+#include "importer.h"
+#include "name_table.h"
+
+// A growing array. It is freed with the file that it belongs to.
+struct threemf_rows {
+    void *items;
+    size_t count, capacity, bytes; // bytes: charged to the call
+};
+
+enum resource_kind {
+    RESOURCE_OBJECT,
+    RESOURCE_BASE,
+    RESOURCE_COLORS,
+    RESOURCE_TEXTURE,
+    RESOURCE_TEXCOORDS,
+    RESOURCE_MULTI
+};
+
+// What an <object>, a group of properties, or a texture of a model part is.
+struct threemf_resource {
+    enum resource_kind kind;
+    // Groups of properties: their elements in the part's lists: colours (BASE, COLORS), texture coordinates, pairs (MULTI).
+    uint32_t first, count;
+    int material;                  // BASE: of its first element; TEXCOORDS, MULTI: with the texture; −1: none
+    bool faulty;                   // it cannot be read: triangles are drawn without it
+    int32_t base;                  // of composite materials: index of the resource whose colours they mix
+    struct threemf_object *object; // OBJECT
+    struct threemf_layers *layers; // MULTI
+    lam_texture_map map;           // TEXTURE: how it is read; `texture` NULL: its picture could not be read
+};
+
+// The groups that an element of multiproperties takes one index of each.
+enum { LAYERS_MAX = 16 };
+struct threemf_layers {
+    int count;
+    int32_t groups[LAYERS_MAX]; // indices of resources
+    bool multiply[LAYERS_MAX];  // the layer multiplies those below; false: it covers them by its alpha
+};
+
+// An element of multiproperties: indices into the part's colours and texture coordinates.
+struct threemf_pair {
+    uint32_t color, texcoord;
+};
+
+// A reference to an object and where it is: a component, or an item of the build.
+struct threemf_component {
+    const char *path; // of another model part; NULL: the same
+    int32_t id;
+    lam_mat4 transform;
+    size_t line;
+};
+
+// A triangle's group of properties (an id; 0: none) and the index of each corner in it.
+struct threemf_property {
+    int32_t group;
+    uint32_t index[3];
+};
+
+struct threemf_object {
+    const char *name;
+    int32_t id;
+    size_t line;
+    int32_t group; // id of the group that triangles without one of their own have; 0: none
+    uint32_t index;
+    float *positions;
+    uint32_t *indices;
+    struct threemf_property *properties; // NULL: no triangle has one of its own
+    uint32_t vertex_count, triangle_count;
+    struct threemf_component *components;
+    size_t component_count;
+    int mesh;      // in the scene; −1: not yet made, or it has no triangles
+    bool made;     // `mesh` is final
+    bool visiting; // it is being placed: a component that refers to it makes a circle
+};
+
+// A model part.
+struct threemf_part {
+    const char *path;
+    double unit_m; // metres of a unit of its lengths
+    struct name_table ids;
+    struct threemf_rows resources; // struct threemf_resource
+    struct threemf_rows colors;    // 4 floats, linear; 0 is white, 1 the default material's
+    struct threemf_rows texcoords; // 2 floats
+    struct threemf_rows pairs;     // struct threemf_pair
+    struct threemf_rows items;     // struct threemf_component: the build
+    // The same in the scene's arena, once the part is read. Its meshes share them.
+    const float *scene_colors, *scene_texcoords;
+};
+
+struct zip_library;
+struct expat_library;
+
+struct threemf {
+    const struct import_source *source;
+    struct lam_scene *scene;
+    struct arena *scratch;
+    lam_error *error;
+    struct zip_library *zip;
+    struct expat_library *expat;
+    struct name_table part_names;
+    struct threemf_rows parts; // struct threemf_part *
+    uint64_t expanded;         // bytes of all parts that were read
+    uint64_t placed;           // components and items that were followed
+    size_t flattened;          // instances whose transform has no volume
+    size_t layered_textures;   // multiproperties with more than one texture
+};
+
+// Room for `count` rows of `size` bytes each. False: out of memory, and the error says so.
+bool threemf_reserve(struct threemf *file, struct threemf_rows *rows, size_t size, size_t count);
+// A zeroed row at the end of a list. NULL: out of memory, and the error says so.
+void *threemf_add(struct threemf *file, struct threemf_rows *rows, size_t size);
+void threemf_rows_free(struct threemf *file, struct threemf_rows *rows);
+bool threemf_no_memory(struct threemf *file, size_t bytes);
+
+// --- threemf_package.c
+
+// Opens libzip, and the archive within its bounds. LAM_UNSUPPORTED: libzip is not installed.
+bool threemf_package_open(struct threemf *file);
+void threemf_package_close(struct threemf *file);
+
+// Reads a part of the archive in pieces. `name`: with or without the '/' at its start.
+typedef bool threemf_piece_fn(void *user, const void *bytes, size_t size, bool last);
+bool threemf_package_read(struct threemf *file, const char *name, threemf_piece_fn *take, void *user);
+// Reads all of it into memory of the scratch arena.
+bool threemf_package_read_whole(struct threemf *file, const char *name, const uint8_t **bytes, size_t *size);
+
+// --- the model
+
+// The part of this path, read when it is first asked for. NULL: the error says why not.
+struct threemf_part *threemf_part_at(struct threemf *file, const char *path);
+// A resource of a part by its id; NULL: there is none.
+struct threemf_resource *threemf_resource_at(const struct threemf_part *part, int32_t id);
+
+// threemf_properties.c: the colour of an element of a group, linear.
+const float *threemf_color(const struct threemf_part *part, const struct threemf_resource *group, uint32_t index);
+
+// threemf_mesh.c: adds an object's triangles to the scene as a mesh (object->mesh).
+bool threemf_mesh_make(struct threemf *file, struct threemf_part *part, struct threemf_object *object);
+// threemf_build.c: adds an object to the scene for each instance.
+bool threemf_build(struct threemf *file, struct threemf_part *root);
+
+#endif

@@ -1,0 +1,105 @@
+// threemf_build.c: the items of the build and the components of their objects as objects of the scene.
+#include "threemf.h"
+
+#include "fail.h"
+#include "linear.h"
+#include "shown_name.h"
+
+#ifdef HAVE_3MF
+
+enum { DEPTH_MAX = 100 };
+
+// A part, the object in it that is placed, and where.
+struct instance {
+    struct threemf_part *part;
+    struct threemf_object *object;
+    lam_mat4 transform;
+    int depth;
+};
+
+static bool fail_reference(struct threemf *file, const struct threemf_part *part,
+                           const struct threemf_component *component, const char *sentence)
+{
+    char shown[SHOWN_NAME_SIZE];
+    return fail(file->error, LAM_CANNOT_READ, "%s: %s:%zu: found objectid=\"%d\", %s", file->source->name,
+                shown_name(part->path, shown), component->line, component->id, sentence);
+}
+
+// Whether one more reference may be followed. References that lead to nothing count as objects too.
+static bool check_limits(struct threemf *file)
+{
+    struct call_control *call = file->source->call;
+    return call_check_objects(call, file->source->name, ++file->placed, file->error) &&
+           (file->placed % 1024 || call_should_continue(call) || call_error(call, file->error));
+}
+
+static bool find(struct threemf *file, struct threemf_part *from, const struct threemf_component *component,
+                 struct instance *out)
+{
+    out->part = component->path ? threemf_part_at(file, component->path) : from;
+    if (!out->part)
+        return false;
+    const struct threemf_resource *resource = threemf_resource_at(out->part, component->id);
+    if (!resource || resource->kind != RESOURCE_OBJECT || !resource->object)
+        return fail_reference(file, from, component, "expected the id of an object");
+    out->object = resource->object;
+    double scale = out->part->unit_m / from->unit_m;
+    out->transform = component->transform;
+    for (int i = 0; i < 9; i++)
+        out->transform.m[i / 3][i % 3] *= scale;
+    return true;
+}
+
+static bool add_object(struct threemf *file, const struct instance *instance)
+{
+    lam_object object = lam_object_default();
+    double determinant = mat4_determinant3(&instance->transform);
+    if (!threemf_mesh_make(file, instance->part, instance->object))
+        return false;
+    if (instance->object->mesh < 0)
+        return true;
+    if (determinant == 0 || !math_finite(determinant)) {
+        file->flattened++;
+        return true;
+    }
+    object.mesh = instance->object->mesh;
+    object.name = instance->object->name;
+    object.transform = instance->transform;
+    return scene_adopt_object(file->scene, &object, file->error) >= 0;
+}
+
+// Places an object and, below it, its components. // NOLINTNEXTLINE(misc-no-recursion): bounded by DEPTH_MAX
+static bool place(struct threemf *file, const struct instance *instance)
+{
+    struct threemf_object *object = instance->object;
+    bool ok = add_object(file, instance);
+    object->visiting = true;
+    for (size_t i = 0; ok && i < object->component_count; i++) {
+        const struct threemf_component *component = &object->components[i];
+        struct instance below = {.depth = instance->depth + 1};
+        ok = check_limits(file) && find(file, instance->part, component, &below);
+        if (ok && below.object->visiting)
+            ok = fail_reference(file, instance->part, component, "an object that contains this one");
+        if (ok && below.depth > DEPTH_MAX)
+            ok = fail_reference(file, instance->part, component, "at more than 100 components within one another");
+        if (ok) {
+            below.transform = mat4_mul(&instance->transform, &below.transform);
+            ok = place(file, &below);
+        }
+    }
+    object->visiting = false;
+    return ok;
+}
+
+bool threemf_build(struct threemf *file, struct threemf_part *root)
+{
+    const struct threemf_component *items = root->items.items;
+    for (size_t i = 0; i < root->items.count; i++) {
+        struct instance instance = {.depth = 0};
+        if (!check_limits(file) || !find(file, root, &items[i], &instance) || !place(file, &instance))
+            return false;
+    }
+    return true;
+}
+
+#endif

@@ -1,0 +1,243 @@
+// threemf_package.c: the ZIP archive of a 3MF file, read by libzip, which is opened when a file needs it.
+#include "threemf.h"
+
+#include "fail.h"
+#include "shown_name.h"
+
+#ifdef HAVE_3MF
+
+#include "dynamic_library.h"
+
+#include <string.h>
+#include <zip.h>
+
+#define LIBRARY "libzip.so.4"
+
+#define FUNCTIONS(each)                                                                                                \
+    each(zip_source_buffer_create) each(zip_source_free) each(zip_open_from_source) each(zip_discard)                  \
+        each(zip_error_init) each(zip_error_fini) each(zip_error_strerror) each(zip_error_code_zip)                    \
+            each(zip_name_locate) each(zip_fopen_index) each(zip_fread) each(zip_fclose) each(zip_get_error)           \
+                each(zip_file_get_error) each(zip_stat_index)
+
+struct zip_library {
+    void *handle;
+    zip_t *archive;
+    size_t charged; // of what libzip takes for the list of entries
+#define MEMBER(name) __typeof__(&name) name;
+    FUNCTIONS(MEMBER)
+};
+
+// --- the archive's claims, before libzip takes memory for them
+
+enum { END_BYTES = 22, COMMENT_MAX = 65535, LOCATOR_BYTES = 20, END64_BYTES = 56, ENTRY_BYTES = 46 };
+// Bytes that libzip takes for an entry of the list, beside its name.
+enum { ENTRY_MEMORY = 512 };
+
+static uint64_t little(const uint8_t *at, int bytes)
+{
+    uint64_t value = 0;
+    for (int i = bytes - 1; i >= 0; i--)
+        value = value << 8 | at[i];
+    return value;
+}
+
+// The entries that the record at `end`, which closes an archive, says there are.
+static uint64_t entries_of(const uint8_t *bytes, size_t size, size_t end)
+{
+    uint64_t count = little(bytes + end + 10, 2);
+    const uint8_t *locator = end >= LOCATOR_BYTES ? bytes + end - LOCATOR_BYTES : NULL;
+    if (!locator || memcmp(locator, "PK\6\7", 4) != 0)
+        return count;
+    uint64_t at = little(locator + 8, 8);
+    if (at > size || size - at < END64_BYTES || memcmp(bytes + at, "PK\6\6", 4) != 0)
+        return count;
+    uint64_t large = little(bytes + at + 32, 8);
+    return large > count ? large : count;
+}
+
+// The largest number of entries that any closing record claims; libzip may believe any. False: there is none.
+static bool claimed_entries(const uint8_t *bytes, size_t size, uint64_t *out)
+{
+    bool found = false;
+    *out = 0;
+    if (size < END_BYTES)
+        return false;
+    size_t last = size - END_BYTES, first = last > COMMENT_MAX ? last - COMMENT_MAX : 0;
+    for (size_t at = last + 1; at-- > first;) {
+        if (memcmp(bytes + at, "PK\5\6", 4) != 0)
+            continue;
+        uint64_t count = entries_of(bytes, size, at);
+        *out = count > *out ? count : *out;
+        found = true;
+    }
+    return found;
+}
+
+static bool check_claims(struct threemf *file, uint64_t *entries)
+{
+    const struct import_source *source = file->source;
+    if (!claimed_entries(source->bytes, source->size, entries))
+        return fail(
+            file->error, LAM_CANNOT_READ,
+            "%s: the file is truncated: found %zu bytes without the list of entries at the end of a ZIP archive",
+            source->name, source->size);
+    return *entries <= source->size / ENTRY_BYTES ||
+           fail(file->error, LAM_CANNOT_READ,
+                "%s: its ZIP archive claims %llu entries, expected at most %zu in %zu bytes", source->name,
+                (unsigned long long)*entries, source->size / ENTRY_BYTES, source->size);
+}
+
+// --- libzip
+
+static bool open_library(struct threemf *file)
+{
+    struct zip_library *zip = arena_alloc_zeroed(file->scratch, sizeof *zip);
+    if (!zip)
+        return threemf_no_memory(file, sizeof *zip);
+    zip->handle = library_open(LIBRARY, true, NULL);
+    bool all = zip->handle != NULL;
+#define LOOK_UP(name) all = all && library_find(zip->handle, #name, &zip->name);
+    FUNCTIONS(LOOK_UP)
+    if (all) {
+        file->zip = zip;
+        return true;
+    }
+    library_close(zip->handle);
+    return fail(file->error, LAM_UNSUPPORTED, "%s: reading 3MF needs " LIBRARY ", which %s (Debian's package libzip4)",
+                file->source->name, zip->handle ? "lacks functions of libzip 1.7" : "is not installed");
+}
+
+static bool open_archive(struct threemf *file)
+{
+    struct zip_library *zip = file->zip;
+    zip_error_t reason;
+    zip->zip_error_init(&reason);
+    zip_source_t *bytes = zip->zip_source_buffer_create(file->source->bytes, file->source->size, 0, &reason);
+    zip->archive = bytes ? zip->zip_open_from_source(bytes, ZIP_RDONLY, &reason) : NULL;
+    if (!zip->archive) {
+        if (zip->zip_error_code_zip(&reason) == ZIP_ER_MEMORY)
+            threemf_no_memory(file, 0);
+        else
+            fail(file->error, LAM_CANNOT_READ, "%s: the ZIP archive cannot be read: %s", file->source->name,
+                 zip->zip_error_strerror(&reason));
+        zip->zip_source_free(bytes);
+    }
+    zip->zip_error_fini(&reason);
+    return zip->archive != NULL;
+}
+
+bool threemf_package_open(struct threemf *file)
+{
+    uint64_t entries;
+    if (!check_claims(file, &entries) || !open_library(file))
+        return false;
+    size_t bytes = (size_t)entries * ENTRY_MEMORY;
+    if (!call_charge(file->source->call, bytes))
+        return threemf_no_memory(file, bytes);
+    file->zip->charged = bytes;
+    return open_archive(file);
+}
+
+void threemf_package_close(struct threemf *file)
+{
+    if (!file->zip)
+        return;
+    if (file->zip->archive)
+        file->zip->zip_discard(file->zip->archive);
+    call_refund(file->source->call, file->zip->charged);
+    library_close(file->zip->handle);
+}
+
+// --- its parts
+
+static bool fail_part(struct threemf *file, const char *name, const char *why)
+{
+    char shown[SHOWN_NAME_SIZE];
+    return fail(file->error, LAM_CANNOT_READ, "%s: its part %s cannot be read: %s", file->source->name,
+                shown_name(name, shown), why);
+}
+
+// The index of a part. Names differ in capitals between programs, but a list of many entries is searched by the hash of its names alone.
+static zip_int64_t locate(const struct zip_library *zip, const char *name)
+{
+    enum { FEW = 1000 };
+    zip_int64_t index = zip->zip_name_locate(zip->archive, name, ZIP_FL_ENC_GUESS);
+    return index < 0 && zip->charged < (size_t)FEW * ENTRY_MEMORY
+               ? zip->zip_name_locate(zip->archive, name, ZIP_FL_ENC_GUESS | ZIP_FL_NOCASE)
+               : index;
+}
+
+static bool read_pieces(struct threemf *file, const char *name, zip_file_t *part, threemf_piece_fn *take, void *user)
+{
+    enum { PIECE = 128 << 10 };
+    const struct zip_library *zip = file->zip;
+    struct call_control *call = file->source->call;
+    uint8_t *piece = arena_alloc(file->scratch, PIECE);
+    if (!piece)
+        return threemf_no_memory(file, PIECE);
+    for (;;) {
+        zip_int64_t got = zip->zip_fread(part, piece, PIECE);
+        if (got < 0)
+            return fail_part(file, name, zip->zip_error_strerror(zip->zip_file_get_error(part)));
+        file->expanded += (uint64_t)got;
+        if (!call_check_expanded(call, file->source->name, file->expanded, file->error) ||
+            (!call_should_continue(call) && !call_error(call, file->error)) ||
+            !take(user, piece, (size_t)got, got == 0))
+            return false;
+        if (got == 0)
+            return true;
+    }
+}
+
+bool threemf_package_read(struct threemf *file, const char *name, threemf_piece_fn *take, void *user)
+{
+    const struct zip_library *zip = file->zip;
+    name += *name == '/';
+    zip_int64_t index = locate(zip, name);
+    if (index < 0)
+        return fail_part(file, name, "the archive has no part of this name");
+    zip_file_t *part = zip->zip_fopen_index(zip->archive, (zip_uint64_t)index, 0);
+    if (!part)
+        return fail_part(file, name, zip->zip_error_strerror(zip->zip_get_error(zip->archive)));
+    bool ok = read_pieces(file, name, part, take, user);
+    zip->zip_fclose(part);
+    return ok;
+}
+
+struct whole {
+    struct threemf *file;
+    struct threemf_rows bytes;
+};
+
+static bool keep_piece(void *user, const void *bytes, size_t size, bool last)
+{
+    struct whole *whole = user;
+    (void)last;
+    if (!size)
+        return true;
+    struct threemf_rows *rows = &whole->bytes;
+    if (!threemf_reserve(whole->file, rows, 1, rows->count + size))
+        return false;
+    memcpy((uint8_t *)rows->items + rows->count, bytes, size);
+    rows->count += size;
+    return true;
+}
+
+bool threemf_package_read_whole(struct threemf *file, const char *name, const uint8_t **bytes, size_t *size)
+{
+    struct whole whole = {.file = file};
+    uint8_t *copy = NULL;
+    bool ok = threemf_package_read(file, name, keep_piece, &whole);
+    if (ok) {
+        copy = arena_alloc(file->scratch, whole.bytes.count);
+        ok = copy || threemf_no_memory(file, whole.bytes.count);
+    }
+    if (ok && whole.bytes.count)
+        memcpy(copy, whole.bytes.items, whole.bytes.count);
+    *bytes = copy;
+    *size = whole.bytes.count;
+    threemf_rows_free(file, &whole.bytes);
+    return ok;
+}
+
+#endif

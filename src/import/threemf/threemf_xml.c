@@ -1,0 +1,330 @@
+// threemf_xml.c: XML parts, parsed by expat, which is opened when a file needs it.
+//
+// Bounds: an element may be TOKEN_BYTES long and DEPTH_MAX deep; document types, whose entities can unfold to any size, are refused, as 3MF
+// demands; what expat takes is charged to the call.
+#include "threemf_xml.h"
+
+#include "fail.h"
+#include "number.h"
+#include "shown_name.h"
+
+#ifdef HAVE_3MF
+
+#include "dynamic_library.h"
+
+#include <expat.h>
+#include <float.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LIBRARY "libexpat.so.1"
+
+#define FUNCTIONS(each)                                                                                                \
+    each(XML_ParserCreate_MM) each(XML_ParserFree) each(XML_SetUserData) each(XML_SetElementHandler)                   \
+        each(XML_SetCharacterDataHandler) each(XML_SetStartDoctypeDeclHandler) each(XML_SetStartNamespaceDeclHandler)  \
+            each(XML_Parse) each(XML_StopParser) each(XML_GetErrorCode) each(XML_ErrorString)                          \
+                each(XML_GetCurrentLineNumber) each(XML_GetCurrentByteIndex)
+
+struct expat_library {
+    void *handle;
+#define MEMBER(name) __typeof__(&name) name;
+    FUNCTIONS(MEMBER)
+};
+
+enum { DEPTH_MAX = 256, TOKEN_BYTES = 1 << 20 };
+enum { AT_ROOT = -1, SKIPPED = -2 };
+
+struct xml_parser {
+    XML_Parser expat;
+    const struct expat_library *library;
+    uint64_t given; // bytes
+    int depth;
+    int rows[DEPTH_MAX + 1]; // the table's row of each open element; rows[0] is AT_ROOT
+    bool failed;             // the error is filled
+};
+
+static const char *const uris[] = {
+    [NS_NONE] = "",
+    [NS_CORE] = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02",
+    [NS_MATERIALS] = "http://schemas.microsoft.com/3dmanufacturing/material/2015/02",
+    [NS_PRODUCTION] = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06",
+    [NS_RELATIONSHIPS] = "http://schemas.openxmlformats.org/package/2006/relationships",
+};
+
+#define SEPARATOR "|" // expat puts it between a name space and a name
+
+// --- expat's memory, charged to the call of the thread that parses
+
+static __thread struct call_control *parsing_call;
+
+// Each block begins with its size, in as many bytes as keep the rest aligned.
+enum { BLOCK_HEAD = 16 };
+
+static void *resize_block(void *old, size_t size)
+{
+    char *block = old ? (char *)old - BLOCK_HEAD : NULL;
+    size_t had = 0;
+    if (block)
+        memcpy(&had, block, sizeof had);
+    if (size > SIZE_MAX / 2 || !call_charge(parsing_call, size))
+        return NULL;
+    char *moved = realloc(block, size + BLOCK_HEAD);
+    call_refund(parsing_call, moved ? had : size);
+    if (!moved)
+        return NULL;
+    memcpy(moved, &size, sizeof size);
+    return moved + BLOCK_HEAD;
+}
+
+static void *make_block(size_t size) { return resize_block(NULL, size); }
+
+static void free_block(void *old)
+{
+    size_t had;
+    if (!old)
+        return;
+    memcpy(&had, (char *)old - BLOCK_HEAD, sizeof had);
+    call_refund(parsing_call, had);
+    free((char *)old - BLOCK_HEAD);
+}
+
+// --- errors
+
+size_t threemf_xml_line(const struct threemf_xml *xml)
+{
+    return (size_t)xml->parser->library->XML_GetCurrentLineNumber(xml->parser->expat);
+}
+
+static void stop(struct threemf_xml *xml)
+{
+    xml->parser->failed = true;
+    xml->parser->library->XML_StopParser(xml->parser->expat, XML_FALSE);
+}
+
+bool threemf_xml_fail(struct threemf_xml *xml, const char *format, ...)
+{
+    char sentence[400], shown[SHOWN_NAME_SIZE];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    return fail(xml->file->error, LAM_CANNOT_READ, "%s: %s:%zu: %s", xml->file->source->name,
+                shown_name(xml->part, shown), threemf_xml_line(xml), sentence);
+}
+
+// --- elements
+
+// The part of a name after its name space.
+static const char *local_name(const char *name)
+{
+    const char *separator = strrchr(name, *SEPARATOR);
+    return separator ? separator + 1 : name;
+}
+
+static bool has_space(const char *name, const char *local, enum threemf_namespace space)
+{
+    size_t length = local > name ? (size_t)(local - name) - 1 : 0;
+    return strlen(uris[space]) == length && memcmp(name, uris[space], length) == 0;
+}
+
+static int find_row(const struct threemf_xml *xml, const char *name)
+{
+    const char *local = local_name(name);
+    int parent = xml->parser->rows[xml->parser->depth];
+    for (int i = 0; parent != SKIPPED && i < xml->element_count; i++) {
+        const struct threemf_element *row = &xml->elements[i];
+        if (row->parent == parent && strcmp(row->name, local) == 0 && has_space(name, local, row->space))
+            return i;
+    }
+    return SKIPPED;
+}
+
+static void XMLCALL begin_element(void *user, const XML_Char *name, const XML_Char **attributes)
+{
+    struct threemf_xml *xml = user;
+    struct xml_parser *parser = xml->parser;
+    char shown[SHOWN_NAME_SIZE];
+    if (parser->failed)
+        return;
+    int row = find_row(xml, name);
+    bool ok = true;
+    if (parser->depth == 0 && row == SKIPPED)
+        ok = threemf_xml_fail(xml, "found the element %s, expected %s of 3MF", shown_name(local_name(name), shown),
+                              xml->elements[0].name);
+    else if (parser->depth == DEPTH_MAX)
+        ok = threemf_xml_fail(xml, "found more than %d elements within one another", DEPTH_MAX);
+    if (ok)
+        parser->rows[++parser->depth] = row;
+    if (ok && row != SKIPPED && xml->elements[row].begin)
+        ok = xml->elements[row].begin(xml, (const char *const *)attributes);
+    if (!ok)
+        stop(xml);
+}
+
+static void XMLCALL end_element(void *user, const XML_Char *name)
+{
+    struct threemf_xml *xml = user;
+    struct xml_parser *parser = xml->parser;
+    (void)name;
+    if (parser->failed)
+        return;
+    int row = parser->rows[parser->depth--];
+    if (row != SKIPPED && xml->elements[row].end && !xml->elements[row].end(xml))
+        stop(xml);
+}
+
+static void XMLCALL take_text(void *user, const XML_Char *text, int length)
+{
+    struct threemf_xml *xml = user;
+    enum { TEXT_MAX = 4096 };
+    for (int i = 0; xml->text && i < length && xml->text->count < TEXT_MAX && !xml->parser->failed; i++) {
+        char *byte = threemf_add(xml->file, xml->text, 1);
+        if (byte)
+            *byte = text[i];
+        else
+            stop(xml);
+    }
+}
+
+static void XMLCALL refuse_document_type(void *user, const XML_Char *name, const XML_Char *system,
+                                         const XML_Char *public, int internal)
+{
+    struct threemf_xml *xml = user;
+    (void)name, (void)system, (void)public, (void)internal;
+    threemf_xml_fail(xml, "found a document type (<!DOCTYPE), which 3MF does not allow");
+    stop(xml);
+}
+
+static void XMLCALL declare_space(void *user, const XML_Char *prefix, const XML_Char *uri)
+{
+    struct threemf_xml *xml = user;
+    if (xml->declare && !xml->parser->failed)
+        xml->declare(xml, prefix ? prefix : "", uri ? uri : "");
+}
+
+// --- parsing
+
+bool threemf_xml_open(struct threemf *file)
+{
+    struct expat_library *expat = arena_alloc_zeroed(file->scratch, sizeof *expat);
+    if (!expat)
+        return threemf_no_memory(file, sizeof *expat);
+    expat->handle = library_open(LIBRARY, true, NULL);
+    bool all = expat->handle != NULL;
+#define LOOK_UP(name) all = all && library_find(expat->handle, #name, &expat->name);
+    FUNCTIONS(LOOK_UP)
+    if (all) {
+        file->expat = expat;
+        return true;
+    }
+    library_close(expat->handle);
+    return fail(file->error, LAM_UNSUPPORTED,
+                "%s: reading 3MF needs " LIBRARY ", which %s (Debian's package libexpat1)", file->source->name,
+                expat->handle ? "lacks functions of expat 2" : "is not installed");
+}
+
+void threemf_xml_close(struct threemf *file)
+{
+    if (file->expat)
+        library_close(file->expat->handle);
+}
+
+// Expat looks again at an element of which only a part is there, so that long ones take time that grows with their square.
+static bool check_token(struct threemf_xml *xml)
+{
+    const struct xml_parser *parser = xml->parser;
+    int64_t begin = parser->library->XML_GetCurrentByteIndex(parser->expat);
+    return begin < 0 || parser->given - (uint64_t)begin <= TOKEN_BYTES ||
+           threemf_xml_fail(xml, "found an element, a comment or a text of more than %d bytes", TOKEN_BYTES);
+}
+
+static bool parse_piece(void *user, const void *bytes, size_t size, bool last)
+{
+    struct threemf_xml *xml = user;
+    struct xml_parser *parser = xml->parser;
+    parser->given += size;
+    if (parser->library->XML_Parse(parser->expat, bytes, (int)size, last) == XML_STATUS_OK)
+        return check_token(xml);
+    if (parser->failed)
+        return false;
+    enum XML_Error code = parser->library->XML_GetErrorCode(parser->expat);
+    if (code == XML_ERROR_NO_MEMORY)
+        return threemf_no_memory(xml->file, size);
+    return threemf_xml_fail(xml, "not well-formed XML: %s", parser->library->XML_ErrorString(code));
+}
+
+bool threemf_xml_parse(struct threemf_xml *xml)
+{
+    static const XML_Memory_Handling_Suite memory = {make_block, resize_block, free_block};
+    const struct expat_library *library = xml->file->expat;
+    struct call_control *before = parsing_call;
+    struct xml_parser parser = {.library = library, .rows = {AT_ROOT}};
+    parsing_call = xml->file->source->call;
+    xml->parser = &parser;
+    parser.expat = library->XML_ParserCreate_MM(NULL, &memory, SEPARATOR);
+    bool ok = parser.expat || threemf_no_memory(xml->file, sizeof parser);
+    if (ok) {
+        library->XML_SetUserData(parser.expat, xml);
+        library->XML_SetElementHandler(parser.expat, begin_element, end_element);
+        library->XML_SetCharacterDataHandler(parser.expat, take_text);
+        library->XML_SetStartDoctypeDeclHandler(parser.expat, refuse_document_type);
+        library->XML_SetStartNamespaceDeclHandler(parser.expat, declare_space);
+        ok = threemf_package_read(xml->file, xml->part, parse_piece, xml);
+        library->XML_ParserFree(parser.expat);
+    }
+    parsing_call = before;
+    xml->parser = NULL;
+    return ok;
+}
+
+// --- attributes
+
+const char *threemf_attribute(const char *const *attributes, enum threemf_namespace space, const char *name)
+{
+    for (; *attributes; attributes += 2) {
+        if (space == NS_NONE) {
+            if (strcmp(attributes[0], name) == 0)
+                return attributes[1];
+            continue;
+        }
+        const char *local = local_name(attributes[0]);
+        if (strcmp(local, name) == 0 && has_space(attributes[0], local, space))
+            return attributes[1];
+    }
+    return NULL;
+}
+
+bool threemf_take_number(struct threemf_xml *xml, const char *const *attributes, const char *name, uint32_t *out,
+                         bool *found)
+{
+    const char *text = threemf_attribute(attributes, NS_NONE, name);
+    char shown[SHOWN_NAME_SIZE];
+    if (found)
+        *found = text != NULL;
+    if (!text)
+        return found || threemf_xml_fail(xml, "the attribute %s is missing", name);
+    uint64_t value = 0;
+    const char *at = text + strspn(text, " \t\r\n"), *digits = at;
+    while (*at >= '0' && *at <= '9' && value <= INT32_MAX)
+        value = 10 * value + (uint64_t)(*at++ - '0');
+    bool good = at > digits && value <= INT32_MAX && !at[strspn(at, " \t\r\n")];
+    *out = (uint32_t)value;
+    return good || threemf_xml_fail(xml, "found %s=\"%s\", expected a whole number up to %d", name,
+                                    shown_name(text, shown), INT32_MAX);
+}
+
+bool threemf_take_float(struct threemf_xml *xml, const char *const *attributes, const char *name, float *out)
+{
+    const char *text = threemf_attribute(attributes, NS_NONE, name);
+    char shown[SHOWN_NAME_SIZE];
+    if (!text)
+        return threemf_xml_fail(xml, "the attribute %s is missing", name);
+    const uint8_t *at = (const uint8_t *)text + strspn(text, " \t\r\n");
+    const uint8_t *next = number_float(at, at + strlen((const char *)at), out);
+    bool good = next && *out >= -FLT_MAX && *out <= FLT_MAX && !next[strspn((const char *)next, " \t\r\n")];
+    return good || threemf_xml_fail(xml, "found %s=\"%s\", expected a finite number", name, shown_name(text, shown));
+}
+
+#endif

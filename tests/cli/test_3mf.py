@@ -1,0 +1,352 @@
+# test_3mf.py: 3MF files as people have them, with faults, and hostile ones.
+import io
+import json
+import os
+import pathlib
+import resource
+import shutil
+import struct
+import subprocess
+import unittest
+import zipfile
+import zlib
+
+from harness import PROGRAM, ROOT, Case, check_value, long, write_png
+
+SCHEMA = json.loads((ROOT / "docs" / "info.schema.json").read_text())
+CORE = 'xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"'
+MATERIALS = 'xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02"'
+PRODUCTION = 'xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06"'
+RELATION = '<Relationship Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel" Target="%s" Id="r"/>'
+FACES = ((0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7), (0, 1, 5), (0, 5, 4), (1, 2, 6), (1, 6, 5), (2, 3, 7), (2, 7, 6), (3, 0, 4), (3, 4, 7))
+PROBLEM = "3MF is not in this build"
+
+
+def relations(*targets):
+    return ('<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">' +
+            "".join(RELATION % target for target in targets) + "</Relationships>")
+
+
+def package(files, compression=zipfile.ZIP_DEFLATED):
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", compression) as archive:
+        for name, data in files.items():
+            archive.writestr(name, data)
+    return out.getvalue()
+
+
+def box(x=1, y=1, z=1, properties=lambda face: ""):
+    """The <mesh> of a box from 0/0/0 to x/y/z."""
+    corners = [(0, 0, 0), (x, 0, 0), (x, y, 0), (0, y, 0), (0, 0, z), (x, 0, z), (x, y, z), (0, y, z)]
+    return ("<mesh><vertices>" + "".join('<vertex x="%s" y="%s" z="%s"/>' % corner for corner in corners) + "</vertices><triangles>" +
+            "".join('<triangle v1="%d" v2="%d" v3="%d"%s/>' % (*face, properties(i // 2)) for i, face in enumerate(FACES)) +
+            "</triangles></mesh>")
+
+
+def model(resources, items='<item objectid="1"/>', attributes="", spaces=CORE):
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n<model {spaces} {attributes}><resources>{resources}</resources><build>{items}</build></model>'
+
+
+class ThreeMF(Case):
+    def setUp(self):
+        super().setUp()
+        probe = self.run_program("info", self.save("probe.3mf", model(f'<object id="1">{box()}</object>')))
+        if PROBLEM in probe.stderr.decode() or "is not installed" in probe.stderr.decode():
+            self.skipTest(probe.stderr.decode().strip())
+
+    def save(self, name, root, compression=zipfile.ZIP_DEFLATED, **more):
+        files = {"_rels/.rels": relations("/3D/3dmodel.model"), "3D/3dmodel.model": root}
+        files.update({key.replace("__", "/").replace("_dot_", "."): value for key, value in more.items()})
+        return self.save_bytes(name, package(files, compression))
+
+    def save_bytes(self, name, data):
+        (self.folder / name).write_bytes(data)
+        self.given.add(name)
+        return name
+
+    def info(self, name, *words):
+        row = json.loads(self.good("info", "--json", name, *words).stdout)
+        check_value(self, row, SCHEMA, "info", SCHEMA)
+        return row
+
+
+class Read(ThreeMF):
+    def test_units_and_measure(self):
+        """Units, size in millimetres, area and volume; Z is up."""
+        for unit, millimetres, name in (("", 1, "millimetre"), ("micron", 1e-3, "micrometre"), ("centimeter", 10, "centimetre"), ("inch", 25.4, "inch"),
+                                        ("foot", 304.8, "foot"), ("meter", 1000, "metre")):
+            row = self.info(self.save("a.3mf", model(f'<object id="1">{box(1, 2, 3)}</object>', attributes=f'unit="{unit}"' if unit else "")))
+            self.assertEqual((row["format"], row["unit"], row["up"], row["size"]), ("3mf", name, "z", [1, 2, 3]))
+            measure = row["measure"]
+            self.assertEqual((measure["closed"], measure["area"]), (True, 22))
+            for key, wanted in (("volume", 6), ("area_mm2", 22 * millimetres**2), ("volume_mm3", 6 * millimetres**3)):
+                self.assertAlmostEqual(measure[key] / wanted, 1, 9, key)
+            for axis in range(3):
+                self.assertAlmostEqual(measure["size_mm"][axis] / millimetres, axis + 1, 9)
+        text = self.good("info", self.save("a.3mf", model(f'<object id="1">{box(1, 2, 3)}</object>', attributes='unit="inch"'))).stdout.decode()
+        self.assertIn("1 × 2 × 3 in (25.4 × 50.8 × 76.2 mm), z up", text)
+        self.assertRegex(text, r"area 1.419e\+04 mm², closed: volume 9.832e\+04 mm³")
+
+    def test_transforms_and_instances(self):
+        """Components within components, rotated; each item is an object, a mesh is stored once."""
+        resources = (f'<object id="5" name="leaf">{box()}</object>'
+                     '<object id="6"><components><component objectid="5" transform="0 1 0 -1 0 0 0 0 1 10 0 0"/><component objectid="5"/></components></object>'
+                     '<object id="1"><components><component objectid="6" transform="2 0 0 0 2 0 0 0 2 0 0 0"/></components></object>'
+                     f'<object id="9" name="unused">{box(100, 100, 100)}</object>')
+        row = self.info(self.save("a.3mf", model(resources, '<item objectid="1" transform="1 0 0 0 1 0 0 0 1 0 0 7"/><item objectid="5"/>')))
+        self.assertEqual((row["counts"]["objects"], row["counts"]["meshes"], row["counts"]["triangles"]), (3, 1, 36))
+        # (x, y) becomes (10 − y, x), then all is doubled.
+        self.assertEqual((row["bounds"]["min"], row["bounds"]["max"]), ([0, 0, 0], [20, 2, 9]))
+
+    def test_parts(self):
+        """The production extension: parts with units of their own, as slicers write them."""
+        root = model('<object id="1"><components><component objectid="3" p:path="/3D/Objects/a_1.model"/></components></object>'
+                     f'<object id="2">{box()}</object>', '<item objectid="1" p:UUID="x"/><item objectid="2" transform="1 0 0 0 1 0 0 0 1 50 0 0"/>',
+                     'requiredextensions="p" unit="millimeter"', f'{CORE} {PRODUCTION} xmlns:BambuStudio="http://schemas.bambulab.com/package/2021"')
+        part = model(f'<object id="3">{box(1, 1, 1)}</object>', "", 'unit="centimeter"')
+        name = self.save("a.3mf", root, **{"3D__Objects__a_1_dot_model": part})
+        row = self.info(name)
+        self.assertEqual((row["size"], row["counts"]["objects"]), ([51, 10, 10], 2))
+        self.assertEqual([(e["required"], e["support"]) for e in row["extensions"]], [(True, "supported"), (False, "unknown")])
+        self.bad(2, "info", self.save("b.3mf", root), says="its part 3D/Objects/a_1.model cannot be read")
+        self.bad(3, "info", self.save("c.3mf", root.replace('requiredextensions="p"', 'requiredextensions="p BambuStudio"')),
+                 says=("requires the extension", "package/2021", "--lenient"))
+        self.good("info", "--lenient", self.save("d.3mf", root.replace('requiredextensions="p"', 'requiredextensions="BambuStudio"'), **{"3D__Objects__a_1_dot_model": part}))
+
+    def test_base_materials(self):
+        """Named materials with colours; the triangles of a material are a part; what has none keeps the default."""
+        materials = '<basematerials id="2"><base name="red PLA" displaycolor="#FF0000"/><base name="clear" displaycolor="#0000FF80"/></basematerials>'
+        name = self.save("a.3mf", model(materials + f'<object id="1" pid="2" pindex="0">{box(1, 1, 1, lambda face: " p1=%s1%s" % (chr(34), chr(34)) if face == 3 else "")}</object>'))
+        row = self.info(name)
+        self.assertEqual([(m["name"], m["diffuse"]) for m in row["materials"]], [("red PLA", [1, 0, 0]), ("clear", [0, 0, 1])])
+        self.assertAlmostEqual(row["materials"][1]["opacity"], 128 / 255, 6)
+        self.assertEqual(row["counts"]["parts"], 2)
+        width, height, pixels = self.png(name, "-s", 16, "--view", "front", "--show", "base-color", "-o", "-")
+        self.assertEqual(tuple(pixels[4 * (8 * width + 8):][:3]), (255, 0, 0))
+
+    def pixel(self, name, view, at=(0.5, 0.5)):
+        width, height, pixels = self.png(name, "-s", 64, "--view", view, "--show", "base-color", "--projection", "orthographic", "--samples", 1, "-o", "-")
+        return tuple(pixels[4 * (int(at[1] * height) * width + int(at[0] * width)):][:3])
+
+    def test_colors(self):
+        """Colour groups: colours of triangles and of corners, a default of the object, and composites."""
+        def properties(face):
+            return {2: ' pid="2" p1="0"', 3: ' pid="2" p1="1" p2="1" p3="1"', 4: ' pid="4" p1="0"', 5: ' pid="5" p1="0"'}.get(face, "")
+        groups = ('<m:colorgroup id="2"><m:color color="#00FF00"/><m:color color="#8000FFFF"/></m:colorgroup>'
+                  '<basematerials id="3"><base name="a" displaycolor="#FF0000"/><base name="b" displaycolor="#0000FF"/></basematerials>'
+                  '<m:compositematerials id="4" matid="3" matindices="0 1"><m:composite values="1 0"/></m:compositematerials>'
+                  '<m:multiproperties id="5" pids="2 2" blendmethods="multiply"><m:multi pindices="0 1"/></m:multiproperties>')
+        name = self.save("a.3mf", model(groups + f'<object id="1">{box(1, 1, 1, properties)}</object>', spaces=f"{CORE} {MATERIALS}"))
+        self.assertEqual(self.pixel(name, "front"), (0, 255, 0))
+        self.assertEqual(self.pixel(name, "right"), (128, 0, 255))
+        self.assertEqual(self.pixel(name, "back"), (255, 0, 0))
+        self.assertEqual(self.pixel(name, "left"), (0, 0, 0))
+        default = self.save("b.3mf", model(f'<object id="1">{box()}</object>'))
+        self.assertEqual(self.pixel(name, "top"), self.pixel(default, "top"))
+
+    def test_texture(self):
+        """A texture's lower left corner is (0, 0); a picture that is missing is a warning."""
+        picture = write_png(2, 2, bytes([255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255]))
+        groups = ('<m:texture2d id="2" path="/3D/t.png" contenttype="image/png" filter="nearest"/><m:texture2dgroup id="3" texid="2">'
+                  '<m:tex2coord u="0" v="0"/><m:tex2coord u="1" v="0"/><m:tex2coord u="1" v="1"/><m:tex2coord u="0" v="1"/></m:texture2dgroup>')
+        square = ('<mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="1" y="0" z="1"/><vertex x="0" y="0" z="1"/></vertices>'
+                  '<triangles><triangle v1="0" v2="1" v3="2" pid="3" p1="0" p2="1" p3="2"/><triangle v1="0" v2="2" v3="3" pid="3" p1="0" p2="2" p3="3"/></triangles></mesh>')
+        root = model(f'{groups}<object id="1">{square}</object>', spaces=f"{CORE} {MATERIALS}")
+        name = self.save("a.3mf", root, **{"3D__t_dot_png": picture})
+        self.assertEqual([self.pixel(name, "front", at) for at in ((0.3, 0.3), (0.7, 0.3), (0.3, 0.7), (0.7, 0.7))],
+                         [(255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)])
+        done = self.good(self.save("b.3mf", root), "-s", 8, "-o", "-")
+        self.assertIn(b"its part 3D/t.png cannot be read: the archive has no part of this name; drawn without it", done.stderr)
+
+    def test_names_of_parts(self):
+        """The root part is the one that the relationships name; the file may have any name, and none."""
+        data = package({"_rels/.rels": relations("/Elsewhere/Thing.MODEL.model"), "Elsewhere/Thing.MODEL.model": model(f'<object id="1">{box()}</object>')})
+        self.save_bytes("noise", data)
+        self.assertEqual(self.info("noise")["format"], "3mf")
+        self.good("-", "-s", 8, "-o", "-", stdin=data)
+        self.bad(2, "info", self.save_bytes("none.3mf", package({"_rels/.rels": relations(), "a.model": "x"})), says="names no 3D model")
+        self.bad(2, "info", self.save_bytes("two.3mf", package({"_rels/.rels": relations("/a.model", "/b.model"), "a.model": "x"})), says="second 3D model")
+        self.bad(2, "info", self.save_bytes("zip.3mf", package({"letter.txt": "hello"})), says=("this is a ZIP archive", ".3mf"))
+
+    def test_sandbox(self):
+        """The libraries are opened and the file is read inside of the sandbox; from inside of a batch too."""
+        name = self.save("a.3mf", model(f'<object id="1">{box()}</object>'))
+        if self.run_program("cube.obj", "-s", 8, "--sandbox", "require", "-o", "-").returncode == 3:
+            self.skipTest("no complete sandbox here")
+        plain = self.good(name, "-s", 32, "--sandbox", "off", "-o", "-").stdout
+        self.assertEqual(self.good(name, "-s", 32, "--sandbox", "require", "-o", "-").stdout, plain)
+        self.good("-q", "batch", name, "cube.obj", "--isolate", "-s", 32, "--sandbox", "require", "-o", "out/")
+        self.assertEqual((self.folder / "out" / "a.png").read_bytes()[:4], b"\x89PNG")
+
+    @unittest.skipUnless(shutil.which("bwrap"), "no bubblewrap")
+    def test_library_missing(self):
+        """Without libzip or expat a sentence names their package; other formats are read as before."""
+        name = self.save("a.3mf", model(f'<object id="1">{box()}</object>'))
+        for library, debian in (("libzip.so.4", "libzip4"), ("libexpat.so.1", "libexpat1")):
+            found = [path for folder in ("/usr/lib", "/lib") for path in pathlib.Path(folder).glob(f"*/{library}")]
+            hide = [word for path in found for word in ("--ro-bind", "/dev/null", str(path.resolve()))]
+            box_words = ["bwrap", "--dev-bind", "/", "/", *hide, "--chdir", str(self.folder), PROGRAM]
+            if subprocess.run([*box_words, "--version"], capture_output=True).returncode:
+                self.skipTest("bubblewrap cannot make a sandbox here")
+            done = subprocess.run([*box_words, "info", name], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn(f"needs {library}, which is not installed (Debian's package {debian})", done.stderr)
+            self.assertEqual(subprocess.run([*box_words, "info", "cube.obj"], capture_output=True).returncode, 0)
+
+
+class Faults(ThreeMF):
+    def test_faults(self):
+        """One sentence with the part, the line and what was found."""
+        good = f'<object id="1">{box()}</object>'
+        for change, words in (
+                (lambda m: m.replace('x="1"', 'x="nan"', 1), 'found x="nan", expected a finite number'),
+                (lambda m: m.replace('x="1"', 'x="1e999"', 1), 'found x="1e999"'),
+                (lambda m: m.replace(' z="0"', "", 1), "the attribute z is missing"),
+                (lambda m: m.replace('v1="0"', 'v1="8"', 1), 'found v1="8", expected a vertex below 8'),
+                (lambda m: m.replace('v1="0"', 'v1="99999999999"', 1), 'found v1="99999999999", expected a whole number'),
+                (lambda m: m.replace('v1="0"', 'v1="-1"', 1), 'found v1="-1"'),
+                (lambda m: m.replace('objectid="1"', 'objectid="2"'), 'found objectid="2", expected the id of an object'),
+                (lambda m: m.replace('objectid="1"', 'objectid="1" transform="1 2 3"'), 'found transform="1 2 3", expected 12 finite numbers'),
+                (lambda m: m.replace("<model", '<model unit="parsec"'), 'found unit="parsec"'),
+                (lambda m: m.replace("</resources>", good + "</resources>"), "the id 1 is used twice"),
+                (lambda m: m.replace('<object id="1">', '<object id="1" pid="7" pindex="0">'), "found properties with the id 7"),
+                (lambda m: m.replace('<item objectid="1"/>', ""), "its build has no items"),
+                (lambda m: m.replace(box(), ""), "have no triangles"),
+                (lambda m: m.replace("</build>", ""), "not well-formed XML: mismatched tag"),
+                (lambda m: m.replace(CORE, ""), "found the element model, expected model of 3MF"),
+                (lambda m: m.replace("<build>", "<build>\0"), "not well-formed XML"),
+                (lambda m: "", "not well-formed XML: no element found")):
+            done = self.bad(2, "info", self.save("bad.3mf", change(model(good))), says=words)
+            self.assertRegex(done.stderr.decode(), r"^lambent: bad.3mf: [^\n]+\n$", words)
+        # A circle, and a transform without a volume.
+        circle = '<object id="1"><components><component objectid="2"/></components></object><object id="2"><components><component objectid="1"/></components></object>'
+        self.bad(2, "info", self.save("bad.3mf", model(circle)), says="found objectid=\"1\", an object that contains this one")
+        flat = self.save("flat.3mf", model(good, '<item objectid="1"/><item objectid="1" transform="1 0 0 0 1 0 0 0 0 0 0 0"/>'))
+        self.assertIn("whose transform has no volume (1)", " ".join(self.info(flat)["warnings"]))
+
+    def test_cut_files(self):
+        """A file that is cut off anywhere, or has a wrong byte, is refused with one sentence or read."""
+        whole = package({"_rels/.rels": relations("/3D/3dmodel.model"), "3D/3dmodel.model": model(f'<object id="1">{box()}</object>')})
+        for size in range(0, len(whole), 97):
+            done = self.run_program("info", self.save_bytes("cut.3mf", whole[:size]))
+            self.assertEqual((done.returncode, done.stderr.count(b"\n")), (2, 1), (size, done.stderr))
+        for at in range(0, len(whole), 61):
+            data = bytearray(whole)
+            data[at] ^= 0x55
+            done = self.run_program("info", self.save_bytes("wrong.3mf", bytes(data)))
+            self.assertIn(done.returncode, (0, 2, 3), (at, done.stderr))
+            self.assertLessEqual(done.stderr.count(b"\n"), 1)
+
+
+class Hostile(ThreeMF):
+    """Small files that would unfold to anything: below 10 s of processor time and 1 GB, with one sentence."""
+
+    def refused(self, name, code, says, *words):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        done = self.bad(code, "info", name, *words, says=says)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.assertLess(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, 10, name)
+        self.assertLess(after.ru_maxrss, 1_000_000, name)  # of the largest child so far
+        self.assertEqual(done.stderr.count(b"\n"), 1)
+        self.assertLess((self.folder / name).stat().st_size, 100_000)
+
+    def test_entities(self):
+        """Billion laughs, and a document type of any other kind."""
+        entities = "".join(f'<!ENTITY l{i} "{f"&l{i - 1};" * 10 if i else "ha"}">' for i in range(10))
+        laughs = f'<!DOCTYPE model [{entities}]><model {CORE}><metadata name="Copyright">&l9;</metadata></model>'
+        self.refused(self.save("a.3mf", laughs), 2, "document type")
+        self.refused(self.save("b.3mf", f'<!DOCTYPE model SYSTEM "file:///etc/passwd"><model {CORE}/>'), 2, "document type")
+
+    def test_doubling(self):
+        """Forty components that each have the one before it twice."""
+        objects = f'<object id="1">{box()}</object>' + "".join(
+            f'<object id="{i}"><components><component objectid="{i - 1}"/><component objectid="{i - 1}"/></components></object>' for i in range(2, 42))
+        self.refused(self.save("a.3mf", model(objects, '<item objectid="41"/>')), 4, "--object-limit")
+        empty = objects.replace(box(), "")
+        self.refused(self.save("b.3mf", model(empty, '<item objectid="41"/>')), 4, "--object-limit")
+
+    def test_deep(self):
+        objects = f'<object id="1">{box()}</object>' + "".join(
+            f'<object id="{i}"><components><component objectid="{i - 1}"/></components></object>' for i in range(2, 1000))
+        self.refused(self.save("a.3mf", model(objects, '<item objectid="999"/>')), 2, "more than 100 components")
+        self.refused(self.save("b.3mf", f"<model {CORE}>" + "<a>" * 100000), 2, "more than 256 elements")
+
+    def test_long_tokens(self):
+        """An element, a comment and a text of many megabytes, which expat would look through again and again."""
+        for i, text in enumerate(('<model a="' + "a" * 30_000_000, "<!--" + "a" * 30_000_000, "<a" + " " * 30_000_000)):
+            self.refused(self.save(f"{i}.3mf", text), 2, "more than 1048576 bytes")
+
+    def test_spaces(self):
+        """A part that unfolds a thousandfold is read as far as the limit lets it."""
+        spaces = model(f'<object id="1">{box()}</object>').encode() + b" " * 20_000_000
+        self.good("info", self.save("large.3mf", spaces))
+
+    @long
+    def test_bomb(self):
+        """Five hundred names for the same compressed bytes, all of which are read."""
+        part = zlib.compressobj(9, zlib.DEFLATED, -15)
+        text = f"<model {CORE}><resources><object id='1'/></resources>".encode() + b" \n" * 3_000_000 + b"<build/></model>"
+        packed = part.compress(text) + part.flush()
+        names = [b"p%d.model" % i for i in range(500)]
+        components = "".join(f'<component objectid="1" p:path="/p{i}.model"/>' for i in range(500))
+        root = model(f'<object id="1"><components>{components}</components></object>', spaces=f"{CORE} {PRODUCTION}")
+        data = bytearray(package({"_rels/.rels": relations("/3D/3dmodel.model"), "3D/3dmodel.model": root}))
+        end = data.rindex(b"PK\5\6")
+        start = struct.unpack_from("<I", data, end + 16)[0]
+        rows = bytes(data[start:end])
+        body = bytes(data[:start])
+        shared = len(body)
+        head = struct.pack("<HHHHHIIIHH", 20, 0, 8, 0, 0x21, zlib.crc32(text), len(packed), len(text), 0, 0)
+        body += struct.pack("<I", 0x04034b50) + head[:-4] + struct.pack("<HH", len(names[0]), 0) + names[0] + packed
+        for name in names:
+            rows += struct.pack("<IH", 0x02014b50, 20) + head[:-4] + struct.pack("<HHHHHII", len(name), 0, 0, 0, 0, 0, shared) + name
+        data = body + rows + struct.pack("<IHHHHIIH", 0x06054b50, 0, 0, 502, 502, len(rows), len(body), 0)
+        self.refused(self.save_bytes("many.3mf", data), 4, "--expansion-limit")
+
+    def test_claims(self):
+        """Numbers of entries and sizes that the archive does not have."""
+        good = package({"_rels/.rels": relations("/3D/3dmodel.model"), "3D/3dmodel.model": model(f'<object id="1">{box()}</object>')})
+        end = good.rindex(b"PK\5\6")
+        for offset, form, value in ((8, "<HH", (65535, 65535)), (12, "<I", (0xfffffff0,)), (16, "<I", (0xfffffff0,))):
+            data = bytearray(good)
+            struct.pack_into(form, data, end + offset, *value)
+            self.refused(self.save_bytes("a.3mf", bytes(data)), 2, "a.3mf: ")
+        large = struct.pack("<IQHHIIQQQQ", 0x06064b50, 44, 45, 45, 0, 0, 1 << 40, 1 << 40, 1 << 46, 0)
+        data = good[:end] + large + struct.pack("<IIQI", 0x07064b50, 0, end, 1) + good[end:]
+        self.refused(self.save_bytes("b.3mf", data), 2, "claims 1099511627776 entries")
+
+    def test_limits(self):
+        name = self.save("a.3mf", model(f'<object id="1">{box()}</object>', '<item objectid="1"/>' * 5))
+        self.bad(4, "info", name, "--triangle-limit", "11", says="12 triangles, expected at most 11")
+        self.bad(4, "info", name, "--object-limit", "4", says="5 objects, expected at most 4")
+        self.bad(4, "info", name, "--file-limit", "100", says="--file-limit")
+        self.bad(4, "info", name, "--memory-limit", "100k", says="--memory-limit")
+
+    def test_many(self):
+        """8,000 ids, references and colours take no time that grows with their square."""
+        colors = "".join(f'<m:color color="#{i:06x}"/>' for i in range(8000))
+        objects = "".join(f'<object id="{i}"><components><component objectid="1"/></components></object>' for i in range(3, 8000))
+        items = "".join(f'<item objectid="{i}"/>' for i in range(3, 8000))
+        name = self.save("a.3mf", model(f'<m:colorgroup id="2">{colors}</m:colorgroup><object id="1" pid="2" pindex="9">{box()}</object>{objects}', items,
+                                        spaces=f"{CORE} {MATERIALS}"))
+        before = os.times()
+        self.assertEqual(self.info(name)["counts"]["objects"], 7997)
+        self.assertLess(os.times().children_user - before.children_user, 5)
+
+
+@unittest.skipUnless(os.environ.get("LAMBENT_3MF"), "LAMBENT_3MF names no folder of samples")
+class Samples(ThreeMF):
+    """The samples of the consortium: each is drawn, or refused with one sentence."""
+
+    def test_samples(self):
+        drawn = 0
+        for path in sorted(pathlib.Path(os.environ["LAMBENT_3MF"]).rglob("*.3mf")):
+            done = self.run_program(path, "-q", "-s", 64, "-o", "-")
+            self.assertIn(done.returncode, (0, 2, 3), path)
+            self.assertEqual(done.stderr.count(b"\n"), done.returncode != 0, (path, done.stderr))
+            drawn += done.returncode == 0
+        self.assertGreater(drawn, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,61 @@
+# test_release.py: the version number, and what `make release` says about a release.
+import importlib.util
+import pathlib
+import re
+import shutil
+import subprocess
+import unittest
+
+from harness import ROOT, Case
+
+SPEC = importlib.util.spec_from_file_location("release", ROOT / "packaging" / "release.py")
+release = importlib.util.module_from_spec(SPEC)
+SPEC.loader.exec_module(release)
+
+
+class Release(Case):
+    def test_version(self):
+        """One number, in meson.build; the header, the program and the change log agree with it."""
+        version = release.version()
+        header = (ROOT / "include" / "lambent" / "base.h").read_text()
+        numbers = [re.search(rf"LAM_VERSION_{part} +(\d+)", header)[1] for part in ("MAJOR", "MINOR", "PATCH")]
+        self.assertEqual((".".join(numbers), re.search(r'LAM_VERSION_TEXT +"(.*)"', header)[1]), (version, version))
+        self.assertEqual(self.good("--version").stdout.decode().splitlines()[0], "lambent " + version)
+        self.assertTrue(release.section())
+
+    @unittest.skipUnless(shutil.which("git"), "no git")
+    def test_notes(self):
+        """Pictures that differ from the last release are listed by name."""
+        root = pathlib.Path(self.folder) / "project"
+        expected = root / release.EXPECTED
+        expected.parent.mkdir(parents=True)
+
+        def git(*words):
+            subprocess.run(["git", "-C", root, "-c", "user.name=a", "-c", "user.email=a@example.org", "-c", "commit.gpgsign=false", *words], check=True,
+                           stdout=subprocess.DEVNULL)
+
+        def write(version, changes, **pictures):
+            (root / "meson.build").write_text(f"project('lambent', 'c',\n  version: '{version}',\n")
+            (root / "CHANGELOG.md").write_text(changes)
+            expected.write_text("".join(f"{name} {text}\n" for name, text in pictures.items()))
+            git("add", "-A")
+            git("commit", "-q", "-m", version)
+
+        root.mkdir(exist_ok=True)
+        git("init", "-q")
+        write("0.1.0", "# Changelog\n\n## 0.1.0\n\n- The first.\n", cube="1", ball="1", torus="1")
+        self.assertIn("This is the first release.", release.notes(root))
+        git("tag", "v0.1.0")
+        write("0.2.0", "# Changelog\n\n## 0.2.0 (today)\n\n- The second.\n\n## 0.1.0\n\n- The first.\n", cube="1", ball="1", torus="1")
+        self.assertEqual(release.section(root), "- The second.")
+        self.assertIn("The pictures are those of v0.1.0, byte for byte.", release.notes(root))
+        write("0.2.0", "# Changelog\n\n## 0.2.0\n\n- The second.\n", cube="1", ball="2", knot="1")
+        self.assertEqual(release.changed_pictures("v0.1.0", root), [("ball", "changed"), ("knot", "new"), ("torus", "gone")])
+        self.assertIn("- ball: changed\n- knot: new\n- torus: gone\n", release.notes(root))
+        write("0.3.0", "# Changelog\n")
+        with self.assertRaises(SystemExit):
+            release.section(root)
+
+
+if __name__ == "__main__":
+    unittest.main()

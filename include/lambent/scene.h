@@ -60,7 +60,8 @@ typedef void lam_release_fn(void *user, struct lam_bytes *bytes);
 
 // How a model is loaded. All zero is the default.
 typedef struct lam_load_params {
-    const char *format;   // "obj", "stl", "ply", "gltf", "3mf", "scene"; NULL: by content
+    // The name of a format as `lambent formats` prints it, such as "obj" or "3mf"; NULL: recognised by the content.
+    const char *format;
     lam_up up;            // the up axis
     lam_color_mode color; // of the file's colours
     // Scene files: true: `color` counts whatever the file says. false: the file's mode, and `color` where it has none.

@@ -288,8 +288,8 @@ typedef struct lam_draw_params {
     // Shadow rays start on the flat triangles themselves. By default they start where the vertices' normals say that the
     // curved surface lies, or the terminator of a coarse smooth mesh would show its triangles.
     bool flat_terminator;
-    // Shadow rays to a light with a radius from each point in its penumbra, 1..256; 0: 128. Above 16, points in full light or
-    // full shadow get 16 rays.
+    // Shadow rays to a light with a radius from each point in its penumbra, 1..256; 0: 112. Above 48, points in full light or
+    // full shadow get 48 rays.
     int shadow_samples;
     lam_occlusion occlusion; // LAM_BAD_ARGUMENT: SCREEN or RAYS without Phong shading
     // How far away surfaces occlude, as a share of half the diagonal of the scene's box, above 0 … 10. 0: 0.1.

@@ -293,12 +293,12 @@ bool through_point(vec3 a, vec3 b, vec3 c)
     return passed;
 }
 
-const int LIGHT_PROBES = 16; // light_pattern.h
-const int LIGHT_RIM_PROBES = 10;
+const int LIGHT_PROBES = 48; // light_pattern.h
 
-// The light that passes along a ray to a point of a light's disc around p + d.
-@passed@ passed_point(vec3 d, vec3 u, vec3 v, float distance, float angle, float end)
+// The light that passes along the ray to point i of a spiral on a light's disc around p + d.
+@passed@ passed_point(vec3 d, vec3 u, vec3 v, float distance, int i, float end)
 {
+    float angle = 6.28318531 * fract(float(i) * 0.381966011);
     return passed_ray(d + distance * (u * cos(angle) + v * sin(angle)), end);
 }
 
@@ -310,13 +310,10 @@ const int LIGHT_RIM_PROBES = 10;
     vec3 u = normalize(across - along * dot(along, across)) * length(across);
     vec3 v = cross(along, u);
     if (count > LIGHT_PROBES) {
-        @passed@ first = passed_point(d, u, v, 1.0, 0.0, end);
+        @passed@ first = passed_point(d, u, v, 1.0, LIGHT_PROBES - 1, end);
         bool agree = true;
-        for (int i = 1; agree && i < LIGHT_PROBES; i++) {
-            bool rim = i < LIGHT_RIM_PROBES;
-            float turn = rim ? float(i) / float(LIGHT_RIM_PROBES)
-                             : (float(i - LIGHT_RIM_PROBES) + 0.5) / float(LIGHT_PROBES - LIGHT_RIM_PROBES);
-            agree = passed_point(d, u, v, rim ? 1.0 : 0.5, 6.28318531 * turn, end) == first;
+        for (int i = LIGHT_PROBES - 2; agree && i >= 0; i--) {
+            agree = passed_point(d, u, v, sqrt(float(i) / float(LIGHT_PROBES - 1)), i, end) == first;
         }
         if (agree) {
             return first;
@@ -324,7 +321,7 @@ const int LIGHT_RIM_PROBES = 10;
     }
     @passed@ sum = @passed@(0.0);
     for (int i = 0; i < count; i++) {
-        sum = sum + passed_point(d, u, v, sqrt((float(i) + 0.5) / float(count)), 6.28318531 * fract(float(i) * 0.381966011), end);
+        sum = sum + passed_point(d, u, v, sqrt((float(i) + 0.5) / float(count)), i, end);
     }
     return sum / float(count);
 }

@@ -12,12 +12,9 @@ static void add_point(struct light_points *points, double radius, double angle)
 void light_pattern_fill(struct light_pattern *pattern, int count)
 {
     static const double golden_angle = 2.39996322972865332;
-    const int inner = LIGHT_PROBES - LIGHT_RIM_PROBES;
     pattern->probes.count = pattern->all.count = 0;
-    for (int i = 0; i < LIGHT_RIM_PROBES && count > LIGHT_PROBES; i++)
-        add_point(&pattern->probes, 1, 2 * PI * i / LIGHT_RIM_PROBES);
-    for (int i = 0; i < inner && count > LIGHT_PROBES; i++)
-        add_point(&pattern->probes, 0.5, 2 * PI * (i + 0.5) / inner);
+    for (int i = LIGHT_PROBES - 1; i >= 0 && count > LIGHT_PROBES; i--)
+        add_point(&pattern->probes, math_sqrt(i / (LIGHT_PROBES - 1.0)), golden_angle * i);
     for (int i = 0; i < count; i++)
         add_point(&pattern->all, math_sqrt((i + 0.5) / count), golden_angle * i);
 }

@@ -4,13 +4,13 @@
 // each with an equal share of the disc: point i of N at the radius √((i + ½)/N), turned by i golden angles. They are the same for
 // every lit point, so that the rays of neighbours are nearly parallel and visit the same part of the hierarchy.
 //
-// If N is above LIGHT_PROBES, that many points are tried first: most of them on the rim, since an edge that hides a part of the disc
-// crosses the rim. If they agree, the point lies in full light or in full shadow; if not, in a penumbra, and the N points
-// decide. Between two points of the rim an edge can hide 0.6 % of the disc.
+// If N is above LIGHT_PROBES, that many points are tried first: point i of them at the radius √(i/(LIGHT_PROBES − 1)), from the rim
+// inwards. If they agree, the point lies in full light or in full shadow; if not, in a penumbra, and the N points decide.
+// With fewer probes, thin stems between the probes leave patches without their faint shadow.
 #ifndef LIGHT_PATTERN_H
 #define LIGHT_PATTERN_H
 
-enum { LIGHT_POINTS_MAX = 256, LIGHT_PROBES = 16, LIGHT_RIM_PROBES = 10 };
+enum { LIGHT_POINTS_MAX = 256, LIGHT_PROBES = 48 };
 
 struct light_points {
     int count;

@@ -96,7 +96,7 @@ static const lam_setting rows[] = {
     {"shadows", MEMBER(FLAG, shadows), .summary = "Cast shadows."},
     {"shadow_terminator", MEMBER(NOT_FLAG, flat_terminator), WORDS_OF(terminator_words),
      .summary = "Whether shadows follow the curved surface that the normals stand for: on or off."},
-    {"shadow_samples", MEMBER(WHOLE, shadow_samples), .min = 1, .max = 256, .standard = 128, .expected = "0 to 256",
+    {"shadow_samples", MEMBER(WHOLE, shadow_samples), .min = 1, .max = 256, .standard = 112, .expected = "0 to 256",
      .summary = "Shadow rays to a light with a radius from each point in its penumbra."},
     {"ground", MEMBER(WORD, ground), WORDS_OF(ground_words), .expected = "lam_ground",
      .summary = "A ground at the model's lowest point: shadow (where nothing follows), checker, a colour or off."},

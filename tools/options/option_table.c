@@ -561,8 +561,8 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(draw.ground)},
     {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", .others = "terminator shadow-bias"},
     {"shadow-samples", 0, GROUP_SHADING, "N", NULL, NULL,
-     "The share of them that nothing blocks is the share of the light that arrives. Above 16, points in full light or "
-     "full shadow get 16 rays. Fewer are faster, and show steps.",
+     "The share of them that nothing blocks is the share of the light that arrives. Above 48, points in full light or "
+     "full shadow get 48 rays. Fewer are faster, and show steps.",
      .others = "soft-shadow-samples light-samples"},
     {"wireframe", 'w', GROUP_SHADING, NULL, NULL, NULL,
      "Edges behind surfaces are left out (`--hidden-lines`), and so are those that cut the polygons of OBJ and PLY "

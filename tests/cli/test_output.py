@@ -15,6 +15,14 @@ from harness import PROGRAM, SHARED_MODELS, Case, check_report, read_png, wait_u
 
 
 class Names(Case):
+    def test_names_with_escape_sequences(self):
+        """What a terminal would obey is printed as a question mark."""
+        os.rename(self.folder / "cube.obj", self.folder / "\x1b[31mred.obj")
+        done = self.good("\x1b[31mred.obj", "-s", 8)
+        self.given.update({"\x1b[31mred.obj", "\x1b[31mred.png"})
+        self.assertNotIn(b"\x1b", done.stdout + done.stderr)
+        self.assertIn(b"?[31mred.png", done.stdout + done.stderr)
+
     def test_name_of_the_model(self):
         (self.folder / "sub").mkdir()
         for name in ("sub/odd.name.OBJ", "sub/none", "sub/.hidden"):

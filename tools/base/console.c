@@ -39,9 +39,16 @@ void say_warning(const char *text)
 void say_plain(const char *format, ...)
 {
     va_list arguments;
+    char *text;
     va_start(arguments, format);
-    vfprintf(stream_of(), format, arguments);
+    int length = vasprintf(&text, format, arguments);
     va_end(arguments);
+    if (length < 0)
+        return;
+    for (char *c = text; *c; c++) // a file's name may contain the terminal's escape sequences
+        *c = ((unsigned char)*c < ' ' && *c != '\n' && *c != '\t') || *c == 0x7f ? '?' : *c;
+    fputs(text, stream_of());
+    free(text);
 }
 
 bool complain(lam_error *error, lam_code code, const char *format, ...)

@@ -17,6 +17,7 @@ void say_error(const char *text);
 void say_warning(const char *text);
 // The next messages of this thread go to `stream` until it is NULL again, to be shown later in their order.
 void console_capture(FILE *stream);
+// Control characters other than line ends and tabs are printed as "?": names of files may contain them.
 void say_plain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 // Fills an error with a printf-like sentence and returns false.

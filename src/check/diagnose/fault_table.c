@@ -309,7 +309,7 @@ const struct fault faults[] = {
         "float s = {S};", .factor = 0.25f),
     ROW("reflect-sign", BITS(REFLECT_SIGN), WHERE_PHONG | WHERE_CLASSIC, 0,
         "r.v has the wrong sign: reflect() takes the direction in which light travels, and v points to the eye",
-        "vec3 R = reflect(-L, N), V = {v};"),
+        "vec3 R = reflect(-L, N), V = normalize({v});"),
     ROW("specular-times-n.l", BITS(SPECULAR_TIMES_D), WHERE_CLASSIC, 0, "the specular term is multiplied by n.l",
         "specular = {ks} * s; // not times dot(N, L)"),
     ROW("ambient-times-n.l", BITS(AMBIENT_TIMES_D), WHERE_CLASSIC, NEED_AMBIENT,

@@ -8,6 +8,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "console.h"
@@ -60,13 +61,17 @@ struct work {
 // --- one submission
 
 // Writes the contract of a pair of shaders, which costs no verdict if it fails. Without a verdict, what is known is of more use
-// yet.
+// yet. A file that exists is kept: it may have been corrected by hand.
 static void write_contract(const char *path, const lam_check_params *params, struct check_result *result)
 {
-    lam_bytes text;
+    lam_bytes text = {0};
     lam_error *error = &result->sheet_error;
-    if (lam_check_contract_write(params, result->error.code ? NULL : &result->report, &text, error) &&
-        output_make_folder(path, error))
+    struct stat there;
+    if (stat(path, &there) == 0 && S_ISREG(there.st_mode))
+        complain(error, LAM_CANNOT_WRITE, "%s exists and is kept; remove it, or write the contract to another file",
+                 path);
+    else if (lam_check_contract_write(params, result->error.code ? NULL : &result->report, &text, error) &&
+             output_make_folder(path, error))
         lam_bytes_save(&text, path, error);
     lam_bytes_free(&text);
 }

@@ -255,7 +255,8 @@ static void print_file(const lam_file_info *info)
     print_names("variants", info->variants, info->variant_count, -1, "");
     for (int i = 0; i < info->extension_count && !omitted(i, info->extension_count); i++) {
         const lam_file_extension *extension = &info->extensions[i];
-        printf("%-12s%s: %s%s\n", label("extensions", i), plain(extension->name, NAME_BYTES, name),
+        const char *host = strstr(extension->name, "://"), *path = host ? strchr(host + 3, '/') : NULL;
+        printf("%-12s%s: %s%s\n", label("extensions", i), plain(path ? path + 1 : extension->name, NAME_BYTES, name),
                extension->required ? "required, " : "", info_support(extension->support));
     }
 }

@@ -363,7 +363,7 @@ typedef struct lam_check_report {
 LAM_API bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam_error *error);
 LAM_API void lam_check_report_free(lam_check_report *report); // zeroed is fine
 
-// Writes a contract file for a pair of shaders: that of `report`, or without a report (NULL) what can be said of their inputs by
+// Writes a contract file for a pair of shaders: the contract of `report`, or without a report (NULL) the roles of their inputs by
 // their use. A comment beside each entry says what it means and what to correct. The file gives the verdict of the report. The
 // caller frees `out` with lam_bytes_free. False: LAM_BAD_ARGUMENT (the vertex shader is missing, or the shaders are of a kind
 // that the check does not understand), LAM_LIMIT.

@@ -256,7 +256,7 @@ typedef struct lam_file_image {
     LAM_RESERVED(4);
 } lam_file_image;
 
-// What a glTF or 3MF file contains beside the scene that was made from it. Other formats leave all of it zero. Names that the file does
+// The contents of a glTF or 3MF file beside the scene that was made from it. Other formats leave all of it zero. Names that the file does
 // not give are NULL.
 typedef struct lam_file_info {
     const char *version;                  // of the format: "2.0"

@@ -36,7 +36,7 @@ typedef struct lam_setting {
     bool zero_is_negative;
     // The words of WORD and WORDS: the one with this index and its value; NULL past the end. Of several words for one value the
     // first is written.
-    // NOT_FLAG: the words of its option, whose values are those of the member.
+    // NOT_FLAG: the words of its option, with the member's values.
     const char *(*word)(int index, int *value);
     const char *summary; // one sentence
     const char *member;  // its name in lam_draw_params

@@ -14,7 +14,7 @@
 #include "json_parse.h"
 #include "prefix.h"
 
-// What to correct in an entry, by its role; "": nothing can be wrong but the role.
+// The advice on correcting an entry, by its role; "": only the role can be wrong.
 static const struct {
     const char *role, *correct;
 } corrections[] = {

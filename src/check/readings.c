@@ -236,7 +236,7 @@ bool readings_are_plain(const struct run *r)
             for (int k = 1; call && k < sides[s]->word_count && !own; k++)
                 own = strcmp(sides[s]->words[k].text, w->text) == 0 && sides[s]->words[k].depth == 0 &&
                       isalpha((unsigned char)sides[s]->words[k - 1].text[0]);
-            double divisor = 0; // a division by w is that of a projection; by a distance, it may be an attenuation
+            double divisor = 0; // a division by w belongs to a projection; by a distance, it may be an attenuation
             bool of_w = i + 3 < sides[s]->word_count && strcmp(w[2].text, ".") == 0 && strcmp(w[3].text, "w") == 0;
             bool quotient = strcmp(w->text, "/") == 0 && !read_literal(next, &divisor) && !of_w;
             bool number = read_literal(w->text, &x);

@@ -23,7 +23,7 @@ struct reading {
 // All readings of a correct shader that the text permits. Returns their count.
 int readings_list(const struct run *run, struct reading out[MAX_READINGS]);
 
-// Whether a fault of the table shows in such a shader: those of colours and strengths are within the factors.
+// Whether a fault of the table shows in such a shader: faults of colours and strengths are within the factors.
 bool readings_allow_fault(const struct fault *row);
 
 // Whether a word occurs in one of the texts.

@@ -17,7 +17,7 @@ struct stroke_view {
     size_t point_corners;          // of the polygon that a point becomes
 };
 
-// Sets the width of lines and the size of points to those of the settings. Without a size, points get larger the fewer there are
+// Sets the width of lines and the size of points from the settings. Without a size, points get larger the fewer there are
 // and the larger the picture is: 3 pixels or more, and at least 8 if there are fewer than 100.
 void frame_strokes_size(struct stroke_view *view, const struct lam_scene *scene, const struct frame *frame);
 

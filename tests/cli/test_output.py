@@ -16,7 +16,7 @@ from harness import PROGRAM, SHARED_MODELS, Case, check_report, read_png, wait_u
 
 class Names(Case):
     def test_names_with_escape_sequences(self):
-        """What a terminal would obey is printed as a question mark."""
+        """Control characters are printed as question marks."""
         os.rename(self.folder / "cube.obj", self.folder / "\x1b[31mred.obj")
         done = self.good("\x1b[31mred.obj", "-s", 8)
         self.given.update({"\x1b[31mred.obj", "\x1b[31mred.png"})

@@ -1,4 +1,4 @@
-// option_setting.c: the options of the library's settings. Words, default, range and summary are those of its table; a row of
+// option_setting.c: the options of the library's settings. Words, default, range and summary come from its table; a row of
 // option_table.c adds details, and says where the option stands in the help.
 #include "options.h"
 

@@ -82,7 +82,7 @@ static bool has_any(const struct contract *c, const enum uniform_semantic *list)
     return false;
 }
 
-// What a shader has no name for because the contract has none either: no attenuation, strengths of 1, white colours. Products of
+// Values without a name in the shader or the contract: no attenuation, strengths of 1, white colours. Products of
 // colours have strengths in them.
 static void complete_defaults(struct contract *c)
 {

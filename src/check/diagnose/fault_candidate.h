@@ -15,12 +15,12 @@ struct candidate {
     int count;
     fault_set set;
     double mean;  // over all scenes
-    double score; // what it leaves of the difference of each scene, on average: 1 is all, so small highlights count too
+    double score; // the remaining share of each scene's difference, on average: 1 is all, so small highlights count too
     bool fits;
     double parts[MAX_SCENES]; // of the score: what each scene adds to it
 };
 
-// What a fault does alone.
+// The effect of a single fault.
 struct outcome {
     struct found_fault fault;
     double mean, score;       // as of a candidate
@@ -28,7 +28,7 @@ struct outcome {
     int order[MAX_SCENES];    // the scenes: those that differ first, and of these the ones that it changes most
     int changed_count;        // how many of those that differ it changes
     uint32_t explained;       // the scenes that differ and that it explains
-    uint32_t exactly;         // those of them that it explains but for rounding
+    uint32_t exactly;         // the number of them that it explains up to rounding
     double changes[MAX_SCENES];
     int measured; // how many of the scenes that differ are measured
     bool fits;    // all of these are within the tolerance

@@ -13,7 +13,7 @@ static const double max_score_for_a_third = 0.75; // may remain after two faults
 static const double min_gain = 0.03;              // each fault more must explain
 static const double max_rival = 1.25;             // times as much a rival may leave over all scenes
 static const double max_exact =
-    2e-4; // what rounding leaves of an exact explanation, as a mean difference over all scenes
+    2e-4; // the remainder of an exact explanation by rounding, as a mean difference over all scenes
 
 static int count_bits(uint32_t bits)
 {

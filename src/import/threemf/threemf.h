@@ -24,7 +24,7 @@ enum resource_kind {
     RESOURCE_MULTI
 };
 
-// What an <object>, a group of properties, or a texture of a model part is.
+// The kinds of resources: an <object>, a group of properties, or a texture of a model part.
 struct threemf_resource {
     enum resource_kind kind;
     // Groups of properties: their elements in the part's lists: colours (BASE, COLORS), texture coordinates, pairs (MULTI).

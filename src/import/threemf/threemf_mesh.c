@@ -12,7 +12,7 @@
 enum { WHITE, NEUTRAL }; // the first colours of each part
 enum { PLAIN = -1 };     // material of triangles without a base material or a texture
 
-// What the properties of a triangle stand for.
+// The surface that the properties of a triangle describe.
 struct surface {
     int material;
     uint32_t colors[3], texcoords[3];

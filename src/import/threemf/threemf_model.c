@@ -99,7 +99,7 @@ static bool begin_vertex(struct threemf_xml *xml, const char *const *attributes)
            threemf_take_float(xml, attributes, "z", &position[2]);
 }
 
-// The properties of a triangle: those of p2 and p3 are that of p1 if the file does not give them.
+// The properties of a triangle: p2 and p3 get the property of p1 if the file does not give them.
 static bool take_property(struct threemf_xml *xml, const char *const *attributes, struct threemf_property *property)
 {
     struct model_reader *reader = reader_of(xml);

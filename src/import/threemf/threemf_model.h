@@ -34,7 +34,7 @@ enum threemf_row {
     IN_COUNT
 };
 
-// What is being read of a part.
+// The state of reading a model part.
 struct model_reader {
     struct threemf *file;
     struct threemf_part *part;

@@ -63,7 +63,7 @@ def rigs(program, _):
     manual = output(program, "generate", "markdown")
     words = re.search(r"(?m)^\| `--rig NAME`.*$", manual).group()
     for rig in re.findall(r"<br>`([\w-]+)`:", words):
-        lights = json.loads(output(program, "lights", "sphere", "--rig", rig))["lights"] if rig not in ("auto", "none", "file") else []
+        lights = json.loads(output(program, "lights", "sphere", "--rig", rig))["lights"] if rig not in ("auto", "none", "file", "default") else []
         for i, light in enumerate(lights):
             yield light_row("`%s`" % rig if i == 0 else "", light)
 

@@ -51,6 +51,18 @@ typedef struct lam_render_report {
 LAM_API bool lam_render(const char *model, const lam_render_params *params, lam_image *image, lam_render_report *report,
                         lam_error *error);
 
+// The exposure, in stops, of a picture with the fill of lam_studio_fill: the studio then has a third of its usual brightness.
+#define LAM_STUDIO_FILL_EXPOSURE (-5.0 / 3)
+
+// Adds a dim studio where the scene's own lights leave more than a tenth of the model, or of the model and its ground, black although
+// the surfaces are not. `params` holds the exposure that suits the lights (lam_exposure_fit). The call then sets the environment
+// "studio", sets params->exposure to LAM_STUDIO_FILL_EXPOSURE, scales the lights so that they stay as bright in the picture, and adds
+// a warning to the scene. *light_scale: the factor of the lights, 0 if nothing was changed. Changes nothing for a scene that has an environment, for reflection
+// models that no environment lights, and for outputs other than the picture. It draws two pictures of at most 96 pixels. Errors as
+// lam_draw.
+LAM_API bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *camera, lam_draw_params *params,
+                             int width, int height, const lam_control *control, double *light_scale, lam_error *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -94,6 +94,9 @@ static bool draw(lam_scene *scene, const lam_render_params *params, lam_image *i
         drawn.light_cutoff = -1;
     bool ok = device && (!fitted || lam_exposure_fit(device, scene, &camera, &drawn, image->width, image->height,
                                                      params->control, &drawn.exposure, error));
+    double scale;
+    ok = ok && (!fitted || lam_studio_fill(device, scene, &camera, &drawn, image->width, image->height, params->control,
+                                           &scale, error));
     ok = ok && (!reads_tangents(&drawn) || lam_scene_make_tangents(scene, params->control, error)) &&
          lam_draw(device, scene, &camera, &drawn, image, params->control, error);
     if (ok && report)

@@ -344,12 +344,12 @@ class Sweep(Animated):
         lights = next((SHARED_MODELS / "gltf" / "khr_lights_example").glob("*.gl*"), None)
         if not lights:
             self.skipTest("no model with lights in candela")
-        report = self.report(lights, "--turntable", "3", "-s", "64", "-o", "a.png")
+        report = self.report(lights, "--rig", "file", "--turntable", "3", "-s", "64", "-o", "a.png")
         self.assertEqual(report["image"]["exposure"], "auto")
         stops = report["image"]["exposure_stops"]
         animation = Apng(self.read("a.png"))
         for k in range(3):
-            still = self.still(lights, "--rotate", f"y:{120 * k}", "--exposure", stops)
+            still = self.still(lights, "--rig", "file", "--rotate", f"y:{120 * k}", "--exposure", stops)
             self.assertLessEqual(max(abs(a - b) for a, b in zip(animation.pictures[k][2], still[2])), 1, k)
 
 

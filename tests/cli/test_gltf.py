@@ -144,15 +144,22 @@ class Gltf(GltfCase):
         self.given.update(["a.png", "b.png", "a.json"])
 
     def test_lights_that_leave_the_model_black(self):
-        """Where most of what is seen gets none of the file's light, a warning names the studio."""
+        """A dim studio lights them too, unless an option says how they are lit; a saved scene and each view repeat the picture."""
         light = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 30}]}}
         for z, warns in ((-30, True), (30, False)):
             model = self.model(nodes=[{"mesh": 0}, {"mesh": 1}, {"translation": [0, 0, z], "extensions": {"KHR_lights_punctual": {"light": 0}}}, {}],
                                materials=[{"pbrMetallicRoughness": {"metallicFactor": 0}}, {}, {}], extensions=light)
-            for more, said in ((("--view", "front"), warns), (("--view", "front", "--rig", "studio"), False)):
-                text = self.good(model, "-s", "48", "-o", "a.png", *more).stderr
-                self.assertEqual(b"black; --rig studio lights it in their place" in text, said, (z, more, text))
-        self.given.add("a.png")
+            for more, said in (((), warns), (("--rig", "studio"), False), (("--rig", "file"), False), (("--rig", "default"), False)):
+                text = self.good(model, "-s", "48", "-o", "a.png", "--view", "front", *more).stderr
+                self.assertEqual(b"of the picture black; a dim studio lights it too" in text, said, (z, more, text))
+            self.good(model, "-s", "48", "-o", "a.png", "-q", "--view", "front", "--save-scene", "a.json")
+            self.good("a.json", "-o", "b.png", "-q")
+            self.good(model, "-s", "48", "-o", "{view}.png", "-q", "--view", "back,front")
+            self.good(model, "-s", "48", "-o", "t{frame}.png", "-q", "--view", "front", "--sweep", "azimuth=0..0", "--frames", "2")
+            files = [(self.folder / name).read_bytes() for name in ("a.png", "b.png", "front.png")]
+            self.assertTrue(all(f == files[0] for f in files[1:]), [len(f) for f in files])
+            self.assertEqual((self.folder / "t0.png").read_bytes(), (self.folder / "t1.png").read_bytes())
+            self.given.update(["a.png", "b.png", "a.json", "front.png", "back.png", "t0.png", "t1.png"])
 
     def test_moved_lights(self):
         """A scene file that places a model places its lights and cameras too."""

@@ -200,7 +200,7 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
     return options_parse(count, words, find_groups("render"), o, error) >= 0 && add_turns(a, o, error);
 }
 
-// After the first frame: its exposure is that of all.
+// After the first frame: its exposure, and the dim studio that it was filled with, serve all.
 static void keep_exposure(const struct job *job, struct options *o)
 {
     if (!job->exposure_fitted)
@@ -208,6 +208,11 @@ static void keep_exposure(const struct job *job, struct options *o)
     o->picture.exposure_kind = EXPOSURE_LITERAL;
     o->picture.exposure = job->draw.exposure;
     o->draw.light_cutoff = o->draw.light_cutoff != 0 ? o->draw.light_cutoff : -1;
+    if (job->fill_scale > 0) {
+        o->lighting.has_light_scale = true;
+        o->lighting.light_scale = job->fill_scale;
+        o->shading.environment = job->animation->loads ? "studio" : NULL; // else the scene keeps it
+    }
 }
 
 // --- loading

@@ -272,20 +272,61 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     return true;
 }
 
+// Whether an option says how a model with lights of its own is lit.
+static bool lit_by_options(const struct options *o)
+{
+    const struct lighting_options *l = &o->lighting;
+    return (l->has_rig && l->rig != (int)LAM_RIG_AUTO) || l->has_light_scale || l->lights.count;
+}
+
+// Takes the dim studio of an earlier picture away again: each view is drawn as it would be alone.
+static bool remove_fill(struct job *job, lam_error *error)
+{
+    bool ok = !job->unfilled || lam_scene_set_environment(job->scene, NULL, 0, error);
+    for (int i = 0; ok && job->unfilled && i < lam_scene_light_count(job->scene); i++)
+        ok = lam_scene_set_light(job->scene, i, &job->unfilled[i], error);
+    free(job->unfilled);
+    job->unfilled = NULL;
+    return ok;
+}
+
+// Adds a dim studio to a file whose own lights leave much of the picture black.
+static bool fill_darkness(struct job *job, lam_draw_params *draw, int width, int height, lam_error *error)
+{
+    lam_control control;
+    int count = lam_scene_light_count(job->scene);
+    job->unfilled = malloc((size_t)count * sizeof *job->unfilled);
+    if (!job->unfilled)
+        return complain(error, LAM_LIMIT, "out of memory");
+    for (int i = 0; i < count; i++)
+        job->unfilled[i] = *lam_scene_light(job->scene, i);
+    if (!job_control(job, NULL, &control, error) ||
+        !lam_studio_fill(job->device, job->scene, &job->camera, draw, width, height, &control, &job->fill_scale, error))
+        return false;
+    if (job->fill_scale > 0) {
+        job->studio = true;
+    } else {
+        free(job->unfilled);
+        job->unfilled = NULL;
+    }
+    return true;
+}
+
 // Finds the exposure where it is automatic. All lights count then: what a light changes depends on the exposure.
 static bool fit_exposure(struct job *job, lam_draw_params *draw, int width, int height, lam_error *error)
 {
     const struct options *o = job->options;
     lam_control control;
-    bool wanted =
-        o->picture.exposure_kind == EXPOSURE_AUTO || (o->picture.exposure_kind == EXPOSURE_BY_FILE && job->file_lights);
-    if (!wanted || !lam_output_is_light(draw->output))
+    bool by_file = o->picture.exposure_kind == EXPOSURE_BY_FILE && job->file_lights;
+    if ((o->picture.exposure_kind != EXPOSURE_AUTO && !by_file) || !lam_output_is_light(draw->output))
         return true;
     if (draw->light_cutoff == 0)
         draw->light_cutoff = -1;
     job->exposure_fitted = true;
-    return job_control(job, NULL, &control, error) && lam_exposure_fit(job->device, job->scene, &job->camera, draw,
-                                                                       width, height, &control, &draw->exposure, error);
+    return remove_fill(job, error) && job_control(job, NULL, &control, error) &&
+           lam_exposure_fit(job->device, job->scene, &job->camera, draw, width, height, &control, &draw->exposure,
+                            error) &&
+           (!by_file || lit_by_options(o) || fill_darkness(job, draw, width, height, error));
 }
 
 static int by_total(const void *a, const void *b)
@@ -298,13 +339,10 @@ bool job_draw_frames(struct job *job, double from, double span, int count, lam_f
                      struct progress *progress, lam_error *error)
 {
     const struct options *o = job->options;
-    lam_control small; // of the small pictures that tell whether this one is dark
     job->draw = draw_params_of(o, job->rig);
     job->draw.background = job->background;
     if (!show_option_apply(o->picture.show, job->scene, &job->draw, error) ||
-        !fit_exposure(job, &job->draw, o->picture.width, o->picture.height, error) ||
-        !job_control(job, NULL, &small, error) ||
-        !job_note_darkness(job, &job->draw, o->picture.width, o->picture.height, &small, error))
+        !fit_exposure(job, &job->draw, o->picture.width, o->picture.height, error))
         return false;
     bool ok = true;
     for (int i = 0; ok && i < count; i++) {
@@ -461,11 +499,13 @@ void job_free(struct job *job)
     lam_image_free(&job->image);
     lam_scene_free(job->scene);
     free(job->lights);
+    free(job->unfilled);
     free(job->cameras);
     free(job->frames.first);
     free(job->frames.last);
     job->scene = NULL;
     job->lights = NULL;
+    job->unfilled = NULL;
     job->cameras = NULL;
     job->frames = (struct job_frames){0};
 }

@@ -62,6 +62,8 @@ struct job {
     lam_rig rig;                // the rig that drawing adds to the scene's own lights
     bool file_lights;           // the lights of a glTF file, in candela and lux, light it
     bool exposure_fitted;       // draw.exposure was found for this picture
+    lam_light *unfilled;        // the scene's lights before lam_studio_fill scaled them; NULL: it did not. From malloc
+    double fill_scale;          // by which it scaled them; 0: it did not
     bool studio;                // the built-in environment "studio" lights it, where no other is set
     struct model_sphere sphere; // before it was turned
     lam_camera camera;
@@ -113,9 +115,5 @@ lam_explanation *job_explain(struct job *job, int x, int y, struct progress *pro
 
 // Runs both steps and makes the shaders of the picture. NULL on failure.
 lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *error);
-
-// darkness.c: warns where the lights of the file leave most of a picture's surfaces black, though they are not. `draw` has its exposure.
-bool job_note_darkness(struct job *job, const lam_draw_params *draw, int width, int height, const lam_control *control,
-                       lam_error *error);
 
 #endif

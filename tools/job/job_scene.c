@@ -132,13 +132,13 @@ static bool apply_rig(struct job *job, lam_error *error)
     bool replaces = false;
     for (int i = 0; i < o->lighting.lights.count; i++)
         replaces |= o->lighting.lights.items[i][0] != '+';
-    job->rig = o->lighting.has_rig && o->lighting.rig != RIG_DARK ? (lam_rig)o->lighting.rig : LAM_RIG_AUTO;
+    job->rig = o->lighting.has_rig && o->lighting.rig < RIG_DARK ? (lam_rig)o->lighting.rig : LAM_RIG_AUTO;
     if (o->lighting.has_rig && o->lighting.rig == (int)LAM_RIG_NONE && lam_scene_light_count(job->scene) == 0 &&
         o->lighting.lights.count == 0 && !lam_scene_environment(job->scene))
         lam_scene_add_warning(job->scene, "option '--rig file': the model has no lights");
     bool dark = o->lighting.rig == RIG_DARK || (replaces && !o->lighting.has_rig);
     bool named = o->lighting.has_rig && job->rig != LAM_RIG_AUTO && job->rig != LAM_RIG_NONE;
-    if (dark || named)
+    if (dark || named || o->lighting.rig == RIG_DEFAULT)
         lam_scene_clear_lights(job->scene);
     if (dark)
         job->rig = LAM_RIG_NONE;

@@ -16,7 +16,7 @@ struct texts {
 enum exposure_kind { EXPOSURE_BY_FILE, EXPOSURE_AUTO, EXPOSURE_LITERAL };
 
 // --rig none: only the ambient light. A value besides those of lam_rig.
-enum { RIG_DARK = 100 };
+enum { RIG_DARK = 100, RIG_DEFAULT };
 
 // What the lights of a turntable are fixed to.
 enum turntable_light { TURNTABLE_LIGHT_CAMERA, TURNTABLE_LIGHT_MODEL };
@@ -81,7 +81,7 @@ struct lighting_options {
     const char *look;            // as written; NULL: none
     char *look_text;             // its file, which values point into; from malloc; of the options that read it
     int look_first, look_lights; // the lights above that are the look's
-    int rig;                     // lam_rig, or RIG_DARK
+    int rig;                     // lam_rig, RIG_DARK or RIG_DEFAULT
     bool has_rig;
     const char *ambient; // as written; NULL: none
     double light_scale;

@@ -174,6 +174,7 @@ static const struct word look_words[] = {
 static const struct word rig_words[] = {
     {"auto", LAM_RIG_AUTO, "the model's own lights; if it has none the studio, for glTF the studio environment"},
     {"none", RIG_DARK, "no light but the ambient"},
+    {"default", RIG_DEFAULT, "the studio of models without lights, in place of the model's own lights"},
     {"file", LAM_RIG_NONE, "only the model's own lights"},
     {"studio", LAM_RIG_STUDIO, "key, fill and rim light fixed to the camera, sky and ground"},
     {"headlight", LAM_RIG_HEADLIGHT, "one light from the eye"},
@@ -456,7 +457,7 @@ struct option option_table[OPTIONS_MAX] = {
      "from.",
      look_words, .kind = VALUE_FILE, .store = store_text, .others = "preset style theme", FIELD(lighting.look)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
-     "A predefined set of lights: studio, headlight, three-point, lecture, file, none or auto.",
+     "A predefined set of lights: studio, headlight, three-point, lecture, default, file, none or auto.",
      "A named rig replaces the model's own lights. `docs/lighting/lights.md` lists the numbers.", rig_words,
      .brief = "a set of lights: studio, headlight, three-point ...", .store = store_word,
      .others = "lights light-setup studio headlight", FIELD(lighting.rig),

@@ -1,0 +1,110 @@
+// studio_fill.c: lam_studio_fill: a dim studio where a file's own lights leave most of the picture black.
+#include "fail.h"
+#include "linear.h"
+
+#include <lambent/render.h>
+
+#include <stdio.h>
+
+// The luminance below which a pixel counts as black, and that of a surface which could be seen if it were lit.
+#define BLACK 0.01
+#define DARK  0.05
+
+enum { SIDE_MAX = 96 }; // of the pictures that are measured
+
+static double luminance(const float *p)
+{
+    return 0.2126 * (double)p[0] + 0.7152 * (double)p[1] + 0.0722 * (double)p[2];
+}
+
+// The share of the picture that is black. Of the model: pixels whose surface is not black itself. With a ground, its pixels count too:
+// `lit` has a white background.
+static double black_share(const lam_image *lit, const lam_image *surfaces, bool ground)
+{
+    size_t counted = 0, black = 0;
+    for (size_t i = 0; i < (size_t)lit->width * (size_t)lit->height; i++) {
+        const float *p = (const float *)lit->pixels + 4 * i, *q = (const float *)surfaces->pixels + 4 * i;
+        bool model = q[3] > 0;
+        counted += model || ground;
+        black += (model ? luminance(q) > DARK : ground) && luminance(p) < BLACK;
+    }
+    return counted ? (double)black / (double)counted : 0;
+}
+
+// Draws the two pictures that are measured: the lit one, and the colours of the surfaces.
+static bool measure(lam_device *device, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
+                    int width, int height, const lam_control *control, double *share, lam_error *error)
+{
+    bool ground = params->ground != LAM_GROUND_NONE;
+    lam_draw_params drawn = *params;
+    drawn.background = ground ? (lam_rgba){1, 1, 1, 1} : (lam_rgba){0, 0, 0, 0};
+    drawn.samples = 1;
+    drawn.wireframe = drawn.no_surfaces = false;
+    drawn.edges = 0;
+    int longer = width > height ? width : height;
+    width = longer > SIDE_MAX ? (int)((int64_t)width * SIDE_MAX / longer) : width;
+    height = longer > SIDE_MAX ? (int)((int64_t)height * SIDE_MAX / longer) : height;
+    lam_image lit = {0}, surfaces = {0};
+    bool ok = lam_image_make(&lit, width > 0 ? width : 1, height > 0 ? height : 1, LAM_RGBA32F, error) &&
+              lam_image_make(&surfaces, lit.width, lit.height, LAM_RGBA32F, error) &&
+              lam_draw(device, scene, camera, &drawn, &lit, control, error);
+    drawn.output = LAM_OUTPUT_BASE_COLOR;
+    drawn.background = (lam_rgba){0, 0, 0, 0};
+    drawn.ground = LAM_GROUND_NONE;
+    ok = ok && lam_draw(device, scene, camera, &drawn, &surfaces, control, error);
+    *share = ok ? black_share(&lit, &surfaces, ground) : 0;
+    lam_image_free(&lit);
+    lam_image_free(&surfaces);
+    return ok;
+}
+
+static lam_rgb times(lam_rgb c, double factor)
+{
+    return (lam_rgb){(float)((double)c.r * factor), (float)((double)c.g * factor), (float)((double)c.b * factor)};
+}
+
+// Multiplies the light of the scene's lights.
+static bool scale_lights(lam_scene *scene, double factor, lam_error *error)
+{
+    for (int i = 0; i < lam_scene_light_count(scene); i++) {
+        lam_light light = *lam_scene_light(scene, i);
+        lam_rgb *colors[] = {&light.ambient, &light.diffuse, &light.specular, &light.sky, &light.ground};
+        for (size_t k = 0; k < sizeof colors / sizeof *colors; k++)
+            *colors[k] = times(*colors[k], factor);
+        if (!lam_scene_set_light(scene, i, &light, error))
+            return false;
+    }
+    return true;
+}
+
+bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *camera, lam_draw_params *params, int width,
+                     int height, const lam_control *control, double *light_scale, lam_error *error)
+{
+    if (!device || !scene || !camera || !params || !light_scale)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_studio_fill: an argument is NULL");
+    *light_scale = 0;
+    bool classic = params->reflection != LAM_REFLECTION_AUTO && params->reflection < LAM_REFLECTION_COUNT &&
+                   !lam_reflection_describe(params->reflection)->microfacet; // which an environment does not light
+    double share;
+    if (classic || params->output != LAM_OUTPUT_PICTURE || lam_scene_environment(scene))
+        return true;
+    if (!measure(device, scene, camera, params, width, height, control, &share, error))
+        return false;
+    if (share <= 0.1)
+        return true;
+    double scale = math_exp2(params->exposure - LAM_STUDIO_FILL_EXPOSURE);
+    lam_environment *studio = lam_environment_built_in("studio", error);
+    bool ok = studio && lam_scene_set_environment(scene, studio, 0, error) && scale_lights(scene, scale, error);
+    lam_environment_free(studio);
+    if (!ok)
+        return false;
+    char text[160];
+    snprintf(text, sizeof text,
+             "the file's own lights leave %d %% of the picture black; a dim studio lights it too (rig file: only its "
+             "own lights)",
+             (int)(100 * share));
+    lam_scene_add_warning(scene, text);
+    params->exposure = LAM_STUDIO_FILL_EXPOSURE;
+    *light_scale = scale;
+    return true;
+}

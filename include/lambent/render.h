@@ -51,8 +51,8 @@ typedef struct lam_render_report {
 LAM_API bool lam_render(const char *model, const lam_render_params *params, lam_image *image, lam_render_report *report,
                         lam_error *error);
 
-// The exposure, in stops, of a picture with the fill of lam_studio_fill: the studio then has a third of its usual brightness.
-#define LAM_STUDIO_FILL_EXPOSURE (-5.0 / 3)
+// The exposure, in stops, of a picture with the fill of lam_studio_fill: the studio then has half of its usual brightness.
+#define LAM_STUDIO_FILL_EXPOSURE (-1.0)
 
 // Adds a dim studio where the scene's own lights leave more than a tenth of the model, or of the model and its ground, black although
 // the surfaces are not. `params` holds the exposure that suits the lights (lam_exposure_fit). The call then sets the environment

@@ -150,7 +150,7 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
         if (draw->strokes) {
             if (!mesh->normals) { // unlit
                 reflection = LAM_REFLECTION_NONE;
-                front = frame_stroke_material(frame, front);
+                front = frame_stroke_material(frame, front, mesh->colors != NULL);
             }
             back = front;
         }
@@ -237,7 +237,7 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
         ranges += mesh->part_count ? mesh->part_count : 1;
         strokes += mesh_is_strokes(mesh);
     }
-    size_t materials = 3 * ((size_t)scene->materials.count + 1) + 1,
+    size_t materials = 4 * ((size_t)scene->materials.count + 1) + 1,
            converted = frame_materials_to_convert(frame, scene);
     size_t bytes = objects * sizeof *frame->draws + ranges * sizeof *frame->ranges + lights * sizeof *frame->lights +
                    lights * sizeof *frame->hemispheres + materials * sizeof *frame->materials +

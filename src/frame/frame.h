@@ -211,8 +211,9 @@ int frame_layers(const struct frame *frame, const lam_material *material);
 // The index of a back's material beside this front.
 int frame_back_material(struct frame *frame, int front, int back);
 
-// The index of the material of unlit lines and points: with the emission added to the diffuse colour.
-int frame_stroke_material(struct frame *frame, int front);
+// The index of the material of unlit lines and points: with the emission added to the diffuse colour. If nobody chose a colour, neither
+// for the material nor for the vertices (`colored`), it is a grey that can be seen, unless the background is dark.
+int frame_stroke_material(struct frame *frame, int front, bool colored);
 
 // The colours that lights are multiplied by: kd and ks; of a physical material base (1 − metallic), and 1, since Fresnel's
 // factor comes later (fresnel_of).

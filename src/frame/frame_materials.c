@@ -48,7 +48,7 @@ size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *sc
     // Each may be the material of unlit lines, or the back of an object whose front is of the other kind.
     for (int i = 0; i < scene->meshes.count; i++)
         if (mesh_is_strokes(scene_mesh(scene, i)) && !scene_mesh(scene, i)->normals) {
-            count += (size_t)scene->materials.count + 1;
+            count += 2 * ((size_t)scene->materials.count + 1);
             break;
         }
     return count +
@@ -93,23 +93,43 @@ int frame_back_material(struct frame *frame, int front, int back)
     return second;
 }
 
-int frame_stroke_material(struct frame *frame, int front)
+// Whether nobody chose the colour of a material: the default one of a scene, or that of a glTF primitive without one.
+static bool is_unchosen(const struct frame *frame, int front)
+{
+    const lam_material *m = frame->materials[front];
+    const lam_rgba plain = front == 0 ? lam_material_default().diffuse : (lam_rgba){1, 1, 1, 1};
+    return !m->name && m->diffuse.r == plain.r && m->diffuse.g == plain.g && m->diffuse.b == plain.b &&
+           (front == 0 || (m->physical && m->metallic == 1 && m->roughness == 1 && !m->maps[LAM_MAP_DIFFUSE]));
+}
+
+// A grey that can be seen on white and on black pages alike: sRGB 124.
+static const lam_rgba visible_grey = {0.2f, 0.2f, 0.2f, 1};
+
+static bool is_dark(const lam_rgba *background)
+{
+    return background->a > 0.5f && 0.2126f * background->r + 0.7152f * background->g + 0.0722f * background->b < 0.1f;
+}
+
+int frame_stroke_material(struct frame *frame, int front, bool colored)
 {
     const lam_material *material = frame->materials[front];
-    if (material->emission.r == 0 && material->emission.g == 0 && material->emission.b == 0)
+    bool grey = !colored && is_unchosen(frame, front) && !is_dark(&frame->settings.background);
+    if (!grey && material->emission.r == 0 && material->emission.g == 0 && material->emission.b == 0)
         return front;
-    int third = 2 * frame->scene_material_count + front;
-    repeat_materials(frame, 3);
-    if (frame->materials[third] == material) {
+    int copy = (grey ? 3 : 2) * frame->scene_material_count + front;
+    repeat_materials(frame, grey ? 4 : 3);
+    if (frame->materials[copy] == material) {
         lam_material *unlit = &frame->converted[frame->converted_count++];
         *unlit = *material;
+        if (grey)
+            unlit->diffuse = visible_grey;
         unlit->diffuse.r += material->emission.r;
         unlit->diffuse.g += material->emission.g;
         unlit->diffuse.b += material->emission.b;
         unlit->emission = (lam_rgb){0, 0, 0};
-        frame->materials[third] = unlit;
+        frame->materials[copy] = unlit;
     }
-    return third;
+    return copy;
 }
 
 void frame_material_colors(const lam_material *material, float kd[3], float ks[3])

@@ -376,13 +376,41 @@ static void explained(void **state)
     lam_scene_free(scene);
 }
 
+// A line whose colour nobody chose is a grey that can be seen on a white and on a clear background, and as ever on a dark one.
+static void unchosen_color(void **state)
+{
+    (void)state;
+    static const float p[6] = {-1, 0, 0, 1, 0, 0}, white[8] = {1, 1, 1, 1, 1, 1, 1, 1};
+    static const lam_rgba backgrounds[] = {{1, 1, 1, 1}, {0, 0, 0, 0}, {0.02f, 0.02f, 0.02f, 1}};
+    const float given = lam_material_default().diffuse.r;
+    for (int colored = 0; colored < 2; colored++)
+        for (int i = 0; i < 3; i++) {
+            lam_mesh line = {.positions = p, .vertex_count = 2, .line_count = 1};
+            if (colored) {
+                line.colors = white;
+                line.color_count = 2;
+                line.colors_format = LAM_COLORS_LINEAR_F32;
+            }
+            lam_scene *scene = scene_of(&line);
+            lam_camera camera = facing(3);
+            lam_image image =
+                draw(scene, &camera, (lam_draw_params){.line_width = 8, .background = backgrounds[i], .samples = 1});
+            float expected = colored || i == 2 ? given : 0.2f;
+            assert_true(fabsf(at(&image, SIDE / 2, SIDE / 2)[0] - expected) < 1e-6f);
+            lam_image_free(&image);
+            lam_scene_free(scene);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(widths),       cmocka_unit_test(clipping),  cmocka_unit_test(light),
-        cmocka_unit_test(line_on_face), cmocka_unit_test(obj_files), cmocka_unit_test(ply_files),
-        cmocka_unit_test(gltf_files),   cmocka_unit_test(fit),       cmocka_unit_test(refusals),
-        cmocka_unit_test(explained),
+        cmocka_unit_test(widths),         cmocka_unit_test(clipping),
+        cmocka_unit_test(light),          cmocka_unit_test(line_on_face),
+        cmocka_unit_test(obj_files),      cmocka_unit_test(ply_files),
+        cmocka_unit_test(gltf_files),     cmocka_unit_test(fit),
+        cmocka_unit_test(refusals),       cmocka_unit_test(explained),
+        cmocka_unit_test(unchosen_color),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

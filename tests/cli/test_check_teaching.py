@@ -126,10 +126,11 @@ class Grades(CheckTest):
             (self.folder / "class" / name).mkdir(parents=True)
             for ending in ("frag", "vert"):
                 (self.folder / "class" / name / f"s.{ending}").write_text((SHADERS / f"pittsburgh.{ending}").read_text())
+        (self.folder / "class" / "Eve_4712_assignsubmission_file_").mkdir()
         done = self.run_program("check", "--class", "class", "--moodle", "grades.csv", "-s", 32)
-        self.assertEqual(done.returncode, 0, done.stderr)
         rows = list(csv.DictReader((self.folder / "grades.csv").read_text().splitlines()))
-        self.assertEqual([(r["Identifier"], r["Full name"], r["Grade"]) for r in rows], [("Participant 4711", "Ann Lee", "100.00"), ("", "bob", "100.00")])
+        self.assertEqual([(r["Identifier"], r["Full name"], r["Grade"]) for r in rows], [("Participant 4711", "Ann Lee", "100.00"), ("Participant 4712", "Eve", ""), ("", "bob", "100.00")])
+        self.assertIn("expected a file that ends in .frag", rows[1]["Feedback comments"])
         self.bad(1, "check", "--class", "class", "--gradescope", "r.json", says="one submission", leaves=("class", "grades.csv"))
 
 

@@ -168,7 +168,8 @@ static bool search(struct finding *f, const char *top, const char *folder, int d
         ok = search(f, top, paths[i], depth + 1, error);
         // A folder without shaders is listed too, so that nobody who handed in something else is missed.
         if (ok && depth == 0 && f->count == before &&
-            !add(f, name_of(top, paths[i], false), NULL, NULL, "there is no shader in this folder"))
+            !add(f, name_of(top, paths[i], false), NULL, NULL,
+                 "there is no shader in this folder: expected a file that ends in .frag, .fs, .fsh or .fragment"))
             ok = complain(error, LAM_LIMIT, "out of memory");
     }
     free_paths(paths, count);

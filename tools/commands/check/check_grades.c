@@ -34,6 +34,17 @@ int check_moodle_head(FILE *file)
     return fflush(file) == 0 ? 0 : errno;
 }
 
+// Why there is no verdict, without the folders of the teacher's machine.
+static const char *reason_of(const struct check_result *result)
+{
+    const char *text = result->error.text, *path = result->submission->fragment;
+    if (!path || strncmp(text, path, strlen(path)) != 0)
+        return text;
+    const char *slash = strrchr(path, '/');
+    return text + (slash ? slash + 1 - path : 0);
+}
+
+// A submission without a verdict has no grade: the cell stays empty, and Moodle leaves the grade as it is.
 int check_moodle_row(FILE *file, const struct check_result *result)
 {
     char full[128], number[24];
@@ -45,8 +56,11 @@ int check_moodle_row(FILE *file, const struct check_result *result)
         putc(',', file);
         check_csv_text(file, result->submission->name);
     }
-    fprintf(file, ",%.2f,100.00,-,", 100 * share_of(result));
-    check_csv_text(file, result->error.code ? result->error.text : check_says(r));
+    if (result->error.code)
+        fputs(",,100.00,-,", file);
+    else
+        fprintf(file, ",%.2f,100.00,-,", 100 * share_of(result));
+    check_csv_text(file, result->error.code ? reason_of(result) : check_says(r));
     putc('\n', file);
     return fflush(file) == 0 ? 0 : errno;
 }

@@ -37,6 +37,7 @@ struct importer {
     const char *name;       // "obj"
     const char *extensions; // "obj"; several are separated by spaces
     lam_up up;              // the format's up axis
+    bool up_is_habit;       // the format has none: `up` is what most programs write, and a terrain may tell otherwise
     bool is_scene_file;     // names other models, whose normals and origins it prepares itself
     bool flat_normals;      // the format says that meshes without normals have those of their triangles
     // Whether the bytes are of this format: 0 no, 1 possibly (the file's extension decides), 2 certainly.

@@ -6,6 +6,7 @@
 #include "float_state.h"
 #include "formats.h"
 #include "unsupported_formats.h"
+#include "up_guess.h"
 
 #include <lambent/image.h>
 
@@ -88,6 +89,11 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
         return false;
     if (!scene_measure(scene, source->pool, error))
         return false;
+    if (importer->up_is_habit && params->up == LAM_UP_AUTO && is_terrain_on_z(scene)) {
+        scene->up = LAM_UP_Z;
+        lam_scene_add_warning(
+            scene, "z is taken as up: the model is a terrain in the plane of x and y (up y: as the file has it)");
+    }
     scene->prepare_ms = (double)(now_ns() - read_ns) * 1e-6;
     call_progress(source->call, 1, "normals");
     return true;

@@ -63,6 +63,29 @@ class Info(GltfCase):
         measure = self.info("two.json")[0]["measure"]
         self.assertEqual((measure["area"], measure["volume"]), (24 + 96, 8 + 64))
 
+    def test_up_of_a_terrain(self):
+        """A terrain in the plane of x and y is taken as Z up, and said to be; nothing else is, and --up overrides it."""
+        def grid(height, floor=False):
+            n = 12
+            vertices = [(x, y, height(x, y)) for y in range(n) for x in range(n)]
+            faces = [(k + 1, k + 2, k + n + 2, k + n + 1) for k in range(n * (n - 1)) if k % n < n - 1]
+            if floor:  # seen from below, as a plate has it
+                vertices += [(x, y, -1) for x, y, _ in vertices]
+                faces += [tuple(n * n + k for k in reversed(face)) for face in faces]
+            return "".join("v %g %g %g\n" % v for v in vertices) + "".join("f %d %d %d %d\n" % f for f in faces)
+
+        def hills(x, y):
+            return 0.3 * ((7 * x + 5 * y * y) % 4)
+
+        for name, text, up in (("hills", grid(hills), "z"), ("flat", grid(lambda x, y: 0), "y"), ("plate", grid(hills, True), "y"),
+                               ("cone", grid(lambda x, y: 9 - abs(x - 5) - abs(y - 5)), "y")):
+            (self.folder / f"{name}.obj").write_text(text)
+            self.assertEqual(self.info(f"{name}.obj")[0]["up"], up, name)
+            self.assertEqual(b"z is taken as up" in self.good(f"{name}.obj", "-s", "32", "-o", "a.png").stderr, up == "z", name)
+            self.given.add(f"{name}.obj")
+        self.assertNotIn(b"z is taken", self.good("hills.obj", "--up", "y", "-s", "32", "-o", "a.png").stderr)
+        self.given.add("a.png")
+
     def test_drawing_memory(self):
         """What drawing takes besides the model: at least the picture, more with more threads; none within a limit that it exceeds."""
         rows = [self.info("teapot", "--threads", n)[0]["drawing"] for n in (1, 3)]

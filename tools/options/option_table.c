@@ -401,7 +401,8 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(view.projection)},
     {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z, -x, -y, -z or auto.",
      "The camera and the lights attached to it follow the axis; the model's coordinates do not change. STL "
-     "and 3MF files are read as Z up, as in CAD and 3D printing; other formats as Y up. Capitals and a plus (`+Z`) are "
+     "and 3MF files are read as Z up, as in CAD and 3D printing; other formats as Y up, except terrains that lie in "
+     "the plane of x and y. Capitals and a plus (`+Z`) are "
      "accepted.",
      up_words, .brief = "what is up in the file: y, z, -z ...", .store = store_up,
      .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up)},

@@ -133,6 +133,7 @@ const struct importer importer_obj = {
     .name = "obj",
     .extensions = "obj",
     .up = LAM_UP_Y,
+    .up_is_habit = true,
     .probe = obj_probe,
     .load = obj_load,
     .load_stream = obj_load_stream,

@@ -238,6 +238,7 @@ const struct importer importer_ply = {
     .name = "ply",
     .extensions = "ply",
     .up = LAM_UP_Y,
+    .up_is_habit = true,
     .probe = ply_probe,
     .load = ply_load,
     .load_stream = ply_load_stream,

@@ -1,0 +1,11 @@
+// up_guess.h: the up axis of a model whose format has none, where its shape leaves no doubt.
+#ifndef UP_GUESS_H
+#define UP_GUESS_H
+
+#include "scene_internal.h"
+
+// Whether a model that was read with y up is a terrain that lies in the plane of x and y: thin along z, and open, so that nearly all of
+// its area faces +z. A closed surface faces all sides alike. Reads all triangles, but only of models that are thin along z.
+bool is_terrain_on_z(const struct lam_scene *scene);
+
+#endif

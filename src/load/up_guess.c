@@ -9,6 +9,7 @@
 #define THIN     0.3
 #define NOT_FLAT 0.01 // a flat picture may well stand upright
 #define FACING   0.6
+#define EVEN     0.999 // cards that lie over one another have no slopes
 
 // Adds the areas of a mesh's triangles: of all, and with the sign of z of those that lie across z.
 static void add_areas(const lam_mesh *mesh, double *all, double *facing)
@@ -40,5 +41,5 @@ bool is_terrain_on_z(const struct lam_scene *scene)
     for (int i = 0; i < scene->meshes.count; i++)
         if (!mesh_is_strokes(scene_mesh(scene, i)))
             add_areas(scene_mesh(scene, i), &all, &facing);
-    return facing > FACING * all;
+    return facing > FACING * all && facing < EVEN * all;
 }

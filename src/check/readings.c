@@ -112,6 +112,20 @@ static void add_form(const struct run *r, struct reading *g, const struct fault 
     }
 }
 
+static bool is_attenuated(const struct run *r)
+{
+    return shader_interface_uses(&r->interface, SEMANTIC_ATTENUATION_LINEAR) ||
+           shader_interface_uses(&r->interface, SEMANTIC_ATTENUATION_QUADRATIC) || readings_use(r, "length") ||
+           readings_use(r, "distance");
+}
+
+static bool has_direction(const struct shader_interface *interface)
+{
+    return shader_interface_uses(interface, SEMANTIC_LIGHT_DIRECTION) ||
+           shader_interface_uses(interface, SEMANTIC_LIGHT_TRAVEL) || interface->defaults.has_direction ||
+           (interface->supports & NEED_DIRECTIONAL);
+}
+
 int readings_list(const struct run *r, struct reading out[MAX_READINGS])
 {
     const struct fault *gate = row_of("no-gate"), *late = row_of("normal-unit-late"),
@@ -120,12 +134,7 @@ int readings_list(const struct run *r, struct reading out[MAX_READINGS])
     float exponents[MAX_EXPONENTS];
     int exponent_count = find_exponents(r, exponents), count = 0;
     bool eye = shader_interface_uses(interface, SEMANTIC_EYE_POSITION);
-    bool attenuated = shader_interface_uses(interface, SEMANTIC_ATTENUATION_LINEAR) ||
-                      shader_interface_uses(interface, SEMANTIC_ATTENUATION_QUADRATIC) || readings_use(r, "length") ||
-                      readings_use(r, "distance");
-    bool direction = shader_interface_uses(interface, SEMANTIC_LIGHT_DIRECTION) ||
-                     shader_interface_uses(interface, SEMANTIC_LIGHT_TRAVEL) || interface->defaults.has_direction ||
-                     (interface->supports & NEED_DIRECTIONAL);
+    bool attenuated = is_attenuated(r), direction = has_direction(interface);
     bool gamma = declarations_uses(&interface->fragment, "2.2");
     // reversed, falloff, viewer, phong, exponent, gate, late, dim, gamma
     for (int k = 0; k < 2 * 3 * 2 * 2 * MAX_EXPONENTS * 2 * 2 * 2 * 2; k++) {

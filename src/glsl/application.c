@@ -188,42 +188,38 @@ static void add_body(struct text *text, const struct glsl_facts *f, bool origin)
     bool tints = c->colors, tangents = f->needs_tangent && c->tangents, translucent = c->alpha[0] != LAM_ALPHA_OPAQUE;
     bool reads_point = (f->has_lights && f->positions) || (f->highlights && !c->distant_viewer);
     bool reads_normal = f->has_lights || f->has_hemispheres, weakened = f->has_cone || f->has_falloff;
-    const char *tinted = tints ? "times(tint, " : "", *sum = f->highlights ? "add(diffuse, specular)" : "diffuse";
-    struct preprocess_tables t = {.flag_count = 0};
+    const char *sum = f->highlights ? "add(diffuse, specular)" : "diffuse";
+    struct known_table t = {.count = 0};
     lecture_add_flags(&t, f);
-    preprocess_flag(&t, "flat", f->shading == LAM_SHADING_FLAT);
-    preprocess_flag(&t, "has_origin", origin);
-    preprocess_flag(&t, "reads_point", reads_point);
-    preprocess_flag(&t, "reads_normal", reads_normal);
-    text_print(preprocess_text(&t, "parameters"), "const struct draw *draw%s%s%s%s", reads_point ? ", vec3 P" : "",
+    known_flag(&t, "flat", f->shading == LAM_SHADING_FLAT);
+    known_flag(&t, "has_origin", origin);
+    known_flag(&t, "reads_point", reads_point);
+    known_flag(&t, "reads_normal", reads_normal);
+    text_print(known_made(&t, "PARAMETERS"), "const struct draw *draw%s%s%s%s", reads_point ? ", vec3 P" : "",
                reads_normal ? ", vec3 N" : "", tangents ? ", vec3 T" : "", tints ? ", vec3 tint" : "");
     for (int back = 0; back < 2; back++)
-        text_print(preprocess_text(&t, back ? "back_arguments" : "front_arguments"), "draw%s%s%s%s",
+        text_print(known_made(&t, back ? "BACK_ARGUMENTS" : "FRONT_ARGUMENTS"), "draw%s%s%s%s",
                    reads_point ? ", P" : "",
                    !reads_normal ? ""
                    : back        ? ", scale(-1.0, N)"
                                  : ", N",
                    tangents ? ", T" : "", tints ? ", vector(color)" : "");
     text_print(
-        preprocess_text(&t, "vertex_parameters"),
+        known_made(&t, "VERTEX_PARAMETERS"),
         "int number, const float position[3], const float normal[3],%s%s\n                  float front_color[4]%s",
         tangents ? " const float tangent[3]," : "", tints ? " const float color[4]," : "",
         c->two_sided ? ", float back_color[4]" : "");
-    preprocess_value(&t, "tinted", tinted);
-    preprocess_value(&t, "closing", tints ? ")" : "");
-    lecture_add_way(preprocess_text(&t, "way"), c, "scale(-1.0, lights[i].direction)",
-                    "subtract(lights[i].position, P)");
-    lecture_add_spots(preprocess_text(&t, "spots"), c, "double");
-    preprocess_number(&t, "lights", c->light_count);
-    preprocess_number(&t, "hemispheres", c->hemisphere_count);
-    text_print(preprocess_text(&t, "arriving"), "%s%s%s%s%s%s", weakened ? "scale(" : "", f->has_cone ? "spot" : "",
+    known_text(&t, "KA", tints ? "times(tint, draw->ka)" : "draw->ka");
+    known_text(&t, "KD", tints ? "times(tint, draw->kd)" : "draw->kd");
+    lecture_add_way(known_made(&t, "WAY"), c, "scale(-1.0, lights[i].direction)", "subtract(lights[i].position, P)");
+    lecture_add_spots(known_made(&t, "SPOTS"), c, "double");
+    known_number(&t, "LIGHTS", c->light_count);
+    known_number(&t, "HEMISPHERES", c->hemisphere_count);
+    text_print(known_made(&t, "ARRIVING"), "%s%s%s%s%s%s%s", weakened ? "scale(" : "", f->has_cone ? "spot" : "",
                f->has_cone && f->has_falloff ? " * " : "", f->has_falloff ? "attenuation" : "", weakened ? ", " : "",
-               sum);
-    text_add(&t.made[t.made_count - 1], weakened ? ")" : "");
-    preprocess_value(&t, "opacity", !translucent ? "1.0" : tints ? "draw->opacity * color[3]" : "draw->opacity");
-    const struct preprocess_words words = preprocess_finish(&t, text);
-    preprocess_add(text, text_application_c_in, &words);
-    preprocess_free(&t);
+               sum, weakened ? ")" : "");
+    known_text(&t, "OPACITY", !translucent ? "1.0" : tints ? "draw->opacity * color[3]" : "draw->opacity");
+    known_specialize(text, text_application_c_in, &t);
 }
 
 static void add_all(struct text *text, const struct glsl_facts *f, const char *body, const struct frame *frame,

@@ -14,10 +14,11 @@ struct definition {
     const char *name;
     size_t name_length;
     int file;
+    bool apart; // an empty line is before it
     bool kept;
 };
 
-enum { DEFINITIONS_MAX = 256 };
+enum { DEFINITIONS_MAX = 400 };
 
 static bool in_name(char c)
 {
@@ -32,23 +33,16 @@ static char *next_line(const char *at)
 
 static bool begins(const char *at, const char *with) { return strncmp(at, with, strlen(with)) == 0; }
 
-// Returns the end of a definition: of its first line if that is a declaration or ends with the closing brace, otherwise of the line that
-// begins with it; a table ends with a parenthesis.
+// Returns the end of a definition: of its first line if that has a semicolon, otherwise of the line that begins with the closing
+// brace; a table ends with a parenthesis.
 static char *definition_end(char *at)
 {
-    if (begins(at, "const ")) {
-        while (*at && *at != ')')
-            at = next_line(at);
+    bool table = begins(at, "const ");
+    size_t code = strcspn(at, ";\n");
+    const char *comment = strstr(at, "//");
+    if (at[code] == ';' && !(comment && comment < at + code))
         return next_line(at);
-    }
-    char *end = next_line(at), *last = end;
-    if (end - at > 3 && memcmp(end - 3, ");\n", 3) == 0) // a declaration
-        return end;
-    while (last > at && (last[-1] == '\n' || last[-1] == ';'))
-        last--;
-    if (last > at && last[-1] == '}')
-        return end;
-    while (*at && *at != '}')
+    while (*at && *at != (table ? ')' : '}'))
         at = next_line(at);
     return next_line(at);
 }
@@ -60,10 +54,12 @@ static void name_definition(struct definition *definition)
         definition->name = at + 8;
     } else if (begins(at, "STRUCT(")) {
         definition->name = at + 7;
-    } else if (begins(at, "const float ")) {
-        definition->name = at + 12;
     } else {
-        definition->name = strchr(at, '(');
+        if (begins(at, "layout("))
+            at = strchr(at, ')') + 1;
+        definition->name = at + strcspn(at, "([;=");
+        while (definition->name > at && definition->name[-1] == ' ')
+            definition->name--;
         while (definition->name > at && in_name(definition->name[-1]))
             definition->name--;
     }
@@ -86,18 +82,22 @@ static bool is_dialect_definition(const char *at)
 static int split_definitions(struct definition *definitions, int count, char *source, int file)
 {
     char *lead = NULL;
+    bool apart = true;
     for (char *at = source; *at;) {
         char *next = next_line(at);
         if (begins(at, "//")) {
             lead = lead ? lead : at;
         } else if (*at == '\n' || is_dialect_definition(at)) {
             lead = NULL;
+            apart |= *at == '\n';
         } else {
             struct definition *definition = &definitions[count];
             next = *at == '#' ? next : definition_end(at);
-            *definition = (struct definition){.lead = lead ? lead : at, .start = at, .end = next, .file = file};
+            *definition =
+                (struct definition){.lead = lead ? lead : at, .start = at, .end = next, .file = file, .apart = apart};
             name_definition(definition);
             lead = NULL;
+            apart = false;
             if (++count == DEFINITIONS_MAX)
                 return count;
         }
@@ -106,21 +106,34 @@ static int split_definitions(struct definition *definitions, int count, char *so
     return count;
 }
 
-// Marks the definitions that a text names, except after a dot (".xyz"). Returns whether any was not marked before.
-static bool mark(struct definition *definitions, int count, const char *at, const char *end)
+enum { BUCKETS = 256 };
+struct definition_index {
+    int first[BUCKETS], next[DEFINITIONS_MAX]; // of definitions whose names have the same hash; -1: the end
+};
+
+static unsigned hash_of(const char *name, size_t length)
+{
+    unsigned hash = (unsigned)length;
+    for (size_t i = 0; i < length; i++)
+        hash = hash * 31 + (unsigned char)name[i];
+    return hash % BUCKETS;
+}
+
+// Marks the definitions that a definition names, except after a dot (".xyz").
+static bool mark(struct definition *definitions, const struct definition_index *index, const struct definition *from)
 {
     bool changed = false;
-    const char *start = at;
-    while (at < end) {
+    for (const char *at = from->start; at < from->end;) {
         if (at[0] == '/' && at[1] == '/') {
             at = next_line(at);
         } else if (!in_name(*at)) {
             at++;
         } else {
             size_t length = 1;
-            while (at + length < end && in_name(at[length]))
+            while (at + length < from->end && in_name(at[length]))
                 length++;
-            for (int i = 0; i < count && (at == start || at[-1] != '.'); i++) {
+            int i = at > from->start && at[-1] == '.' ? -1 : index->first[hash_of(at, length)];
+            for (; i >= 0; i = index->next[i]) {
                 struct definition *p = &definitions[i];
                 if (!p->kept && p->name_length == length && memcmp(p->name, at, length) == 0)
                     p->kept = changed = true;
@@ -218,95 +231,123 @@ static void write_definition(struct text *text, const struct definition *p)
     free(plain.bytes);
 }
 
-// --- all files
+// --- all sources
 
-enum { FILES = 10 };
+enum { EQUATIONS = 10, SOURCES_MAX = 24 };
+static const struct stage_source equation_sources[EQUATIONS] = {
+    {"functions of vectors and numbers", text_prelude_glsl, .whole = true},
+    {"reflection of the light from one direction at a point of a surface", text_lobes_h, .whole = true},
+    {"kinds of light", text_light_kinds_h, .whole = true},
+    {"light that arrives at a point: direction, distance, attenuation and cone", text_lights_h, .whole = true},
+    {"light that leaves a point: its terms and their sum", text_sum_h, .whole = true},
+    {"a point before it is lit: its normal and tangent, and what maps make of its material", text_point_h,
+     .whole = true},
+    {"layers of physical materials", text_layer_kinds_h, .whole = true},
+    {"light through the layers of a physical material", text_layers_h, .whole = true},
+    {"the light of an environment around a point", text_surroundings_h, .whole = true},
+    {"tone curves: from light to colours of a screen", text_tone_h, .whole = true}};
 
 struct equations {
-    struct text sources[FILES];
+    struct stage_source sources[SOURCES_MAX];
+    struct text texts[SOURCES_MAX];
     struct definition definitions[DEFINITIONS_MAX];
-    struct source_span spans[DEFINITIONS_MAX + 1];
-    int count;
+    struct source_span spans[DEFINITIONS_MAX];
+    int source_count, count;
+    struct definition_index index;
 };
 
-// Marks the definitions that the calls need, directly or indirectly. Returns the number of spans; the calls are the first.
-static int keep(struct equations *w, char *calls)
+static void make_index(struct equations *w)
 {
-    char *calls_end = calls + strlen(calls);
+    memset(w->index.first, 0xff, sizeof w->index.first);
+    for (int i = w->count - 1; i >= 0; i--) {
+        int *first = &w->index.first[hash_of(w->definitions[i].name, w->definitions[i].name_length)];
+        w->index.next[i] = *first;
+        *first = i;
+    }
+}
+
+// Marks the definitions that `main` needs, directly or indirectly. Returns the number of spans.
+static int keep(struct equations *w)
+{
     for (int i = 0; i < w->count; i++)
-        w->definitions[i].kept = false;
-    mark(w->definitions, w->count, calls, calls_end);
+        w->definitions[i].kept = w->definitions[i].name_length == 4 && begins(w->definitions[i].name, "main");
+    bool seen[DEFINITIONS_MAX] = {false};
     for (bool changed = true; changed;) {
         changed = false;
-        for (int i = 0; i < w->count; i++)
-            if (w->definitions[i].kept)
-                changed |= mark(w->definitions, w->count, w->definitions[i].start, w->definitions[i].end);
+        for (int i = w->count - 1; i >= 0; i--)
+            if (w->definitions[i].kept && !seen[i]) {
+                changed |= mark(w->definitions, &w->index, &w->definitions[i]);
+                seen[i] = true;
+            }
     }
     int count = 0;
-    w->spans[count++] = (struct source_span){calls, calls_end};
-    for (int i = 0; i < w->count; i++)
-        if (w->definitions[i].kept)
-            w->spans[count++] = (struct source_span){w->definitions[i].start, w->definitions[i].end};
+    for (int i = 0; i < w->count; i++) {
+        const struct definition *p = &w->definitions[i];
+        if (p->kept)
+            w->spans[count++] = (struct source_span){p->lead, p->start, p->end, !w->sources[p->file].whole};
+    }
     return count;
+}
+
+static void write_title(struct text *text, const char *title)
+{
+    text_print(text, title ? "\n// --- %s\n\n" : "\n", title);
 }
 
 static void write_kept(struct text *text, const struct equations *w)
 {
-    static const char *const titles[FILES] = {
-        "functions of vectors and numbers",
-        "reflection of the light from one direction at a point of a surface",
-        "kinds of light",
-        "light that arrives at a point: direction, distance, attenuation and cone",
-        "light that leaves a point: its terms and their sum",
-        "a point before it is lit: its normal and tangent, and what maps make of its material",
-        "layers of physical materials",
-        "light through the layers of a physical material",
-        "the light of an environment around a point",
-        "tone curves: from light to colours of a screen"};
-    int file = -1;
-    bool define = false;
-    for (int i = 0; i < w->count; i++) {
-        const struct definition *p = &w->definitions[i];
+    int file = -1, next = 0;
+    bool define = false, apart = false;
+    for (int i = 0; i <= w->count; i++) {
+        const struct definition *p = i < w->count ? &w->definitions[i] : NULL;
+        for (; next < (p ? p->file : w->source_count); next++)
+            if (w->sources[next].made && w->sources[next].text) {
+                if (w->sources[next].title)
+                    write_title(text, w->sources[next].title);
+                text_add(text, w->sources[next].text);
+            }
+        if (!p)
+            return;
+        apart |= p->apart;
         if (!p->kept)
             continue;
         if (p->file != file)
-            text_print(text, "\n// --- %s\n\n", titles[p->file]);
+            write_title(text, w->sources[p->file].title);
         bool is_define = *p->start == '#', one_line = next_line(p->start) == p->end;
-        if (p->file == file && !(define && is_define && p->lead == p->start) && !(p->file == 0 && one_line))
+        if (p->file == file && (apart || !p->file) && !(define && is_define && p->lead == p->start) &&
+            !(p->file == 0 && one_line))
             text_add(text, "\n");
         file = p->file;
         define = is_define;
+        apart = false;
         write_definition(text, p);
     }
 }
 
-void equations_add(struct text *text, char *calls, const struct known_condition *known)
+void equations_add(struct text *text, const struct stage_source *sources, int count, const struct known *known)
 {
-    static const char *const sources[FILES] = {text_prelude_glsl,   text_lobes_h, text_light_kinds_h, text_lights_h,
-                                               text_sum_h,          text_point_h, text_layer_kinds_h, text_layers_h,
-                                               text_surroundings_h, text_tone_h};
     struct equations *w = calloc(1, sizeof *w);
     bool ok = w != NULL;
-    for (int i = 0; ok && i < FILES; i++) {
-        specialize_conditions(&w->sources[i], sources[i], known);
-        ok = !w->sources[i].failed;
-        if (ok)
-            w->count = split_definitions(w->definitions, w->count, w->sources[i].bytes, i);
+    for (int i = 0; ok && i < EQUATIONS + count; i++) {
+        struct text *to = &w->texts[i];
+        w->sources[w->source_count++] = i < EQUATIONS ? equation_sources[i] : sources[i - EQUATIONS];
+        if (w->sources[i].made || !w->sources[i].text)
+            continue;
+        specialize_branches(to, w->sources[i].text, known);
+        ok = !to->failed;
+        if (ok && to->bytes)
+            w->count = split_definitions(w->definitions, w->count, to->bytes, i);
     }
     if (ok) {
-        while (specialize_members(w->spans, keep(w, calls)))
+        make_index(w);
+        while (specialize_unread(w->spans, keep(w)))
             ;
         write_kept(text, w);
-        char *to = calls; // closes the gaps of erased lines
-        for (const char *from = calls; *from; from++)
-            if (*from != SPECIALIZE_ERASED)
-                *to++ = *from;
-        *to = 0;
     } else {
         text->failed = true;
         fail(&text->error, LAM_LIMIT, "out of memory");
     }
-    for (int i = 0; w && i < FILES; i++)
-        free(w->sources[i].bytes);
+    for (int i = 0; w && i < w->source_count; i++)
+        free(w->texts[i].bytes);
     free(w);
 }

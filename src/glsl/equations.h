@@ -1,12 +1,20 @@
-// equations.h: the equations of src/lighting as plain GLSL, as far as a shader calls them.
+// equations.h: a stage's text from the equations of src/lighting and the *.glsl files of this folder.
 #ifndef EQUATIONS_H
 #define EQUATIONS_H
 
 #include "specialize.h"
 
-// Appends the definitions that the GLSL text `calls` needs, directly or indirectly, in their order, with their comments.
-// Words of the dialect become GLSL: num float, mask bool, STRUCT struct; FN disappears. Branches with a known condition
-// are resolved. Members that are then never read are removed, and the lines that set them, in `calls` too.
-void equations_add(struct text *text, char *calls, const struct known_condition *known);
+// A part of a stage: definitions in the order of their calls, with their comments.
+struct stage_source {
+    const char *title; // over the definitions that are called; NULL: none
+    const char *text;  // NULL: nothing
+    bool made;         // the text is made for this stage: it is printed as it is
+    bool whole;        // its functions keep parameters and variables that they do not read
+};
+
+// Appends the definitions that the function `main` needs, directly or indirectly: those of the equations, then those of the
+// sources. Words of the dialect become GLSL: num float, mask bool, STRUCT struct; FN disappears. Branches with a known
+// condition are resolved. What is then never read is removed (specialize.h).
+void equations_add(struct text *text, const struct stage_source *sources, int count, const struct known *known);
 
 #endif

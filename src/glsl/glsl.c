@@ -1,9 +1,7 @@
 // glsl.c: makes the texts of a vertex and a fragment shader from a set of choices.
 #include "glsl.h"
 
-#include "equations.h"
 #include "fail.h"
-#include "glsl_known.h"
 #include "lecture.h"
 
 #include <stdlib.h>
@@ -53,14 +51,10 @@ static char *make_stage(const struct glsl_facts *f, bool fragment, lam_error *er
         text_add(&text, "precision highp sampler2D;\n");
     if (c->version == GLSL_300_ES && fragment == f->per_fragment && f->has_environment)
         text_print(&text, "precision highp %s;\n", c->environment == GLSL_CUBE ? "samplerCube" : "sampler2DArray");
-    if (body.bytes && !body.failed) {
-        struct known_condition known[KNOWN_MAX + 1] = {{NULL, false}};
-        glsl_known_conditions(known, f);
-        if (!c->lecture)
-            equations_add(&text, body.bytes, known);
+    if (c->lecture)
         glsl_declare(&text, f, fragment);
+    if (body.bytes && !body.failed)
         text_add(&text, body.bytes);
-    }
     bool failed = body.failed || text.failed || !text.bytes;
     if (failed) {
         const lam_error *first = body.failed ? &body.error : &text.error;

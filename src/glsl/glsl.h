@@ -1,7 +1,8 @@
 // glsl.h: GLSL text for a set of choices, and the values of its uniforms from a frame.
 //
 // The text consists of the equations of src/lighting, as far as they are called (equations.h), and of the *.glsl files in
-// this folder, whose lines are selected by flags that follow from the choices (shader_preprocess.h).
+// this folder, which are ordinary texts for all choices: what the choices decide is resolved, and what is then not read is left out
+// (specialize.h).
 //
 // Names in the text. Attributes, with their locations (GLSL 120: bound by name):
 //     0 position, 1 normal, 2 color, 3 tangent, 4 front_color, 5 back_color, 6 provoking_position, 7 texcoord,

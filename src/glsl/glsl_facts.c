@@ -13,18 +13,12 @@ static void find_output(struct glsl_facts *f, const struct glsl_choices *c)
     f->lit = !f->application && !f->output_geometry;
     f->output_material = f->lit && output_is_material(c->output);
     f->output_depth = c->output == LAM_OUTPUT_DEPTH;
-    f->output_facing = c->output == LAM_OUTPUT_FACING;
-    f->output_ids = c->output == LAM_OUTPUT_IDS;
     f->output_occlusion = c->output == LAM_OUTPUT_AMBIENT_OCCLUSION;
     f->shows_level = f->output_material && c->output == LAM_OUTPUT_LOD;
     f->unlit = f->lit && (c->reflection == LAM_REFLECTION_NONE || f->output_material) && !f->output_vector;
     f->adds_lights = f->lit && !f->unlit && !f->output_vector;
-    bool light = !f->output_vector && !f->output_material;
-    f->exposes = c->exposes && light;
-    f->has_tone = c->tone > LAM_TONE_NONE && light && !f->output_geometry;
     f->encodes = c->encoding == GLSL_ENCODED;
     f->premultiplied = c->encoding == GLSL_PREMULTIPLIED;
-    f->clamped = c->gl1 && f->shading != LAM_SHADING_PHONG && output_is_picture(c->output);
 }
 
 static void find_lights(struct glsl_facts *f, const struct glsl_choices *c)
@@ -37,13 +31,9 @@ static void find_lights(struct glsl_facts *f, const struct glsl_choices *c)
         f->positions |= c->groups[i].kind != LIGHT_DIRECTIONAL;
         f->directions |= c->groups[i].kind != LIGHT_POINT;
     }
-    f->has_light_shares = c->passed;
     f->has_environment = c->environment != GLSL_NO_ENVIRONMENT && f->adds_lights;
     f->environment_light = f->has_environment && c->environment_light;
-    f->cube_map = c->environment == GLSL_CUBE;
-    f->cube_points = c->environment == GLSL_FACES || f->environment_light;
     f->occluded = c->occlusion && f->per_fragment && (f->adds_lights || f->output_occlusion);
-    f->from_vertices = f->shading != LAM_SHADING_PHONG;
 }
 
 static void find_material(struct glsl_facts *f, const struct glsl_choices *c)
@@ -59,44 +49,17 @@ static void find_material(struct glsl_facts *f, const struct glsl_choices *c)
         (f->adds_lights && lobe->tangents) || (f->lit && c->output == LAM_OUTPUT_TANGENTS) || f->has_anisotropy;
     f->back_material = c->two_sided && c->back_material && f->lit && !f->output_vector;
     f->has_transmission = (f->layers & LAYER_TRANSMISSION) != 0 && f->per_fragment;
-    f->writes_transmittance = c->transmits;
-    f->blends_transmission = f->has_transmission && c->layer == GLSL_NO_LAYERS;
-}
-
-// Which maps light_point applies, and which the fragment applies to interpolated light.
-static void find_map_uses(struct glsl_facts *f, const struct glsl_choices *c)
-{
-    bool lit = f->has_maps && !f->output_vector && !f->maps_interpolated_light;
-    f->exact_filter = !c->hardware_filter;
-    f->anisotropic = c->anisotropy > 1;
-    f->separate_reflection = f->separate_texture_terms && f->environment_light;
-    f->color_map_last = f->separate_texture_terms && glsl_maps_have(f, "color");
-    f->emission_map_last = f->separate_texture_terms && glsl_maps_have(f, "emission");
-    f->opacity_map_last = f->maps_interpolated_light && !f->value_masks && glsl_maps_have(f, "opacity");
-    f->map_color = lit && glsl_maps_have(f, "color");
-    f->map_ambient = lit && glsl_maps_have(f, "ambient");
-    f->map_specular = lit && glsl_maps_have(f, "specular");
-    f->map_emission = lit && glsl_maps_have(f, "emission");
-    f->map_occlusion = lit && glsl_maps_have(f, "occlusion");
-    f->map_dielectric = lit && glsl_maps_have(f, "dielectric");
-    f->map_opacity = lit && glsl_maps_have(f, "opacity");
 }
 
 static void find_attributes(struct glsl_facts *f, const struct glsl_choices *c)
 {
     f->glsl_120 = c->version == GLSL_120;
     f->needs_normal = f->lit && !f->unlit;
-    f->needs_surface =
-        f->needs_normal && (f->has_lights || f->has_hemispheres || f->has_environment || f->output_vector);
     f->needs_position = f->needs_normal || f->output_depth;
-    f->has_coat_normal = f->has_clearcoat && (f->has_normal_map || f->has_bump_map || f->has_coat_normal_map);
-    f->tangent_field = f->needs_tangent && !c->tangents;
     f->signed_tangent = f->has_normal_map || f->has_coat_normal_map || (f->has_anisotropy && c->tangents);
     f->needs_tangent_attribute = (f->needs_tangent && c->tangents) || f->signed_tangent;
     f->vertex_colors = c->colors && f->lit && !f->output_vector;
     f->needs_vertex_color = (f->per_fragment && f->vertex_colors) || (f->value_masks && c->colors);
-    f->depth_ids = c->layer != GLSL_NO_LAYERS;
-    f->peels = c->layer == GLSL_PEELS;
 }
 
 struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
@@ -106,7 +69,6 @@ struct glsl_facts glsl_facts_of(const struct glsl_choices *c)
     find_lights(&f, c);
     find_material(&f, c);
     glsl_find_maps(&f);
-    find_map_uses(&f, c);
     find_attributes(&f, c);
     return f;
 }

@@ -1,21 +1,80 @@
-// glsl_known.c: conditions of the equations that the choices decide.
+// glsl_known.c: what a shader's choices decide in its texts.
 #include "glsl_known.h"
 
-static void add_known(struct known_condition out[KNOWN_MAX], const char *condition, bool holds)
+#include <stdlib.h>
+
+void known_text(struct known_table *t, const char *name, const char *text)
 {
-    while (out->condition)
-        out++;
-    *out = (struct known_condition){condition, holds};
+    t->rows[t->count++] = (struct known){name, text};
+}
+
+void known_flag(struct known_table *t, const char *name, bool holds) { known_text(t, name, holds ? "true" : "false"); }
+
+struct text *known_made(struct known_table *t, const char *name)
+{
+    known_text(t, name, "");
+    t->of_made[t->made_count] = &t->rows[t->count - 1];
+    return &t->made[t->made_count++];
+}
+
+void known_number(struct known_table *t, const char *name, int number)
+{
+    text_print(known_made(t, name), "%d", number);
+}
+
+const struct known *known_finish(struct known_table *t)
+{
+    for (int i = 0; i < t->made_count; i++) {
+        if (t->made[i].failed)
+            return NULL;
+        t->of_made[i]->text = t->made[i].bytes ? t->made[i].bytes : "";
+    }
+    return t->rows;
+}
+
+void known_free(struct known_table *t)
+{
+    for (int i = 0; i < t->made_count; i++)
+        free(t->made[i].bytes);
+}
+
+void known_specialize(struct text *text, const char *source, struct known_table *t)
+{
+    const struct known *rows = known_finish(t);
+    if (rows)
+        specialize_branches(text, source, rows);
+    text->failed |= !rows;
+    known_free(t);
+}
+
+void known_facts(struct known_table *t, const struct glsl_facts *f)
+{
+#define FACT(name)   known_flag(t, #name, f->name);
+#define CHOICE(name) known_flag(t, #name, f->choices->name);
+    GLSL_FACTS(FACT)
+    GLSL_CHOICE_FLAGS(CHOICE)
+#undef FACT
+#undef CHOICE
+    known_flag(t, "lights_in_texture", f->choices->storage == GLSL_TEXTURE);
+    const bool flat = f->shading == LAM_SHADING_FLAT;
+    const char *smooth = f->glsl_120 ? "varying" : f->fragment ? "in" : "out";
+    text_print(known_made(t, "VARYING"), "%s%s", flat && !f->glsl_120 ? "flat " : "", smooth);
+    known_text(t, "SMOOTH_VARYING", smooth);
+    known_text(t, "FLAT_VARYING", f->fragment ? "flat in" : "flat out");
+    known_text(t, "LIT_POSITION", flat && f->glsl_120 ? "provoking_position" : "position");
+    known_text(t, "TEXTURE_CUBE", f->glsl_120 ? "textureCube" : "texture");
+    if (f->glsl_120)
+        known_text(t, "pixel", "gl_FragColor");
 }
 
 // A condition that holds for `some` of the lights is known if it holds for none or for all.
-static void add_known_lights(struct known_condition out[KNOWN_MAX], const char *condition, int some, int all)
+static void add_known_lights(struct known_table *out, const char *condition, int some, int all)
 {
     if (some == 0 || some == all)
-        add_known(out, condition, some > 0);
+        known_flag(out, condition, some > 0);
 }
 
-void glsl_known_conditions(struct known_condition out[KNOWN_MAX], const struct glsl_facts *f)
+void known_conditions(struct known_table *out, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
     int kinds[GLSL_KINDS] = {0}, falloffs[GLSL_FALLOFFS] = {0}, all = c->light_count;
@@ -24,9 +83,9 @@ void glsl_known_conditions(struct known_condition out[KNOWN_MAX], const struct g
         falloffs[c->groups[i].falloff] += c->groups[i].count;
     }
     if (c->distant_viewer)
-        add_known(out, "viewer == VIEWER_LOCAL", false);
-    add_known(out, "scattering != 0", !c->single_scattering);
-#define LAYER_KNOWN(name) add_known(out, "(set & LAYER_" #name ") != 0", (f->layers & LAYER_##name) != 0)
+        known_flag(out, "viewer == VIEWER_LOCAL", false);
+    known_flag(out, "scattering != 0", !c->single_scattering);
+#define LAYER_KNOWN(name) known_flag(out, "(set & LAYER_" #name ") != 0", (f->layers & LAYER_##name) != 0)
     LAYER_KNOWN(DIELECTRIC);
     LAYER_KNOWN(CLEARCOAT);
     LAYER_KNOWN(SHEEN);

@@ -375,15 +375,13 @@ static void add_factor(struct text *text, const struct glsl_facts *f, int side, 
 }
 
 // Appends the arguments that say how a map is read: its texture coordinates, and the filters that the shader computes.
-static void add_sampling(struct text *text, const struct glsl_facts *f, const struct glsl_map *map)
+static void add_sampling(struct text *text, const struct glsl_map *map)
 {
     static const char *const wraps[] = {"WRAP_REPEAT", "WRAP_CLAMP", "WRAP_MIRROR"};
     static const char *const filters[] = {"FILTER_LINEAR", "FILTER_NEAREST"};
     static const char *const mips[] = {"MIP_LINEAR", "MIP_NEAREST", "MIP_NONE"};
-    text_add(text, map->texcoords ? "second" : "first");
-    if (f->choices->version != GLSL_120 && !f->choices->hardware_filter)
-        text_print(text, ",\n        sampling(%s, %s, %s, %s, %s)", wraps[map->wrap_s], wraps[map->wrap_t],
-                   filters[map->magnify], filters[map->minify], mips[map->mip]);
+    text_print(text, "%s,\n        sampling(%s, %s, %s, %s, %s)", map->texcoords ? "second" : "first",
+               wraps[map->wrap_s], wraps[map->wrap_t], filters[map->magnify], filters[map->minify], mips[map->mip]);
 }
 
 static void add_texels(struct text *text, const struct glsl_facts *f, int side)
@@ -394,7 +392,7 @@ static void add_texels(struct text *text, const struct glsl_facts *f, int side)
         const char *name = lam_map_name((lam_map)i), *p = prefix(side);
         text_print(text, "    vec4 %s_texel = map_texel(%s%s_map, %s%s_map_s, %s%s_map_t, ", name, p, name, p, name, p,
                    name);
-        add_sampling(text, f, &f->choices->maps[side][i]);
+        add_sampling(text, &f->choices->maps[side][i]);
         text_add(text, ");\n");
     }
 }
@@ -421,7 +419,7 @@ static void add_slopes(struct text *text, const struct glsl_facts *f, int side)
                    i == 2   ? " - vec4(0.0, 0.0, one.y, 0.0)"
                    : i == 3 ? " + vec4(0.0, 0.0, one.y, 0.0)"
                             : "");
-        add_sampling(text, f, map);
+        add_sampling(text, map);
         text_print(text, ").%c;\n", "rgba"[map->channel]);
     }
     text_print(text, "    maps.slopes = vec2(right - left, below - above) * (0.5 * %sbump_map_s.w);\n", p);
@@ -522,10 +520,10 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
 {
     const struct glsl_choices *c = f->choices;
     bool varies = c->converted[side] || f->maps[side][LAM_MAP_METALLIC];
-    text_print(text, "\n// What the maps of the %s say of the point.\nsurface_maps %s_maps(%s%s%s%s%s)\n{\n",
-               side ? "back" : "front", side ? "back" : "front", f->first_texcoords ? "footprint first" : "",
-               f->first_texcoords && f->second_texcoords ? ", " : "", f->second_texcoords ? "footprint second" : "",
-               f->has_bump_map ? ", vec3 p" : "", c->colors && f->converts ? ", vec4 tint" : "");
+    text_print(text,
+               "\n// What the maps of the %s say of the point.\n"
+               "surface_maps %s_maps(footprint first, footprint second, vec3 p, vec4 tint)\n{\n",
+               side ? "back" : "front", side ? "back" : "front");
     text_add(text, "    surface_maps maps;\n");
     add_texels(text, f, side);
     add_color(text, f, side, COLOR, LAM_MAP_DIFFUSE);
@@ -566,7 +564,7 @@ void glsl_add_maps(struct text *text, const struct glsl_facts *f)
 {
     if (!f->has_maps)
         return;
-    text_add(text, "// What maps say of a point.\nstruct surface_maps {\n");
+    text_add(text, "// What maps say of a point.\nSTRUCT(surface_maps)\n{\n");
     for (int i = 0; i < MEMBERS; i++)
         if (has_member(f, i))
             text_print(text, "    %s %s; // %s\n", members[i].type, members[i].name, members[i].meaning);

@@ -309,8 +309,8 @@ void glsl_declare_attributes(struct text *text, const struct glsl_facts *f)
     for (int i = 0; i < count; i++) {
         char start[40];
         snprintf(start, sizeof start, "layout(location = %d) in ", rows[i].location);
-        text_print(text, "%s%s %s;%*s // %s%s", f->choices->version == GLSL_120 ? "attribute " : start, rows[i].type,
-                   rows[i].name, width - (int)strlen(rows[i].name), "", rows[i].meaning, i + 1 < count ? "\n" : "");
+        text_print(text, "%s%s %s;%*s // %s\n", f->choices->version == GLSL_120 ? "attribute " : start, rows[i].type,
+                   rows[i].name, width - (int)strlen(rows[i].name), "", rows[i].meaning);
     }
 }
 

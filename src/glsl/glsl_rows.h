@@ -4,7 +4,7 @@
 #define GLSL_ROWS_H
 
 #include "glsl.h"
-#include "shader_preprocess.h"
+#include "text_builder.h"
 
 // The value that a uniform holds.
 enum glsl_semantic {
@@ -53,7 +53,7 @@ struct glsl_row {
 enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
 
 // Properties of a shader that follow from its choices. Each is a member of struct glsl_facts and a flag of the sources
-// (shader_preprocess.h).
+// (specialize.h).
 // clang-format off
 #define GLSL_FACTS(X) \
     /* of the light and where it is evaluated */ \
@@ -69,22 +69,18 @@ enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
     X(has_cone) /* of any light */ \
     X(positions) /* any light is not directional */ \
     X(directions) /* any light is not a point */ \
-    X(has_light_shares) /* the program says what share of each light arrives */ \
-    X(clamped) /* colours of vertices are clamped, as in OpenGL 1 */ \
     /* of the output */ \
     X(output_geometry) /* a number of the geometry */ \
     X(output_vector) /* a vector, or a cosine of one light */ \
     X(output_one_light) /* the latter */ \
     X(output_material) /* what the material is at the point; the surface is unlit */ \
-    X(output_depth) X(output_facing) X(output_ids) X(output_occlusion) \
+    X(output_depth) X(output_occlusion) \
     X(shows_level) /* the level of detail of a map */ \
     /* of the surface */ \
     X(back_material) /* it has a material of its own */ \
-    X(needs_surface) /* light_point reads normal or point */ \
     X(needs_normal) /* which come from the mesh */ \
     X(needs_position) \
     X(needs_tangent) /* light_point reads a tangent */ \
-    X(tangent_field) /* it needs some and has none */ \
     X(needs_tangent_attribute) \
     X(signed_tangent) /* with the sign of the bitangent, which the fragment shader reads */ \
     X(vertex_colors) /* light_point reads them */ \
@@ -95,7 +91,6 @@ enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
     X(layered) /* layers lie over the surface */ \
     X(has_clearcoat) X(has_anisotropy) \
     X(has_transmission) /* the fragment shader finds what goes through */ \
-    X(blends_transmission) /* with one alpha for all channels */ \
     X(converts) /* a side's material is converted (glsl_choices.converted) */ \
     X(has_mask) /* a side is masked */ \
     X(value_masks) /* and the fragment writes a number of the surface */ \
@@ -103,33 +98,16 @@ enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
     X(has_maps) /* the fragment shader reads some */ \
     X(has_normal_map) X(has_bump_map) \
     X(has_coat_normal_map) /* a normal map of the clear coat */ \
-    X(has_coat_normal) /* light_point gets the coat's normal, which is not the other layers' */ \
     X(first_texcoords) /* maps read them */ \
     X(second_texcoords) \
-    X(exact_filter) /* the shader filters */ \
-    X(anisotropic) /* by several probes */ \
     X(maps_interpolated_light) /* the fragment applies maps to light that was evaluated without them */ \
     X(separate_texture_terms) /* with that: the terms that a diffuse map multiplies are apart from the rest */ \
-    X(separate_reflection) /* and so is the matt part of the reflection */ \
-    X(color_map_last) /* the fragment applies this map to that light */ \
-    X(emission_map_last) X(opacity_map_last) \
-    X(map_color) /* light_point applies this map */ \
-    X(map_ambient) X(map_specular) X(map_emission) X(map_occlusion) X(map_dielectric) X(map_opacity) \
     /* of light from all around */ \
     X(has_environment) /* light_point reads it */ \
     X(environment_light) /* as light of a physical material */ \
-    X(cube_map) /* it is one texture */ \
-    X(cube_points) /* directions become points of a cube in the shader */ \
     X(occluded) /* the fragment shader reads ambient occlusion */ \
-    /* of shadows */ \
-    X(from_vertices) /* rays start at corners of the mesh */ \
     /* of what the fragment writes, and of a stage */ \
-    X(depth_ids) /* a second output has the depth and that number */ \
-    X(peels) /* layers are peeled */ \
-    X(writes_transmittance) /* a third output has the share that passes */ \
-    X(exposes) /* the light is multiplied by the exposure */ \
-    X(has_tone) /* and takes a tone curve */ \
-    X(encodes) /* and becomes sRGB */ \
+    X(encodes) /* light becomes sRGB */ \
     X(premultiplied) /* the colour is multiplied by the opacity */ \
     X(glsl_120) \
     X(fragment) /* the stage is the fragment shader */
@@ -150,10 +128,7 @@ struct glsl_facts {
 struct glsl_facts glsl_facts_of(const struct glsl_choices *choices);
 // The facts of one stage.
 struct glsl_facts glsl_stage_facts(const struct glsl_facts *facts, bool fragment);
-// The flags of a stage, and the values of its inputs and outputs, as all styles have them.
-void glsl_add_flags(struct preprocess_tables *tables, const struct glsl_facts *stage);
-void glsl_add_interface(struct preprocess_tables *tables, const struct glsl_facts *stage);
-// Appends a stage after its version and its uniforms.
+// Appends a stage after its version.
 void glsl_add_stage(struct text *text, const struct glsl_facts *stage);
 
 // Whether the reflection model reads a parameter of the material, by its name in LOBE_PARAMETERS

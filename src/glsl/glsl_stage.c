@@ -1,11 +1,15 @@
-// glsl_stage.c: the text of a stage after its uniforms, from the *.glsl files and what depends on more than flags.
+// glsl_stage.c: the sources of a stage, the *.glsl files of this folder, and what its choices decide in them.
 #include "environment_light.h"
-#include "glsl_rows.h"
+#include "equations.h"
+#include "fail.h"
+#include "glsl_known.h"
 #include "stages.inc"
 
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-// --- the lights
+// --- what is known
 
 #define WORD(name) [name] = #name
 static const char *const kind_words[GLSL_KINDS] = {WORD(LIGHT_POINT), WORD(LIGHT_DIRECTIONAL), WORD(LIGHT_SPOT_CUTOFF),
@@ -13,374 +17,184 @@ static const char *const kind_words[GLSL_KINDS] = {WORD(LIGHT_POINT), WORD(LIGHT
 static const char *const falloff_words[GLSL_FALLOFFS] = {WORD(FALLOFF_NONE), WORD(FALLOFF_DISTANCE),
                                                          WORD(FALLOFF_RANGE)};
 
-static const char *list_argument(const struct glsl_facts *f)
+static void put_lights(struct known_table *t, const struct glsl_choices *c)
 {
-    return !f->choices->products ? ", m" : f->back_material ? ", front" : "";
+    int light_texels = c->products ? 4 : c->gl1 ? 7 : 6, product_texels = c->gl1 ? 3 : 2; // texels of each light
+    known_flag(t, "has_light_shares", c->passed);
+    known_flag(t, "cube_map", c->environment == GLSL_CUBE);
+    known_number(t, "HEMISPHERES", c->hemisphere_count);
+    known_number(t, "LIGHT_TEXELS", light_texels);
+    known_number(t, "PRODUCT_TEXELS", product_texels);
+    known_number(t, "HEMISPHERE_TEXELS", c->products ? 1 : 3);
+    known_number(t, "HEMISPHERES_AT", c->light_count * light_texels);
+    known_number(t, "HEMISPHERE_PRODUCTS_AT", c->light_count * product_texels);
+    known_number(t, "LIST_WIDTH", GLSL_LIST_WIDTH);
 }
 
-static void add_groups(struct text *text, const struct glsl_facts *f)
+static void put_environment(struct known_table *t)
 {
-    const struct glsl_choices *c = f->choices;
-    int first = 0;
-    if (c->shadows && f->has_lights)
-        text_print(text, "    start_rays(s.p, lit_triangle, %s);\n",
-                   c->two_sided && f->per_fragment ? "gl_FrontFacing ? 1.0 : -1.0" : "1.0");
-    for (int i = 0; f->adds_lights && i < c->group_count; i++) {
-        const struct glsl_group *group = &c->groups[i];
-        text_print(text, "    for (int i = %d; i < %d; i++) {\n", first, first + group->count);
-        text_print(text, "        light_source light = light_of(i%s);\n", list_argument(f));
-        text_print(text, "        light_sample t = toward_light(s.p, light, %s, %s);\n", kind_words[group->kind],
-                   falloff_words[group->falloff]);
-        if (c->gl1)
-            text_print(text, "        sum = add_arriving_ambient(sum, ambient_of(i%s), t);\n", list_argument(f));
-        if (c->passed)
-            text_add(text, "        t.attenuation = t.attenuation * passed_light(i, s.p);\n");
-        if (c->shadows)
-            text_print(text,
-                       c->tints_rays ? "        light = tinted_light(light, passed_light(%s, light, t, %s, %s));\n"
-                                     : "        t.attenuation = t.attenuation * passed_light(%s, light, t, %s, %s);\n",
-                       c->storage == GLSL_TEXTURE ? "list_texel(light_list, i * 4)" : "lights[i].position",
-                       f->needs_tangent || f->layers ? "1.0" : "dot3(s.n, t.l)", kind_words[group->kind]);
-        if (f->layers) {
-            text_add(text, "        sum = add_layered(sum, light, t, layered_light(s, layering, t.l, ");
-            glsl_add_lobe(text, f);
-            text_add(text, ", 0));\n");
-        } else {
-            if (f->microfacet)
-                text_add(text, "        light = with_fresnel(light, mirror, s.v, t.l);\n");
-            text_add(text, "        sum = add_reflected(sum, light, t, ");
-            glsl_add_lobe(text, f);
-            text_add(text, ");\n");
-        }
-        first += group->count;
-        text_add(text, "    }\n");
-    }
-}
-
-// --- the output
-
-enum {
-    TERM_AMBIENT = 1,
-    TERM_DIFFUSE = 2,
-    TERM_SPECULAR = 4,
-    TERM_EMISSION = 8,
-    TERM_REFLECTION = 16,
-    TERMS_ALL = 31,
-    TERM_MATTE = 32,         // the part of the reflection that a diffuse map multiplies,
-    TERM_WITHOUT_MATTE = 64, // and the reflection without it
-};
-
-static int shown_terms(const struct glsl_choices *c)
-{
-    switch (c->output) {
-    case LAM_OUTPUT_AMBIENT:
-        return TERM_AMBIENT;
-    case LAM_OUTPUT_DIFFUSE:
-        return TERM_DIFFUSE;
-    case LAM_OUTPUT_SPECULAR:
-        return TERM_SPECULAR;
-    case LAM_OUTPUT_EMISSION:
-        return TERM_EMISSION;
-    case LAM_OUTPUT_REFLECTION:
-        return TERM_REFLECTION;
-    case LAM_OUTPUT_LIGHT:
-        return c->reflection == LAM_REFLECTION_NONE ? 0 : TERM_AMBIENT | TERM_DIFFUSE | TERM_SPECULAR;
-    default:
-        return TERMS_ALL;
-    }
-}
-
-// Appends the sum of terms, in the order of sum_terms.
-static void add_sum(struct text *text, int terms)
-{
-    static const struct {
-        int term;
-        char name[32];
-    } rows[] = {{TERM_EMISSION, "sum.emission"},
-                {TERM_AMBIENT, "sum.ambient"},
-                {TERM_DIFFUSE, "sum.diffuse"},
-                {TERM_SPECULAR, "sum.specular"},
-                {TERM_REFLECTION, "sum.reflection"},
-                {TERM_MATTE, "matte"},
-                {TERM_WITHOUT_MATTE, "sub3(sum.reflection, matte)"}};
-    if (terms == TERMS_ALL || !terms) {
-        text_add(text, terms ? "sum_terms(sum)" : "black3()");
-        return;
-    }
-    for (int left = terms & (terms - 1); left; left &= left - 1)
-        text_add(text, "add3(");
-    bool first = true;
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (terms & rows[i].term) {
-            text_print(text, first ? "%s" : ", %s)", rows[i].name);
-            first = false;
-        }
-}
-
-// The terms that a diffuse map multiplies, and the rest. An emission map multiplies the emission apart from both.
-static int mapped_terms(const struct glsl_facts *f)
-{
-    int shown = shown_terms(f->choices);
-    return (shown & (TERM_AMBIENT | TERM_DIFFUSE)) |
-           (f->separate_reflection && shown & TERM_REFLECTION ? TERM_MATTE : 0);
-}
-
-static int rest_terms(const struct glsl_facts *f)
-{
-    int rest = shown_terms(f->choices) & (TERM_SPECULAR | TERM_EMISSION | TERM_REFLECTION);
-    if (f->maps[0][LAM_MAP_EMISSION] || f->maps[1][LAM_MAP_EMISSION])
-        rest &= ~TERM_EMISSION;
-    return f->separate_reflection && rest & TERM_REFLECTION ? rest ^ (TERM_REFLECTION | TERM_WITHOUT_MATTE) : rest;
-}
-
-// Writes the output of the material at the point, such as its base colour or roughness.
-static void add_output_material(struct text *text, const struct glsl_facts *f)
-{
-    lam_output output = f->choices->output;
-    const char *map = output == LAM_OUTPUT_OCCLUSION ? "occlusion" : output == LAM_OUTPUT_LOD ? "level" : NULL;
-    if (output == LAM_OUTPUT_BASE_COLOR) {
-        text_add(text, "sum.diffuse");
-    } else if (map) {
-        text_print(text, glsl_maps_have(f, map) ? "vec3(maps.%s)" : "vec3(%s)",
-                   glsl_maps_have(f, map)           ? map
-                   : output == LAM_OUTPUT_OCCLUSION ? "1.0"
-                                                    : "0.0");
-    } else {
-        text_add(text, "vec3(");
-        if (glsl_is_physical(f))
-            glsl_add_parameter(text, f, output == LAM_OUTPUT_ROUGHNESS ? "roughness" : "metallic");
-        else
-            text_add(text, "0.0");
-        text_add(text, ")");
-    }
-}
-
-static void add_output_vector(struct text *text, const struct glsl_facts *f)
-{
-    const struct glsl_choices *c = f->choices;
-    if (!f->output_one_light) {
-        text_print(text, "    return vec4(%s, 1.0);\n", c->output == LAM_OUTPUT_TANGENTS ? "s.t" : "s.n");
-        return;
-    }
-    bool texture = c->storage == GLSL_TEXTURE;
-    text_add(text, "    light_source light;\n");
-    text_print(text, "    light.position = %s.xyz;\n",
-               texture ? "texelFetch(light_list, ivec2(0, 0), 0)" : "lights[0].position");
-    text_print(text, "    light.direction = %s.xyz;\n",
-               texture ? "texelFetch(light_list, ivec2(1, 0), 0)" : "lights[0].direction");
-    text_print(text, "    vec3 l = toward_light(s.p, light, %s, FALLOFF_NONE).l;\n",
-               kind_words[c->group_count && c->groups[0].kind == LIGHT_DIRECTIONAL ? LIGHT_DIRECTIONAL : LIGHT_POINT]);
-    text_print(text, "    float c = cosine(dot3(s.n, %s));\n    return vec4(c, c, c, 1.0);\n",
-               c->output == LAM_OUTPUT_N_L ? "l" : "halfway3(l, s.v)");
-}
-
-// Writes how the alpha mode turns `light.a` into the fragment's opacity.
-static void add_alpha_rule(struct text *text, const struct glsl_facts *f)
-{
-    const struct glsl_choices *c = f->choices;
-    bool colors = !f->output_geometry && !f->output_vector && !f->output_material;
-    for (int side = 0; side <= f->back_material && colors; side++) {
-        static const char *const conditions[] = {"!gl_FrontFacing && ", "gl_FrontFacing && "};
-        bool both = !f->back_material || c->alpha[0] == c->alpha[1];
-        const char *p = side ? "back_" : "";
-        if (c->alpha[side] == LAM_ALPHA_MASK)
-            text_print(text, "    if (%s!(light.a >= %salpha_cutoff)) {\n        discard;\n    }\n",
-                       f->back_material ? conditions[!side] : "", p);
-        if (c->alpha[side] == LAM_ALPHA_BLEND || (both && side))
-            continue;
-        if (both)
-            text_add(text, "    light.a = 1.0;\n");
-        else
-            text_print(text, "    if (%sgl_FrontFacing) {\n        light.a = 1.0;\n    }\n", side ? "!" : "");
-    }
-}
-
-// Leaves out the points of masked surfaces where the fragment writes no light.
-static void add_value_mask(struct text *text, const struct glsl_facts *f)
-{
-    const struct glsl_choices *c = f->choices;
-    text_print(text, "    float opacity = %s%s;\n", glsl_maps_have(f, "opacity") ? "maps.opacity" : "1.0",
-               c->colors ? " * tint.a" : "");
-    for (int side = 0; side <= f->back_material; side++)
-        if (c->alpha[side] == LAM_ALPHA_MASK)
-            text_print(text, "    if (%s!(saturate(opacity) >= %salpha_cutoff)) {\n        discard;\n    }\n",
-                       !f->back_material ? ""
-                       : side            ? "!gl_FrontFacing && "
-                                         : "gl_FrontFacing && ",
-                       side ? "back_" : "");
-}
-
-// --- parameters and arguments
-
-enum use {
-    DECLARED,
-    FRONT,
-    BACK,
-    FRAGMENT
-}; // light_point's parameters; the arguments for a vertex's sides, and a fragment's
-
-static void add_list(struct text *text, bool wanted, const char *item)
-{
-    if (wanted)
-        text_print(text, "%s%s", text->length ? ", " : "", item);
-}
-
-#define MESH_TANGENT "field_tangent(unit3(n), model_view[1].xyz, model_view[0].xyz)"
-
-static void add_arguments(struct text *text, const struct glsl_facts *f, enum use use)
-{
-    bool maps = f->has_maps && !f->output_vector && !f->maps_interpolated_light;
-    const struct {
-        bool wanted;
-        char items[4][72];
-    } rows[] = {
-        {!f->unlit, {"vec3 p, vec3 normal", "p, n", "p, n", "eye_position, n"}},
-        {!f->unlit && f->needs_tangent && !f->tangent_field, {"vec3 tangent", "t", "t", "eye_tangent"}},
-        {!f->unlit && f->tangent_field, {"vec3 tangent", MESH_TANGENT, MESH_TANGENT, MESH_TANGENT}},
-        {f->has_anisotropy, {"float turn", "turn", "-turn", "turn"}},
-        {f->has_coat_normal, {"vec3 coat", "coat", "coat", "coat"}},
-        {f->vertex_colors, {"vec4 tint", "color", "color", "tint"}},
-        {f->back_material, {"bool front", "true", "false", "gl_FrontFacing"}},
-        {maps, {"surface_maps maps", "maps", "maps", "maps"}},
-        {f->separate_texture_terms && !maps, {"out vec3 rest", "front_rest", "back_rest", "rest"}},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        add_list(text, rows[i].wanted, rows[i].items[use]);
-}
-
-static void add_map_arguments(struct text *text, const struct glsl_facts *f)
-{
-    add_list(text, f->first_texcoords, "first");
-    add_list(text, f->second_texcoords, "second");
-    add_list(text, f->has_bump_map, "eye_position");
-    add_list(text, f->choices->colors && f->converts, "tint");
-}
-
-// --- values of the sources
-
-// Number of texels of a light, of its products, and of a hemisphere.
-static int light_texels(const struct glsl_choices *c) { return c->products ? 4 : c->gl1 ? 7 : 6; }
-static int product_texels(const struct glsl_choices *c) { return c->gl1 ? 3 : 2; }
-static int hemisphere_texels(const struct glsl_choices *c) { return c->products ? 1 : 3; }
-
-static const char *list_parameter(const struct glsl_facts *f)
-{
-    return !f->choices->products ? ", Material m" : f->back_material ? ", bool front" : "";
-}
-
-static void put_lists(struct preprocess_tables *v, const struct glsl_facts *f)
-{
-    const struct glsl_choices *c = f->choices;
-    preprocess_number(v, "hemispheres", c->hemisphere_count);
-    preprocess_number(v, "light_texels", light_texels(c));
-    preprocess_number(v, "product_texels", product_texels(c));
-    preprocess_number(v, "hemisphere_texels", hemisphere_texels(c));
-    preprocess_number(v, "hemispheres_at", c->light_count * light_texels(c));
-    preprocess_number(v, "hemisphere_products_at", c->light_count * product_texels(c));
-    preprocess_number(v, "list_width", GLSL_LIST_WIDTH);
-    preprocess_value(v, "list_argument", list_argument(f));
-    preprocess_value(v, "list_parameter", list_parameter(f));
-    add_groups(preprocess_text(v, "groups"), f);
-}
-
-static void put_environment(struct preprocess_tables *v)
-{
-    struct text *sizes = preprocess_text(v, "level_sizes"), *starts = preprocess_text(v, "level_starts");
+    struct text *sizes = known_made(t, "LEVEL_SIZES"), *starts = known_made(t, "LEVEL_STARTS");
     for (int i = 0; i <= ENVIRONMENT_LEVELS; i++) {
         int size = i == 0 ? 0 : i < ENVIRONMENT_LEVELS ? prefiltered_size(i) : IRRADIANCE_SIZE;
         text_print(sizes, "%s%d.0", i ? ", " : "", size);
         text_print(starts, "%s%d.0", i ? ", " : "", i ? environment_light_first(i) : 0);
     }
-    preprocess_number(v, "level_count", ENVIRONMENT_LEVELS + 1);
-    text_print(preprocess_text(v, "level_rows"), "%d.0", environment_light_rows());
+    known_number(t, "LEVEL_COUNT", ENVIRONMENT_LEVELS + 1);
+    text_print(known_made(t, "LEVEL_ROWS"), "%d.0", environment_light_rows());
 }
 
-void glsl_add_interface(struct preprocess_tables *v, const struct glsl_facts *f)
-{
-    bool flat = f->shading == LAM_SHADING_FLAT;
-    const char *smooth = f->glsl_120 ? "varying " : f->fragment ? "in " : "out ";
-    glsl_declare_attributes(preprocess_text(v, "attributes"), f);
-    preprocess_value(v, "lit_position", flat && f->glsl_120 ? "provoking_position" : "position");
-    preprocess_value(v, "smooth_varying", smooth);
-    text_print(preprocess_text(v, "varying"), "%s%s", flat && !f->glsl_120 ? "flat " : "", smooth);
-    preprocess_value(v, "flat_varying", f->fragment ? "flat in " : "flat out ");
-    preprocess_value(v, "pixel", f->glsl_120 ? "gl_FragColor" : "pixel");
-    preprocess_value(v, "texture_cube", f->glsl_120 ? "textureCube" : "texture");
-}
-
-static void put_arguments(struct preprocess_tables *v, const struct glsl_facts *f)
-{
-    add_arguments(preprocess_text(v, "lit_parameters"), f, DECLARED);
-    add_arguments(preprocess_text(v, "front_arguments"), f, FRONT);
-    add_arguments(preprocess_text(v, "back_arguments"), f, BACK);
-    add_arguments(preprocess_text(v, "fragment_arguments"), f, FRAGMENT);
-    add_map_arguments(preprocess_text(v, "map_arguments"), f);
-    preprocess_value(v, "tangent", f->signed_tangent ? "tangent.xyz" : "tangent");
-}
-
-static void put_point(struct preprocess_tables *v, const struct glsl_facts *f)
+static void put_material(struct known_table *t, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
-    preprocess_number(v, "anisotropy", c->anisotropy);
-    struct text *layers = preprocess_text(v, "layers");
+    const bool blends[2] = {c->alpha[0] == LAM_ALPHA_BLEND, c->alpha[f->back_material] == LAM_ALPHA_BLEND};
+    known_flag(t, "front_masked", c->alpha[0] == LAM_ALPHA_MASK);
+    known_flag(t, "back_masked", f->back_material && c->alpha[1] == LAM_ALPHA_MASK);
+    known_flag(t, "front_solid", !blends[0]);
+    known_flag(t, "back_solid", !blends[1]);
+    known_flag(t, "colors", c->colors);
+    known_flag(t, "separate_reflection", f->separate_texture_terms && f->environment_light);
+    known_flag(t, "has_coat_normal",
+               f->has_clearcoat && (f->has_normal_map || f->has_bump_map || f->has_coat_normal_map));
+    known_flag(t, "tangent_field", f->needs_tangent && !c->tangents);
+    if (!f->back_material)
+        known_flag(t, "front", true);
     if (f->layers)
-        glsl_add_layers(layers, f);
-    glsl_add_parameters(preprocess_text(v, "parameters"), f);
-    glsl_add_parameter(preprocess_text(v, "metallic"), f, "metallic");
-    glsl_add_parameter(preprocess_text(v, "roughness"), f, "roughness");
-    preprocess_value(v, "lambert",
-                     glsl_maps_have(f, "dielectric") ? "m.diffuse.rgb" : "scale3(m.diffuse.rgb, 1.0 - m.metallic)");
-    preprocess_value(v, "viewer", c->distant_viewer ? "VIEWER_INFINITE" : "VIEWER_LOCAL");
-    preprocess_value(v, "passed", c->tints_rays ? "vec3" : "float");
-    add_sum(preprocess_text(v, "output_term"), shown_terms(c));
-    add_sum(preprocess_text(v, "output_mapped"), mapped_terms(f));
-    add_sum(preprocess_text(v, "output_rest"), rest_terms(f));
-    add_output_material(preprocess_text(v, "output_material"), f);
-    add_output_vector(preprocess_text(v, "output_vector"), f);
-    preprocess_value(v, "glow", f->back_material ? "(gl_FrontFacing ? glow : back_glow)" : "glow");
-    add_alpha_rule(preprocess_text(v, "alpha_rule"), f);
-    add_value_mask(preprocess_text(v, "value_mask"), f);
-    preprocess_value(v, "tone", glsl_tone_function(c->tone));
+        glsl_add_layers(known_made(t, "LAYERS"), f);
+    glsl_add_parameters(known_made(t, "OWN_PARAMETERS"), f);
+    glsl_add_parameter(known_made(t, "METALLIC"), f, "metallic");
+    glsl_add_parameter(known_made(t, "ROUGHNESS"), f, "roughness");
+    if (f->adds_lights && f->has_lights)
+        glsl_add_lobe(known_made(t, "LOBE"), f);
+}
+
+static void put_maps(struct known_table *t, const struct glsl_facts *f)
+{
+    static const struct {
+        const char *member, *lit,
+            *last; // flags: light_point applies the map; or the fragment does, to light without it
+    } rows[] = {{"color", "map_color", "color_map_last"}, {"emission", "map_emission", "emission_map_last"},
+                {"opacity", "map_opacity", NULL},         {"ambient", "map_ambient", NULL},
+                {"specular", "map_specular", NULL},       {"occlusion", "map_occlusion", NULL},
+                {"dielectric", "map_dielectric", NULL}};
+    bool lit = f->has_maps && !f->output_vector && !f->maps_interpolated_light;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        bool read = glsl_maps_have(f, rows[i].member);
+        known_flag(t, rows[i].lit, lit && read);
+        if (rows[i].last)
+            known_flag(t, rows[i].last, f->separate_texture_terms && read);
+    }
+    known_flag(t, "opacity_in_maps", glsl_maps_have(f, "opacity"));
+    known_flag(t, "level_in_maps", glsl_maps_have(f, "level"));
+    known_flag(t, "opacity_map_last", f->maps_interpolated_light && !f->value_masks && glsl_maps_have(f, "opacity"));
+    known_flag(t, "exact_filter", !f->choices->hardware_filter);
+    known_flag(t, "anisotropic", f->choices->anisotropy > 1);
+    known_number(t, "PROBES_MAX", f->choices->anisotropy);
+}
+
+static void put_output(struct known_table *t, const struct glsl_facts *f)
+{
+    const struct glsl_choices *c = f->choices;
+    const lam_output shown = c->output;
+    bool all = shown != LAM_OUTPUT_LIGHT && (shown < LAM_OUTPUT_AMBIENT || shown > LAM_OUTPUT_REFLECTION),
+         light = shown == LAM_OUTPUT_LIGHT && c->reflection != LAM_REFLECTION_NONE;
+    known_flag(t, "shows_all", all);
+    known_flag(t, "shows_ambient", all || light || shown == LAM_OUTPUT_AMBIENT);
+    known_flag(t, "shows_diffuse", all || light || shown == LAM_OUTPUT_DIFFUSE);
+    known_flag(t, "shows_specular", all || light || shown == LAM_OUTPUT_SPECULAR);
+    known_flag(t, "shows_emission", all || shown == LAM_OUTPUT_EMISSION);
+    known_flag(t, "shows_reflection", all || shown == LAM_OUTPUT_REFLECTION);
+    known_flag(t, "shows_base_color", shown == LAM_OUTPUT_BASE_COLOR);
+    known_flag(t, "shows_occlusion", shown == LAM_OUTPUT_OCCLUSION);
+    known_flag(t, "shows_roughness", shown == LAM_OUTPUT_ROUGHNESS);
+    known_flag(t, "is_physical", glsl_is_physical(f));
+    bool light_shown = !f->output_vector && !f->output_material;
+    known_flag(t, "exposes", c->exposes && light_shown);
+    known_flag(t, "has_tone", c->tone > LAM_TONE_NONE && light_shown && !f->output_geometry);
+    known_flag(t, "clamped", c->gl1 && f->shading != LAM_SHADING_PHONG && output_is_picture(c->output));
+    known_flag(t, "output_facing", c->output == LAM_OUTPUT_FACING);
+    known_flag(t, "output_ids", c->output == LAM_OUTPUT_IDS);
+    known_flag(t, "writes_transmittance", c->transmits);
+    known_flag(t, "blends_transmission", f->has_transmission && c->layer == GLSL_NO_LAYERS);
+    known_flag(t, "depth_ids", c->layer != GLSL_NO_LAYERS);
+    known_flag(t, "peels", c->layer == GLSL_PEELS);
+    known_flag(t, "output_n_l", c->output == LAM_OUTPUT_N_L);
+    known_flag(t, "output_tangents", c->output == LAM_OUTPUT_TANGENTS);
+    known_text(t, "TONE", glsl_tone_function(c->tone));
+    known_flag(t, "from_vertices", f->shading != LAM_SHADING_PHONG);
+    known_text(t, "VIEWER", c->distant_viewer ? "VIEWER_INFINITE" : "VIEWER_LOCAL");
+    known_text(t, "LIGHT_SHARE", c->tints_rays ? "vec3" : "float");
+    known_text(t, "TANGENT", f->signed_tangent ? "tangent.xyz" : "tangent");
+    text_print(known_made(t, "TINT_VARYING"), "%s%s",
+               f->per_fragment && f->shading == LAM_SHADING_FLAT && !f->glsl_120 ? "flat " : "",
+               f->glsl_120   ? "varying"
+               : f->fragment ? "in"
+                             : "out");
+}
+
+// A loop for each group of lights, with its kind and its falloff.
+static void put_loops(struct known_table *t, const struct glsl_facts *f)
+{
+    const struct glsl_choices *c = f->choices;
+    struct text *loops = known_made(t, "LIGHTS");
+    struct known *end = &t->rows[t->count];
+    int first = 0;
+    for (int i = 0; f->adds_lights && i < c->group_count; i++) {
+        const struct glsl_group *group = &c->groups[i];
+        char from[12], to[12];
+        snprintf(from, sizeof from, "%d", first);
+        snprintf(to, sizeof to, "%d", first += group->count);
+        const struct known of_group[] = {{"LIGHTS_FIRST", from},
+                                         {"LIGHTS_END", to},
+                                         {"LIGHT_KIND", kind_words[group->kind]},
+                                         {"LIGHT_FALLOFF", falloff_words[group->falloff]}};
+        memcpy(end, of_group, sizeof of_group);
+        if (known_finish(t))
+            specialize_branches(loops, text_light_loop_glsl, t->rows);
+    }
+    memset(end, 0, 4 * sizeof *end);
+    known_text(t, "LIGHT_KIND",
+               kind_words[c->group_count && c->groups[0].kind == LIGHT_DIRECTIONAL ? LIGHT_DIRECTIONAL : LIGHT_POINT]);
 }
 
 // --- the stage
 
-void glsl_add_flags(struct preprocess_tables *v, const struct glsl_facts *f)
-{
-#define FACT(name)   preprocess_flag(v, #name, f->name);
-#define CHOICE(name) preprocess_flag(v, #name, f->choices->name);
-    GLSL_FACTS(FACT)
-    GLSL_CHOICE_FLAGS(CHOICE)
-#undef FACT
-#undef CHOICE
-    preprocess_flag(v, "lights_in_texture", f->choices->storage == GLSL_TEXTURE);
-}
-
 void glsl_add_stage(struct text *text, const struct glsl_facts *f)
 {
-    const struct glsl_choices *c = f->choices;
-    struct preprocess_tables v = {.flag_count = 0};
-    glsl_add_flags(&v, f);
-    put_lists(&v, f);
-    put_environment(&v);
-    glsl_add_interface(&v, f);
-    put_arguments(&v, f);
-    put_point(&v, f);
-    const struct preprocess_words words = preprocess_finish(&v, text);
-    bool reads_maps = f->fragment && f->has_maps, lights_here = f->lit && f->fragment == f->per_fragment;
-    if (!f->glsl_120 && ((reads_maps && f->exact_filter) || (lights_here && c->passes_rays)))
-        preprocess_add(text, text_wrapping_glsl, &words);
-    if (reads_maps) {
-        preprocess_add(text, text_texture_glsl, &words);
-        glsl_add_maps(text, f);
-    }
-    if (lights_here && c->catches)
-        text_add(text, "\nbool unobstructed = false; // the point is lit as if nothing were in the way\n");
-    if (lights_here && c->shadows)
-        preprocess_add(text, text_shadows_glsl, &words);
-    if (lights_here)
-        preprocess_add(text, text_lighting_glsl, &words);
-    preprocess_add(text, text_interface_glsl, &words);
-    preprocess_add(text, f->fragment ? text_fragment_glsl : text_vertex_glsl, &words);
-    preprocess_free(&v);
+    struct known_table t = {.count = 0};
+    struct text uniforms = {0}, maps = {0}, attributes = {0};
+    known_facts(&t, f);
+    known_conditions(&t, f);
+    put_lights(&t, f->choices);
+    put_environment(&t);
+    put_material(&t, f);
+    put_maps(&t, f);
+    put_output(&t, f);
+    put_loops(&t, f);
+    glsl_declare(&uniforms, f, f->fragment);
+    if (f->fragment)
+        glsl_add_maps(&maps, f);
+    else
+        glsl_declare_attributes(&attributes, f);
+    const struct stage_source sources[] = {
+        {.title = NULL, .text = uniforms.bytes, .made = true},
+        {.title = NULL, .text = "bool unobstructed = false; // the point is lit as if nothing were in the way\n"},
+        {.title = "wrapping of texture coordinates", .text = text_wrapping_glsl},
+        {.title = "textures", .text = text_texture_glsl},
+        {.title = NULL, .text = maps.bytes},
+        {.title = "shadows: docs/lighting/shadows.md, in float", .text = text_shadows_glsl},
+        {.title = "the environment", .text = text_environment_glsl},
+        {.title = "lights and materials", .text = text_lights_glsl},
+        {.title = NULL, .text = text_passed_glsl, .whole = true},
+        {.title = "lighting of a point", .text = text_lighting_glsl},
+        {.title = "the vertex shader", .text = attributes.bytes, .made = true},
+        {.title = f->fragment ? "the fragment shader" : NULL,
+         .text = f->fragment ? text_fragment_glsl : text_vertex_glsl}};
+    const struct known *known = known_finish(&t);
+    if (known)
+        equations_add(text, sources, sizeof sources / sizeof *sources, known);
+    text->failed |= !known || uniforms.failed || maps.failed || attributes.failed;
+    free(uniforms.bytes);
+    free(maps.bytes);
+    free(attributes.bytes);
+    known_free(&t);
 }

@@ -1,51 +1,27 @@
+// interface.glsl: what the shaders of a program hand on, and what the fragment shader writes.
 
-//@if fragment
-// --- the fragment shader
-//@else
-// --- the vertex shader
+VARYING vec3 eye_position;
+VARYING vec3 eye_normal;
+VARYING vec3 eye_tangent;
+VARYING float bitangent_sign;
+VARYING vec4 front_light;
+VARYING vec4 back_light;
+VARYING vec3 front_rest;
+VARYING vec3 back_rest;
+if (needs_vertex_color) {
+    TINT_VARYING vec4 tint;
+}
+SMOOTH_VARYING vec2 surface_texcoord;
+SMOOTH_VARYING vec2 surface_second_texcoord;
+FLAT_VARYING int triangle;
 
-@attributes@
-//@end
-//@if has_maps needs_vertex_color needs_position vertex_colors application per_vertex output_ids depth_ids shadows
-
-//@end
-//@if per_fragment
-//@if needs_position
-@varying@vec3 eye_position;
-//@end
-//@if needs_normal
-@varying@vec3 eye_normal;
-//@end
-//@if needs_tangent_attribute
-@varying@vec3 eye_tangent;
-//@end
-//@if signed_tangent
-@varying@float bitangent_sign;
-//@end
-//@if needs_vertex_color
-@varying@vec4 tint;
-//@end
-//@elif !output_geometry
-@varying@vec4 front_light;
-//@if two_sided
-@varying@vec4 back_light;
-//@end
-//@if separate_texture_terms
-@varying@vec3 front_rest;
-//@if two_sided
-@varying@vec3 back_rest;
-//@end
-//@end
-//@if needs_vertex_color
-@smooth_varying@vec4 tint;
-//@end
-//@end
-//@if first_texcoords
-@smooth_varying@vec2 surface_texcoord;
-//@end
-//@if second_texcoords
-@smooth_varying@vec2 surface_second_texcoord;
-//@end
-//@if output_ids depth_ids shadows
-@flat_varying@int triangle;
-//@end
+uniform int first_triangle; // number of the draw's first triangle
+uniform usampler2D nearer_depth_ids; // of the previous layer
+uniform usampler2D opaque_depth_ids;
+if (depth_ids) {
+    layout(location = 0) out vec4 pixel;
+    layout(location = 1) out uvec2 depth_id; // bits of the depth, and triangle number + 1; 0: empty
+    layout(location = 2) out vec4 through;
+} else if (!glsl_120) {
+    out vec4 pixel;
+}

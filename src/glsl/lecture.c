@@ -66,18 +66,18 @@ static bool has_kind(const struct glsl_choices *c, int kind)
     return lights_of(c, kind, condition) > 0;
 }
 
-void lecture_add_flags(struct preprocess_tables *t, const struct glsl_facts *f)
+void lecture_add_flags(struct known_table *t, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
     bool any_range = false;
     for (int i = 0; i < c->group_count; i++)
         any_range |= c->groups[i].falloff == FALLOFF_RANGE;
-    glsl_add_flags(t, f);
-    preprocess_flag(t, "has_range", any_range);
-    preprocess_flag(t, "has_cutoff", has_kind(c, LIGHT_SPOT_CUTOFF));
-    preprocess_flag(t, "gated_threads", c->reflection == LAM_REFLECTION_KAJIYA_KAY);
-    preprocess_flag(t, "phong", f->highlights && c->reflection == LAM_REFLECTION_PHONG);
-    preprocess_flag(t, "blinn_phong", f->highlights && c->reflection == LAM_REFLECTION_BLINN_PHONG);
+    known_facts(t, f);
+    known_flag(t, "has_range", any_range);
+    known_flag(t, "has_cutoff", has_kind(c, LIGHT_SPOT_CUTOFF));
+    known_flag(t, "gated_threads", c->reflection == LAM_REFLECTION_KAJIYA_KAY);
+    known_flag(t, "phong", f->highlights && c->reflection == LAM_REFLECTION_PHONG);
+    known_flag(t, "blinn_phong", f->highlights && c->reflection == LAM_REFLECTION_BLINN_PHONG);
 }
 
 void lecture_add_way(struct text *text, const struct glsl_choices *c, const char *against, const char *towards)
@@ -103,35 +103,34 @@ void lecture_add_spots(struct text *text, const struct glsl_choices *c, const ch
         if (!lights_of(c, kind, condition))
             continue;
         if (!*condition) {
-            text_print(text, "        %s spot = %s", number, factors[kind]);
+            text_print(text, "        %s spot = %s\n", number, factors[kind]);
             continue;
         }
         if (first)
             text_print(text, "        %s spot = 1.0;\n", number);
-        text_print(text, "%s        if (%s)\n            spot = %s", first ? "" : "\n", condition, factors[kind]);
+        text_print(text, "        if (%s)\n            spot = %s\n", condition, factors[kind]);
         first = false;
     }
 }
 
 // The values of the material and of the vertex colour.
-static void add_material(struct preprocess_tables *t, const struct glsl_facts *f)
+static void add_material(struct known_table *t, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
     const char *tint = !f->vertex_colors ? "" : f->per_fragment ? "tint" : "color", *p = c->products ? "" : "material.";
     bool opaque = c->alpha[0] == LAM_ALPHA_OPAQUE;
-    text_print(preprocess_text(t, "opacity"), "%s%s%s%s%s", opaque ? "" : p, opaque ? "1.0" : "diffuse.a",
+    text_print(known_made(t, "OPACITY"), "%s%s%s%s%s", opaque ? "" : p, opaque ? "1.0" : "diffuse.a",
                opaque || !*tint ? "" : " * ", opaque ? "" : tint, opaque || !*tint ? "" : ".a");
-    preprocess_value(t, "tinted", *tint ? "tint.rgb * " : "");
-    text_print(preprocess_text(t, "diffuse_light"), "%s%s", *tint ? "tint.rgb * " : "",
+    text_print(known_made(t, "DIFFUSE_LIGHT"), "%s%s", *tint ? "tint.rgb * " : "",
                c->products ? "diffuse_product[i].rgb" : "kd * lights[i].diffuse.rgb");
-    preprocess_value(t, "specular_light", c->products ? "specular_product[i].rgb" : "ks * lights[i].specular.rgb");
-    text_print(preprocess_text(t, "emission"), "%semission.rgb", p);
-    text_print(preprocess_text(t, "shininess"), "%sshininess", p);
-    text_print(preprocess_text(t, "fibre"), "%sfibre", p);
-    text_print(preprocess_text(t, "reflectivity"), "%sreflectivity.rgb", p);
-    text_print(preprocess_text(t, "parameters"), "vec3 P, vec3 N%s%s", f->needs_tangent_attribute ? ", vec3 T" : "",
+    known_text(t, "SPECULAR_LIGHT", c->products ? "specular_product[i].rgb" : "ks * lights[i].specular.rgb");
+    text_print(known_made(t, "EMISSION"), "%semission.rgb", p);
+    text_print(known_made(t, "SHININESS"), "%sshininess", p);
+    text_print(known_made(t, "FIBRE"), "%sfibre", p);
+    text_print(known_made(t, "REFLECTIVITY"), "%sreflectivity.rgb", p);
+    text_print(known_made(t, "PARAMETERS"), "vec3 P, vec3 N%s%s", f->needs_tangent_attribute ? ", vec3 T" : "",
                *tint ? ", vec4 tint" : "");
-    text_print(preprocess_text(t, "arguments"), "eye_position, N%s%s%s",
+    text_print(known_made(t, "ARGUMENTS"), "eye_position, N%s%s%s",
                !f->needs_tangent_attribute ? ""
                : f->per_fragment           ? ", eye_tangent"
                                            : ", T",
@@ -141,18 +140,16 @@ static void add_material(struct preprocess_tables *t, const struct glsl_facts *f
 void lecture_add(struct text *text, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
-    struct preprocess_tables t = {.flag_count = 0};
+    struct known_table t = {.count = 0};
     lecture_add_flags(&t, f);
-    preprocess_flag(&t, "lights_here", f->lit && f->fragment == f->per_fragment);
-    glsl_add_interface(&t, f);
+    known_flag(&t, "lights_here", f->lit && f->fragment == f->per_fragment);
+    glsl_declare_attributes(known_made(&t, "ATTRIBUTES"), f);
     add_material(&t, f);
-    preprocess_number(&t, "hemispheres", c->hemisphere_count);
-    preprocess_number(&t, "lights", c->light_count);
-    lecture_add_way(preprocess_text(&t, "way"), c, "-lights[i].direction.xyz", "lights[i].position.xyz - P");
-    lecture_add_spots(preprocess_text(&t, "spots"), c, "float");
-    text_print(preprocess_text(&t, "arriving"), "%s%s", f->has_cone ? "spot * " : "",
-               f->has_falloff ? "attenuation * " : "");
-    const struct preprocess_words words = preprocess_finish(&t, text);
-    preprocess_add(text, text_lecture_glsl, &words);
-    preprocess_free(&t);
+    known_number(&t, "HEMISPHERES", c->hemisphere_count);
+    known_number(&t, "LIGHTS", c->light_count);
+    lecture_add_way(known_made(&t, "WAY"), c, "-lights[i].direction.xyz", "lights[i].position.xyz - P");
+    lecture_add_spots(known_made(&t, "SPOTS"), c, "float");
+    text_print(known_made(&t, "ARRIVING"), "%s%s%s", f->has_cone ? "spot" : "",
+               f->has_cone && f->has_falloff ? " * " : "", f->has_falloff ? "attenuation" : "");
+    known_specialize(text, text_lecture_glsl, &t);
 }

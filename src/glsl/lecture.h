@@ -4,7 +4,7 @@
 #ifndef LECTURE_H
 #define LECTURE_H
 
-#include "glsl_rows.h"
+#include "glsl_known.h"
 
 // Whether the style covers these choices. False: LAM_UNSUPPORTED, with the option that it does not cover.
 bool lecture_check(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
@@ -20,8 +20,8 @@ char *lecture_application(const struct glsl_choices *choices, const struct frame
 
 // --- parts of the text that GLSL and C share (lecture.c)
 
-// Adds the flags of both texts: those of every shader (glsl_add_flags), and what the lines of the blackboard depend on.
-void lecture_add_flags(struct preprocess_tables *tables, const struct glsl_facts *facts);
+// Adds the flags of both texts: those of every shader (known_facts), and what the lines of the blackboard depend on.
+void lecture_add_flags(struct known_table *table, const struct glsl_facts *facts);
 // Appends the vector from the point to light i: `against` of directional lights, `towards` of the others.
 void lecture_add_way(struct text *text, const struct glsl_choices *choices, const char *against, const char *towards);
 // Appends the lines that set `spot`, the factor of a spotlight's cone, of the type `number`.

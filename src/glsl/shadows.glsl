@@ -1,5 +1,4 @@
-
-// --- shadows: docs/lighting/shadows.md, in float
+// shadows.glsl: rays to the lights through the hierarchy (docs/lighting/shadows.md, in float).
 
 uniform sampler2D shadow_tree; // nodes of the hierarchy, its triangles, and the place of each triangle by its number
 uniform mat4 shadow_matrix;    // eye space to the hierarchy's, where all triangles lie within -1...1
@@ -7,9 +6,7 @@ uniform vec4 shadow_places;    // first texel of the triangles, and of the place
 uniform vec4 shadow_rounding;  // hierarchy.rounding: how far a corner may have been moved, along each axis; world units to the hierarchy's
 
 int lit_triangle = 0; // number in the frame of the triangle that the fragment shows, or that has the vertex
-//@if from_vertices
 int lit_corner = 0; // of its corners that which is lit
-//@end
 vec3 ray_origin;
 vec3 ray_point; // of the surface that rays leave: their origin, unless that was moved off the surface
 float ray_twin; // of the triangle that rays start on; -1: they start at a vertex
@@ -21,60 +18,58 @@ int triangle_texel(int number)
 {
     return int(shadow_places.x) + 6 * int(tree_texel(int(shadow_places.y) + number / 4)[number % 4]);
 }
-//@if from_vertices
-
-// Rays start at the vertex itself, which no triangle there can shadow: they leave each of them at t = 0.
-void start_rays(vec3 p, int number, float side)
-{
-    int at = triangle_texel(number);
-    bool apart = tree_texel(at + 1).w > 1.5; // a line or a point: in no ray's way, and not among the triangles
-    ray_origin = apart ? (shadow_matrix * vec4(p, 1.0)).xyz : tree_texel(at + lit_corner).xyz;
-    ray_point = ray_origin;
-    ray_twin = -1.0;
-}
-//@else
 
 vec3 moved_by(vec3 p, vec3 corner, vec3 n, float weight)
 {
     return (weight * min(dot(p - corner, n), 0.0)) * n;
 }
 
-// Rays start at the point of a triangle next to p, a point in eye space. `side` is -1 where the back is seen and lit.
+if (from_vertices) {
+    // Rays start at the vertex itself, which no triangle there can shadow: they leave each of them at t = 0.
+} else {
+    // Rays start at the point of a triangle next to p, a point in eye space. `side` is -1 where the back is seen and lit.
+}
 void start_rays(vec3 p, int number, float side)
 {
     int at = triangle_texel(number);
-    vec4 a = tree_texel(at);
-    vec4 b = tree_texel(at + 1);
-    vec4 c = tree_texel(at + 2);
-    vec3 eye = (shadow_matrix * vec4(p, 1.0)).xyz;
-    ray_origin = eye;
-    ray_point = eye;
-    ray_twin = a.w;
-    if (b.w > 1.5) { // a line, a point or the ground: in no ray's way
-        return;
-    }
-    vec3 e1 = b.xyz - a.xyz;
-    vec3 e2 = c.xyz - a.xyz;
-    vec3 q = eye - a.xyz;
-    float d11 = dot(e1, e1);
-    float d12 = dot(e1, e2);
-    float d22 = dot(e2, e2);
-    float det = d11 * d22 - d12 * d12;
-    float b1 = det > 0.0 ? max((d22 * dot(q, e1) - d12 * dot(q, e2)) / det, 0.0) : 0.0;
-    float b2 = det > 0.0 ? max((d11 * dot(q, e2) - d12 * dot(q, e1)) / det, 0.0) : 0.0;
-    float total = max(b1 + b2, 1.0);
-    b1 = b1 / total;
-    b2 = b2 / total;
-    ray_origin = a.xyz + (e1 * b1 + e2 * b2);
-    ray_point = ray_origin;
-    if (b.w > 0.5 && shadow_places.z > 0.5) {
-        vec3 moved = moved_by(ray_origin, a.xyz, side * tree_texel(at + 3).xyz, 1.0 - b1 - b2)
-                   + moved_by(ray_origin, b.xyz, side * tree_texel(at + 4).xyz, b1)
-                   + moved_by(ray_origin, c.xyz, side * tree_texel(at + 5).xyz, b2);
-        ray_origin = ray_origin - moved;
+    if (from_vertices) {
+        bool apart = tree_texel(at + 1).w > 1.5; // a line or a point: in no ray's way, and not among the triangles
+        ray_origin = apart ? (shadow_matrix * vec4(p, 1.0)).xyz : tree_texel(at + lit_corner).xyz;
+        ray_point = ray_origin;
+        ray_twin = -1.0;
+    } else {
+        vec4 a = tree_texel(at);
+        vec4 b = tree_texel(at + 1);
+        vec4 c = tree_texel(at + 2);
+        vec3 eye = (shadow_matrix * vec4(p, 1.0)).xyz;
+        ray_origin = eye;
+        ray_point = eye;
+        ray_twin = a.w;
+        if (b.w > 1.5) { // a line, a point or the ground: in no ray's way
+            return;
+        }
+        vec3 e1 = b.xyz - a.xyz;
+        vec3 e2 = c.xyz - a.xyz;
+        vec3 q = eye - a.xyz;
+        float d11 = dot(e1, e1);
+        float d12 = dot(e1, e2);
+        float d22 = dot(e2, e2);
+        float det = d11 * d22 - d12 * d12;
+        float b1 = det > 0.0 ? max((d22 * dot(q, e1) - d12 * dot(q, e2)) / det, 0.0) : 0.0;
+        float b2 = det > 0.0 ? max((d11 * dot(q, e2) - d12 * dot(q, e1)) / det, 0.0) : 0.0;
+        float total = max(b1 + b2, 1.0);
+        b1 = b1 / total;
+        b2 = b2 / total;
+        ray_origin = a.xyz + (e1 * b1 + e2 * b2);
+        ray_point = ray_origin;
+        if (b.w > 0.5 && shadow_places.z > 0.5) {
+            vec3 moved = moved_by(ray_origin, a.xyz, side * tree_texel(at + 3).xyz, 1.0 - b1 - b2)
+                       + moved_by(ray_origin, b.xyz, side * tree_texel(at + 4).xyz, b1)
+                       + moved_by(ray_origin, c.xyz, side * tree_texel(at + 5).xyz, b2);
+            ray_origin = ray_origin - moved;
+        }
     }
 }
-//@end
 
 // Whether a box is in the way of the ray from ray_origin; `reach` is more than what rounding can move its planes.
 bool meets_box(vec3 low, vec3 high, vec3 inverse, float end, float reach)
@@ -86,7 +81,6 @@ bool meets_box(vec3 low, vec3 high, vec3 inverse, float end, float reach)
     return max(max(near.x, near.y), max(near.z, 0.0)) <= min(min(far.x, far.y), min(far.z, end));
 }
 
-//@if passes_rays
 // --- what lets light through: src/rays/opacity.c. gl_shadows.c packs what is read here.
 
 // A texel of a map: four channels, or one of which four share a texel of the tree.
@@ -134,7 +128,7 @@ vec4 surface_map(int at, vec4 texcoords)
 
 // The light that passes a point of a triangle, where its corners have the weights w. `at`: the triangle's record, of one texel
 // (the records of its sides, and 1 where it has colours), its corners' texture coordinates, and their colours.
-@passed@ passed_surface(int at, bool back, vec3 w)
+LIGHT_SHARE passed_surface(int at, bool back, vec3 w)
 {
     vec4 head = tree_texel(at);
     int side = int(back ? head.y : head.x);
@@ -154,25 +148,25 @@ vec4 surface_map(int at, vec4 texcoords)
             opacity = opacity >= rule.z ? 1.0 : 0.0;
         }
     }
-//@if tints_rays
-    if (rule.w > 1.5) {
-        return vec3(1.0);
-    }
-    if (rule.w > 0.5) {
-        vec4 metal = tree_texel(side + 3); // metallic, transmission
-        vec4 factor = tree_texel(side + 1);
-        float through = opacity * metal.y;
-        if (maps.z > 0.0) {
-            through *= clamp(surface_map(int(maps.z), texcoords).x, 0.0, 1.0);
+    if (tints_rays) {
+        if (rule.w > 1.5) {
+            return vec3(1.0);
         }
-        if (maps.w > 0.0) {
-            metal.x *= clamp(surface_map(int(maps.w), texcoords).x, 0.0, 1.0);
+        if (rule.w > 0.5) {
+            vec4 metal = tree_texel(side + 3); // metallic, transmission
+            vec4 factor = tree_texel(side + 1);
+            float through = opacity * metal.y;
+            if (maps.z > 0.0) {
+                through *= clamp(surface_map(int(maps.z), texcoords).x, 0.0, 1.0);
+            }
+            if (maps.w > 0.0) {
+                metal.x *= clamp(surface_map(int(maps.w), texcoords).x, 0.0, 1.0);
+            }
+            through *= 1.0 - metal.x;
+            return 1.0 - opacity + through * clamp(factor.rgb * color.rgb * base.rgb, 0.0, 1.0);
         }
-        through *= 1.0 - metal.x;
-        return 1.0 - opacity + through * clamp(factor.rgb * color.rgb * base.rgb, 0.0, 1.0);
     }
-//@end
-    return @passed@(1.0 - opacity);
+    return LIGHT_SHARE(1.0 - opacity);
 }
 
 // A ray through an edge crosses both of its triangles, of which translucent ones count once: the one that has the edge on one side.
@@ -182,7 +176,6 @@ bool owns_edge(float weight, vec2 from, vec2 to, bool turned)
     return weight != 0.0 || d.y > 0.0 || (d.y == 0.0 && d.x > 0.0);
 }
 
-//@end
 // On which side of an edge the ray lies: the cross product of its ends. They are taken in a fixed order, so that the triangles
 // of both sides get the same number with opposite signs from drivers that fuse products with sums, too.
 float edge_weight(vec2 a, vec2 b)
@@ -206,11 +199,11 @@ bool through_point(vec3 a, vec3 b, vec3 c)
 }
 
 // The light that passes a triangle which may be in the way of the ray from ray_origin along d, whose component k is the largest.
-@passed@ passed_triangle(int at, vec3 d, int k, float end)
+LIGHT_SHARE passed_triangle(int at, vec3 d, int k, float end)
 {
     vec4 corner = tree_texel(at);
     if (corner.w == ray_twin) {
-        return @passed@(1.0);
+        return LIGHT_SHARE(1.0);
     }
     int i = k == 2 ? 0 : k + 1;
     int j = k == 0 ? 2 : k - 1;
@@ -228,28 +221,28 @@ bool through_point(vec3 a, vec3 b, vec3 c)
     float w = edge_weight(p, q);
     float det = u + v + w;
     if ((min(min(u, v), w) < 0.0 && max(max(u, v), w) > 0.0) || det == 0.0) {
-        return @passed@(1.0);
+        return LIGHT_SHARE(1.0);
     }
     float t = (u * a[k] + v * b[k] + w * c[k]) / (d[k] * det);
     if (!(t > 0.0 && t < end) || through_point(corner.xyz, second.xyz, last.xyz)) {
-        return @passed@(1.0);
+        return LIGHT_SHARE(1.0);
     }
-//@if passes_rays
-    if (last.w > 0.5) { // its record
-        bool turned = det > 0.0;
-        if (!(owns_edge(u, q, r, turned) && owns_edge(v, r, p, turned) && owns_edge(w, p, q, turned))) {
-            return @passed@(1.0);
+    if (passes_rays) {
+        if (last.w > 0.5) { // its record
+            bool turned = det > 0.0;
+            if (!(owns_edge(u, q, r, turned) && owns_edge(v, r, p, turned) && owns_edge(w, p, q, turned))) {
+                return LIGHT_SHARE(1.0);
+            }
+            return passed_surface(int(last.w), dot(d, cross(b - a, c - a)) < 0.0, vec3(u, v, w) / det);
         }
-        return passed_surface(int(last.w), dot(d, cross(b - a, c - a)) < 0.0, vec3(u, v, w) / det);
     }
-//@end
-    return @passed@(0.0);
+    return LIGHT_SHARE(0.0);
 }
 
 // The light that passes along the ray from ray_origin.
-@passed@ passed_ray(vec3 d, float end)
+LIGHT_SHARE passed_ray(vec3 d, float end)
 {
-    @passed@ passed = @passed@(1.0);
+    LIGHT_SHARE passed = LIGHT_SHARE(1.0);
     int stack[64];
     int waiting = 0;
     int at = 0; // the texel of the next child to be tested
@@ -277,7 +270,7 @@ bool through_point(vec3 a, vec3 b, vec3 c)
             }
             for (int i = 0; i < count; i++) {
                 passed = passed * passed_triangle(first + 6 * (int(low.w) + i), d, k, end);
-                if (passed == @passed@(0.0)) {
+                if (passed == LIGHT_SHARE(0.0)) {
                     return passed;
                 }
             }
@@ -296,7 +289,7 @@ bool through_point(vec3 a, vec3 b, vec3 c)
 const int LIGHT_PROBES = 48; // light_pattern.h
 
 // The light that passes along the ray to point i of a spiral on a light's disc around p + d.
-@passed@ passed_point(vec3 d, vec3 u, vec3 v, float distance, int i, float end)
+LIGHT_SHARE passed_point(vec3 d, vec3 u, vec3 v, float distance, int i, float end)
 {
     float angle = 6.28318531 * fract(float(i) * 0.381966011);
     return passed_ray(d + distance * (u * cos(angle) + v * sin(angle)), end);
@@ -304,13 +297,13 @@ const int LIGHT_PROBES = 48; // light_pattern.h
 
 // The light that passes along N rays to the points of a light's disc around p + d (light_pattern.h). `across` has the length of its
 // radius. If N is above LIGHT_PROBES and these rays agree, the others are not traced.
-@passed@ passed_disc(vec3 d, vec3 across, float end, int count)
+LIGHT_SHARE passed_disc(vec3 d, vec3 across, float end, int count)
 {
     vec3 along = normalize(d);
     vec3 u = normalize(across - along * dot(along, across)) * length(across);
     vec3 v = cross(along, u);
     if (count > LIGHT_PROBES) {
-        @passed@ first = passed_point(d, u, v, 1.0, LIGHT_PROBES - 1, end);
+        LIGHT_SHARE first = passed_point(d, u, v, 1.0, LIGHT_PROBES - 1, end);
         bool agree = true;
         for (int i = LIGHT_PROBES - 2; agree && i >= 0; i--) {
             agree = passed_point(d, u, v, sqrt(float(i) / float(LIGHT_PROBES - 1)), i, end) == first;
@@ -319,7 +312,7 @@ const int LIGHT_PROBES = 48; // light_pattern.h
             return first;
         }
     }
-    @passed@ sum = @passed@(0.0);
+    LIGHT_SHARE sum = LIGHT_SHARE(0.0);
     for (int i = 0; i < count; i++) {
         sum = sum + passed_point(d, u, v, sqrt((float(i) + 0.5) / float(count)), i, end);
     }
@@ -338,16 +331,14 @@ vec3 least_axis(vec3 d)
 
 // The share of a light that reaches the point. place.w: its radius, below 0 where it casts no shadow; place.xyz of a directional
 // light: the axis of which its direction has the smallest part. Where a light does not shine no ray is needed.
-@passed@ passed_light(vec4 place, light_source light, light_sample t, float n_dot_l, int kind)
+LIGHT_SHARE shadowed_light(vec4 place, light_source light, light_sample t, float n_dot_l, int kind)
 {
     if (place.w < 0.0 || !(n_dot_l > 0.0) || !(t.attenuation * t.spot > 0.0)) {
-        return @passed@(1.0);
+        return LIGHT_SHARE(1.0);
     }
-//@if catches
-    if (unobstructed) {
-        return @passed@(1.0);
+    if (catches && unobstructed) {
+        return LIGHT_SHARE(1.0);
     }
-//@end
     bool directional = kind == LIGHT_DIRECTIONAL;
     float end = directional ? 1.0e30 : 1.0;
     vec3 d = directional ? -normalize(mat3(shadow_matrix) * light.direction)
@@ -359,7 +350,6 @@ vec3 least_axis(vec3 d)
     int count = int(shadow_places.w);
     return passed_disc(d, across, end, count);
 }
-//@if tints_rays
 
 light_source tinted_light(light_source light, vec3 passed)
 {
@@ -367,4 +357,3 @@ light_source tinted_light(light_source light, vec3 passed)
     light.specular = light.specular * passed;
     return light;
 }
-//@end

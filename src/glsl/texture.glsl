@@ -1,8 +1,8 @@
-
-// --- textures
+// texture.glsl: texels of maps, and filters.
 
 // Texture coordinates, and their derivatives by the window's x and y.
-struct footprint {
+STRUCT(footprint)
+{
     vec2 at, dx, dy;
 };
 
@@ -17,15 +17,6 @@ footprint footprint_of(vec2 at)
     f.dy = (dFdy(at * w) - at * dFdy(w)) / w;
     return f;
 }
-//@if glsl_120
-
-// A texel, filtered by the hardware.
-vec4 map_texel(sampler2D map, vec4 s, vec4 t, footprint f)
-{
-    return texture2D(map, vec2(dot(s.xyz, vec3(f.at, 1.0)), dot(t.xyz, vec3(f.at, 1.0))));
-}
-//@else
-//@if exact_filter
 
 #define FILTER_LINEAR  0
 #define FILTER_NEAREST 1
@@ -34,7 +25,8 @@ vec4 map_texel(sampler2D map, vec4 s, vec4 t, footprint f)
 #define MIP_NONE       2
 
 // How texels make a value.
-struct sampling {
+STRUCT(sampling)
+{
     int wrap_s, wrap_t, magnify, minify, mip;
 };
 
@@ -87,9 +79,7 @@ vec4 texel_at(sampler2D map, vec2 at, float detail, sampling how)
     vec4 coarser = filtered(map, level + 1, place, how, how.minify);
     return finer + (coarser - finer) * (detail - float(level));
 }
-//@end
 
-//@if has_bump_map
 // The directions in eye space in which the picture's rows and columns run on the triangle through p; not unit.
 void picture_axes(vec3 p, vec4 s, vec4 t, footprint f, out vec3 across, out vec3 down)
 {
@@ -103,8 +93,6 @@ void picture_axes(vec3 p, vec4 s, vec4 t, footprint f, out vec3 across, out vec3
     down = (py * dx.x - px * dy.x) * side;
 }
 
-//@end
-//@if shows_level
 // The level of detail of a map at one probe.
 float map_level(sampler2D map, vec4 s, vec4 t, footprint f)
 {
@@ -115,42 +103,41 @@ float map_level(sampler2D map, vec4 s, vec4 t, footprint f)
     return longer > 1.0e-30 ? 0.5 * log2(min(longer, 1.0e30)) : -50.0;
 }
 
-//@end
-// A texel of a map. s and t are rows of the matrix from the mesh's texture coordinates to the picture's.
-//@if exact_filter
-vec4 map_texel(sampler2D map, vec4 s, vec4 t, footprint f, sampling how)
-//@else
-vec4 map_texel(sampler2D map, vec4 s, vec4 t, footprint f)
-//@end
-{
-    vec2 at = vec2(s.x * f.at.x + s.y * f.at.y + s.z, t.x * f.at.x + t.y * f.at.y + t.z);
-    vec2 dx = vec2(s.x * f.dx.x + s.y * f.dx.y, t.x * f.dx.x + t.y * f.dx.y);
-    vec2 dy = vec2(s.x * f.dy.x + s.y * f.dy.y, t.x * f.dy.x + t.y * f.dy.y);
-//@if exact_filter
-    vec2 size = vec2(textureSize(map, 0));
-    float x = dot(dx * size, dx * size);
-    float y = dot(dy * size, dy * size);
-    float longer = max(x, y);
-    // Footprints of no size, and of none that is known, are magnified.
-    float detail = longer > 1.0e-30 ? 0.5 * log2(min(longer, 1.0e30)) : -50.0;
-//@if anisotropic
-    if (detail > 0.0) {
-        float shorter = min(x, y);
-        float ratio = shorter > 0.0 ? sqrt(longer) / sqrt(shorter) : float(@anisotropy@);
-        int probes = ratio >= float(@anisotropy@) ? @anisotropy@ : max(int(ceil(ratio)), 1);
-        vec2 axis = x >= y ? dx : dy;
-        detail = log2(sqrt(longer) / float(probes));
-        vec4 sum = vec4(0.0);
-        for (int i = 0; i < probes; i++) {
-            sum += texel_at(map, at + axis * ((float(i) + 0.5) / float(probes) - 0.5), detail, how);
-        }
-        return sum * (1.0 / float(probes));
-    }
-//@end
-    return texel_at(map, at, detail, how);
-//@else
-    return textureGrad(map, at, dx, dy);
-//@end
+if (glsl_120) {
+    // A texel, filtered by the hardware.
+} else {
+    // A texel of a map. s and t are rows of the matrix from the mesh's texture coordinates to the picture's.
 }
-//@end
-
+vec4 map_texel(sampler2D map, vec4 s, vec4 t, footprint f, sampling how)
+{
+    if (glsl_120) {
+        return texture2D(map, vec2(dot(s.xyz, vec3(f.at, 1.0)), dot(t.xyz, vec3(f.at, 1.0))));
+    } else {
+        vec2 at = vec2(s.x * f.at.x + s.y * f.at.y + s.z, t.x * f.at.x + t.y * f.at.y + t.z);
+        vec2 dx = vec2(s.x * f.dx.x + s.y * f.dx.y, t.x * f.dx.x + t.y * f.dx.y);
+        vec2 dy = vec2(s.x * f.dy.x + s.y * f.dy.y, t.x * f.dy.x + t.y * f.dy.y);
+        if (exact_filter) {
+            vec2 size = vec2(textureSize(map, 0));
+            float x = dot(dx * size, dx * size);
+            float y = dot(dy * size, dy * size);
+            float longer = max(x, y);
+            // Footprints of no size, and of none that is known, are magnified.
+            float detail = longer > 1.0e-30 ? 0.5 * log2(min(longer, 1.0e30)) : -50.0;
+            if (anisotropic && detail > 0.0) {
+                float shorter = min(x, y);
+                float ratio = shorter > 0.0 ? sqrt(longer) / sqrt(shorter) : float(PROBES_MAX);
+                int probes = ratio >= float(PROBES_MAX) ? PROBES_MAX : max(int(ceil(ratio)), 1);
+                vec2 axis = x >= y ? dx : dy;
+                detail = log2(sqrt(longer) / float(probes));
+                vec4 sum = vec4(0.0);
+                for (int i = 0; i < probes; i++) {
+                    sum += texel_at(map, at + axis * ((float(i) + 0.5) / float(probes) - 0.5), detail, how);
+                }
+                return sum * (1.0 / float(probes));
+            }
+            return texel_at(map, at, detail, how);
+        } else {
+            return textureGrad(map, at, dx, dy);
+        }
+    }
+}

@@ -1,5 +1,4 @@
-
-// --- wrapping of texture coordinates
+// wrapping.glsl: wrapping of texture coordinates.
 
 #define WRAP_REPEAT    0
 #define WRAP_CLAMP     1

@@ -87,28 +87,6 @@ static void test_exclusive_choices(void **state)
     }
 }
 
-static void test_unknown_names_are_errors(void **state)
-{
-    (void)state;
-    const struct preprocess_flag flags[] = {{"on", true}, {"off", false}, {"back_material", true}, {NULL, false}};
-    const struct preprocess_value values[] = {{"five", "5"}, {NULL, NULL}};
-    const struct preprocess_words words = {flags, values};
-    static const char *const invalid[] = {"//@if what\n//@end\n", "a @six@ b\n", "//@if on\n",
-                                          "//@unless on\n//@end\n"};
-    for (int i = 0; i < 4; i++) {
-        struct text text = {0};
-        preprocess_add(&text, invalid[i], &words);
-        assert_true(text.failed);
-        free(text.bytes);
-    }
-    struct text text = {0};
-    preprocess_add(&text, "//@if off\na\n//@elif on\nb @five@ $(x[i]).y\n//@else\nc\n//@end\n//@if !off\nd\n//@end\n",
-                   &words);
-    assert_false(text.failed);
-    assert_string_equal(text.bytes, "b 5 (front ? x[i] : back_x[i]).y\nd\n");
-    free(text.bytes);
-}
-
 // Branches with a known condition, and members that are then never read, are not in the text.
 static void test_unread_members_are_removed(void **state)
 {
@@ -146,28 +124,67 @@ static void test_unread_members_are_removed(void **state)
     glsl_free(&text);
 }
 
-static void test_specialize(void **state)
+// The opacity of both sides is compared with their cutoffs before it becomes 1.
+static void test_masks_of_two_materials(void **state)
 {
     (void)state;
-    static const struct known_condition known[] = {{"a == 1", true}, {"b == 2", false}, {NULL, false}};
-    struct text text = {0};
-    specialize_conditions(&text,
-                          "{\n    if (a == 1) {\n        x();\n        if (b == 2) {\n            y();\n       "
-                          " }\n    } else {\n"
-                          "        z();\n    }\n    if (b == 2) {\n        u();\n    } else {\n        v();\n  "
-                          "  }\n    if (c) {\n"
-                          "        w();\n    }\n}\n",
-                          known);
-    assert_string_equal(text.bytes, "{\n    x();\n    v();\n    if (c) {\n        w();\n    }\n}\n");
-    free(text.bytes);
+    struct glsl_choices c = {.version = GLSL_330,
+                             .storage = GLSL_BLOCK,
+                             .stage = LAM_STAGE_FRAGMENT,
+                             .reflection = LAM_REFLECTION_LAMBERT,
+                             .two_sided = true,
+                             .back_material = true,
+                             .alpha = {LAM_ALPHA_MASK, LAM_ALPHA_MASK}};
+    struct glsl_text text = make(&c);
+    const char *front = strstr(text.fragment, "if (gl_FrontFacing && !(light.a >= alpha_cutoff))"),
+               *back = strstr(text.fragment, "if (!gl_FrontFacing && !(light.a >= back_alpha_cutoff))"),
+               *opaque = strstr(text.fragment, "light.a = 1.0;");
+    assert_true(front && back && opaque && front < back && back < opaque);
+    glsl_free(&text);
+}
 
+static void check_branches(const char *source, const char *expected)
+{
+    static const struct known known[] = {{"a == 1", "true"}, {"b == 2", "false"}, {"on", "true"},
+                                         {"off", "false"},   {"FIVE", "5"},       {"LINES", "    x;\n    y;\n"},
+                                         {NULL, NULL}};
+    struct text text = {0};
+    specialize_branches(&text, source, known);
+    assert_false(text.failed);
+    assert_string_equal(text.bytes, expected);
+    free(text.bytes);
+}
+
+static void test_branches(void **state)
+{
+    (void)state;
+    check_branches("{\n    if (a == 1) {\n        x();\n        if (b == 2) {\n            y();\n       "
+                   " }\n    } else {\n"
+                   "        z();\n    }\n    if (b == 2) {\n        u();\n    } else {\n        v();\n  "
+                   "  }\n    if (c) {\n"
+                   "        w();\n    }\n}\n",
+                   "{\n    x();\n    v();\n    if (c) {\n        w();\n    }\n}\n");
+    check_branches(
+        "if (off) {\n    a;\n} else if (!on) {\n    b;\n} else if (on && !off) {\n    c;\n} else {\n    d;\n}\ne;\n",
+        "c;\ne;\n");
+    check_branches("if (c && on) {\n    LINES;\n}\n", "if (c) {\n    x;\n    y;\n}\n");
+    check_branches("if ((off || c) && !(d >= FIVE)) { // FIVE\n", "if (c && !(d >= 5)) { // FIVE\n");
+    check_branches("    vec3 x = (on ? a[i] : b).xyz + (off ? a : b + c); // on ? a : b\n",
+                   "    vec3 x = a[i].xyz + (b + c); // on ? a : b\n");
+    check_branches("    return f(on ? off ? a : b : c, d ? on ? e : f : g) * (d ? FIVE : s.FIVE);\n",
+                   "    return f(b, d ? e : g) * (d ? 5 : s.FIVE);\n");
+}
+
+static void test_unread(void **state)
+{
+    (void)state;
     char of[] = "STRUCT(s)\n{\n    int used;\n    int chain;\n    int other; // .other\n};\n",
          by[] = "int f(s a, t b)\n{\n    a.used = 1;\n    a.chain = a.other;\n    a.other = 2;\n    b.chain = 3;\n"
                 "    return a.used + b.chain;\n}\n";
-    const struct source_span spans[] = {{of, of + strlen(of)}, {by, by + strlen(by)}};
-    assert_true(specialize_members(spans, 2)); // chain, then the member that only chain read
-    assert_true(specialize_members(spans, 2) || !strstr(of, "other;"));
-    assert_false(specialize_members(spans, 2));
+    const struct source_span spans[] = {{of, of, of + strlen(of), false}, {by, by, by + strlen(by), false}};
+    assert_true(specialize_unread(spans, 2)); // chain, then the member that only chain read
+    assert_true(specialize_unread(spans, 2) || !strstr(of, "other;"));
+    assert_false(specialize_unread(spans, 2));
     assert_non_null(strstr(of, "int used;"));
     assert_null(strstr(of, "int chain;"));
     assert_null(strstr(of, "int other;"));
@@ -176,6 +193,33 @@ static void test_specialize(void **state)
     assert_non_null(strstr(by, "    a.used = 1;\n"));
     assert_non_null(strstr(by, "    b.chain = 3;\n")); // of another struct
     assert_non_null(strstr(by, "a.used + b.chain"));
+}
+
+// Copies a text without what was erased.
+static const char *remaining(char *to, const char *from)
+{
+    char *at = to;
+    for (; *from; from++)
+        if (*from != SPECIALIZE_ERASED)
+            *at++ = *from;
+    *at = 0;
+    return to;
+}
+
+static void test_unread_parameters(void **state)
+{
+    (void)state;
+    char f[] = "// `b` is not read.\n// `c` is.\nint f(int a, int b, out int d, int c)\n{\n    int e = a;\n    d = "
+               "2;\n    return c;\n}\n",
+         g[] = "void g(int q)\n{\n    int r = 1; // r\n    int s = 2;\n    if (q) {\n        r = r + 1;\n    }\n"
+               "    x = f(1, h(s, 2),\n          s, q);\n}\n",
+         rest[512];
+    char *of_f = strstr(f, "int f");
+    const struct source_span spans[] = {{f, of_f, f + strlen(f), true}, {g, g, g + strlen(g), true}};
+    while (specialize_unread(spans, 2))
+        ;
+    assert_string_equal(remaining(rest, f), "// `c` is.\nint f(out int d, int c)\n{\n    d = 2;\n    return c;\n}\n");
+    assert_string_equal(remaining(rest, g), "void g(int q)\n{\n    int s = 2;\n    x = f(s, q);\n}\n");
 }
 
 static void write_file(const char *folder, int number, const char *ending, const char *text)
@@ -294,12 +338,10 @@ static void test_reference_compiler_accepts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_only_needed_code),
-        cmocka_unit_test(test_unread_members_are_removed),
-        cmocka_unit_test(test_specialize),
-        cmocka_unit_test(test_exclusive_choices),
-        cmocka_unit_test(test_unknown_names_are_errors),
-        cmocka_unit_test(test_reference_compiler_accepts),
+        cmocka_unit_test(test_only_needed_code),       cmocka_unit_test(test_unread_members_are_removed),
+        cmocka_unit_test(test_masks_of_two_materials), cmocka_unit_test(test_branches),
+        cmocka_unit_test(test_exclusive_choices),      cmocka_unit_test(test_unread),
+        cmocka_unit_test(test_unread_parameters),      cmocka_unit_test(test_reference_compiler_accepts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -118,19 +118,22 @@ static void complete_defaults(struct contract *c)
             *colors[i].color = (struct default_color){COLOR_GIVEN, {1, 1, 1}};
 }
 
+// The space of the lights: that of the first name with a light, else that of the default light, else the shader's.
+static lam_light_frame light_frame_of(const struct contract *c)
+{
+    const struct contract_defaults *d = &c->defaults;
+    for (const struct contract_name *n = c->names; n->name; n++)
+        if (n->group >= 0 && role_of(n->semantic)->uses & ROLE_IN_SPACE)
+            return n->space;
+    return d->has_direction || d->has_position ? (lam_light_frame)d->light_space : c->space;
+}
+
 // What follows from the names.
 static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
 {
     struct contract *c = r->contract;
     const struct contract_defaults *d = &c->defaults;
-    c->light_frame = d->has_direction || d->has_position ? (lam_light_frame)d->light_space : c->space;
-    for (const struct contract_name *n = c->names; n->name; n++) {
-        bool placed = n->group >= 0 && role_of(n->semantic)->uses & ROLE_IN_SPACE;
-        if (placed) {
-            c->light_frame = n->space;
-            break;
-        }
-    }
+    c->light_frame = light_frame_of(c);
     bool position = has(c, SEMANTIC_LIGHT_POSITION) || has(c, SEMANTIC_LIGHT_X),
          direction = has(c, SEMANTIC_LIGHT_DIRECTION) || has(c, SEMANTIC_LIGHT_TRAVEL) || d->has_direction;
     position = position || d->has_position;

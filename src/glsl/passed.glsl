@@ -1,0 +1,8 @@
+// passed.glsl: functions that a program may replace, so that they keep all of their parameters.
+
+// The share of light i that reaches the point p in eye space: 1 where nothing is in the way. The program sets it for a whole
+// draw; a shadow map of its own is looked up here.
+float passed_light(int i, vec3 p)
+{
+    return lights_in_texture ? list_texel(light_list, i * LIGHT_TEXELS).w : passed[i];
+}

@@ -9,7 +9,7 @@ MAKEFLAGS += --no-print-directory
 # looks there. The compiler knows the folder too; it prints nothing where there is none.
 folders  = --prefix=$(prefix) $$(gcc -print-multiarch 2>/dev/null | sed 's:.:--libdir=lib/&:')
 
-.PHONY: all demo web site test test-more test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall deb static release clean help
+.PHONY: all demo web python site test test-more test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall deb static release clean help
 
 all: $(build)/lambent
 
@@ -17,6 +17,7 @@ help:
 	@echo 'make            builds $(build)/lambent (missing Debian packages are installed first)'
 	@echo 'make demo       builds and renders a textured cow with a glaze to out/demo.png'
 	@echo 'make web        builds the WebAssembly module and the page, in build-web/'
+	@echo 'make python     builds the Python package as a wheel, in build-python/ (docs/python.md)'
 	@echo 'make site       writes README and docs/ as pages, in build-site/; figures open in the Lab'
 	@echo 'make test       builds with gcc, and with clang and sanitizers, and runs the tests of every change (docs/testing.md)'
 	@echo 'make test-more  what continuous integration runs besides: clang, threads, the page in a browser, larger shares of tables'
@@ -60,11 +61,17 @@ web:
 	@scripts/setup.sh build web
 	@python3 web/build.py build-web
 
+# Debian's Python, whatever another one is called python3: it has Debian's NumPy and cffi.
+python: $(build)/lambent
+	@scripts/setup.sh python
+	@/usr/bin/python3 python/make_wheel.py $(build) build-python
+
 site: $(build)/lambent web
 	@python3 scripts/make_site.py $(build)/lambent build-site
 
 test:
 	@scripts/setup.sh build test
+	@scripts/setup.sh python || true # optional: without it the Python package is not tested
 	@python3 tests/run.py
 
 test-more:

@@ -1,0 +1,18 @@
+"""Lambent turns 3D models into correctly lit pictures: the same bytes on every machine, without a graphics card.
+
+>>> import lambent
+>>> picture = lambent.render("teapot", 64)
+>>> picture.shape, picture.dtype.name
+((64, 64, 4), 'uint8')
+>>> picture.save("/tmp/teapot.png")
+"""
+from ._core import (BadModel, BadValue, CannotRead, CannotWrite, Cancelled, Error, FileNotFound, LimitReached, OutOfMemory, TimeLimit, Unsupported, text_of)
+from ._fields import Camera, Light, Material
+from ._mesh import Mesh
+from ._native import lib as _lib
+from ._picture import Picture
+from ._scene import Scene, load, render
+
+__version__ = text_of(_lib.lam_version())
+__all__ = ["render", "load", "Scene", "Mesh", "Material", "Light", "Camera", "Picture", "Error", "BadValue", "CannotRead", "FileNotFound", "BadModel",
+           "Unsupported", "LimitReached", "OutOfMemory", "TimeLimit", "CannotWrite", "Cancelled"]

@@ -1,0 +1,140 @@
+"""_core.py: calls of the library: errors as exceptions, and work that Ctrl-C stops."""
+import os
+import queue
+import threading
+import time
+
+from ._native import ffi, lib
+
+
+class Error(Exception):
+    """An error of Lambent. The text is one sentence: the file, the position in it, what was found and what was expected."""
+
+
+class BadValue(Error, ValueError):
+    """An argument is out of its range, or does not go with another one."""
+
+
+class CannotRead(Error, OSError):
+    """A file cannot be read."""
+
+
+class FileNotFound(CannotRead, FileNotFoundError):
+    """The model's file does not exist."""
+
+
+class BadModel(CannotRead):
+    """A file is cut short, or not of the format that it claims."""
+
+
+class Unsupported(Error, NotImplementedError):
+    """The file or the option is understood, but this build or machine does not support it."""
+
+
+class LimitReached(Error):
+    """A limit was reached: triangles, pixels, layers, the size of a file …"""
+
+
+class OutOfMemory(LimitReached, MemoryError):
+    """The machine's memory, or `memory_limit`, does not suffice."""
+
+
+class TimeLimit(LimitReached, TimeoutError):
+    """The call took longer than `time_limit`."""
+
+
+class CannotWrite(Error, OSError):
+    """The output cannot be written."""
+
+
+class Cancelled(Error):
+    """The progress callback returned False."""
+
+
+CLASSES = {lib.LAM_BAD_ARGUMENT: BadValue, lib.LAM_CANNOT_READ: BadModel, lib.LAM_UNSUPPORTED: Unsupported, lib.LAM_LIMIT: LimitReached,
+           lib.LAM_CANNOT_WRITE: CannotWrite, lib.LAM_CANCELLED: Cancelled}
+
+
+def text_of(pointer):
+    """A string of the library; NULL is None."""
+    return None if pointer == ffi.NULL else ffi.string(pointer).decode(errors="replace")
+
+
+def every(function, *args):
+    """What a function of the library returns for 0, 1, … until NULL: strings and rows of tables."""
+    index = 0
+    while (item := function(*args, index)) != ffi.NULL:
+        yield text_of(item) if ffi.typeof(item) is ffi.typeof("char *") else item
+        index += 1
+
+
+def exception(error, path=None):
+    """The exception of a lam_error."""
+    sentence, kind = text_of(error.text), CLASSES.get(error.code, Error)
+    if kind is BadModel and path and path != "-" and not os.path.exists(path):
+        kind = FileNotFound
+    if kind is LimitReached:
+        kind = TimeLimit if "time limit" in sentence else OutOfMemory if "memory" in sentence else kind
+    return kind(sentence)
+
+
+def call(function, *args, path=None):
+    """Calls a function of the library whose last parameter is the error; it fails with false, NULL or a number below 0."""
+    error = ffi.new("lam_error *")
+    result = function(*args, error)
+    if result is False or (isinstance(result, int) and result < 0) or (isinstance(result, ffi.CData) and result == ffi.NULL):
+        raise exception(error, path)
+    return result
+
+
+@ffi.def_extern(onerror=lambda *caught: None)
+def tell_progress(user, share, step):
+    ffi.from_handle(user).put((share, text_of(step)))
+
+
+class Run:
+    """The limits of one run of calls, and the flag that stops it."""
+
+    def __init__(self, limits, told):
+        self.flag, self.start, self.limits = ffi.new("lam_cancel *"), time.monotonic(), limits
+        self.handle = told and ffi.new_handle(told)
+
+    @property
+    def control(self):
+        """A lam_control for the next call, with the time that is left."""
+        control = ffi.new("lam_control *", self.limits[0] if self.limits else {})
+        control.cancel = self.flag
+        if control.time_limit_s > 0:
+            control.time_limit_s = max(control.time_limit_s - (time.monotonic() - self.start), 1e-9)
+        if self.handle:
+            control.progress, control.user = lib.tell_progress, self.handle
+        return control
+
+
+def run(work, limits=None, progress=None):
+    """Returns work(run). It is done in a thread of its own while this one waits, so that Ctrl-C is seen at once; the library's calls
+    release the GIL. `progress(share, step)` is called in this thread. An exception here, Ctrl-C's too, stops the work and is raised then."""
+    told, result, stopped = queue.SimpleQueue(), {}, None
+    task = Run(limits, told if progress else None)
+
+    def body():
+        try:
+            result["value"] = work(task)
+        except BaseException as error:  # raised in the caller's thread
+            result["error"] = error
+        told.put(None)
+
+    threading.Thread(target=body, daemon=True).start()
+    while True:
+        try:
+            step = told.get()
+            if step is None:
+                break
+            if not stopped and progress(*step) is False:
+                lib.lam_cancel_raise(task.flag)
+        except BaseException as error:
+            stopped = stopped or error
+            lib.lam_cancel_raise(task.flag)
+    if stopped or "error" in result:
+        raise stopped or result["error"]
+    return result["value"]

@@ -1,0 +1,79 @@
+"""_picture.py: pictures as NumPy arrays that know how to be shown and saved."""
+import os
+import sys
+import tempfile
+import webbrowser
+
+import numpy as np
+
+from ._core import BadValue, call
+from ._fields import choose, words_of
+from ._native import ffi, lib
+
+
+class Picture(np.ndarray):
+    """A picture: a read-only NumPy array, height × width × 4 (red, green, blue, alpha; row 0 is the top one).
+
+    8 bits are sRGB-encoded and not premultiplied; floats (`floats=True`) are linear and premultiplied. A part of a picture, such as
+    picture[100:200, 50:150], is a picture too. Other arrays become one by `array.view(lambent.Picture)`."""
+
+    raw = False  # the numbers are no sRGB colours
+    camera = None  # the Camera that was used
+    warnings = ()  # sentences about problems of the model that did not stop it
+
+    def __array_finalize__(self, other):
+        for name in ("raw", "camera", "warnings"):
+            setattr(self, name, getattr(other, name, getattr(Picture, name)))
+
+    def __array_wrap__(self, array, context=None, return_scalar=False):
+        """What is computed from pictures are plain numbers and arrays."""
+        return np.asarray(array)[()]
+
+    def _image(self):
+        """A lam_image of the pixels, and the array that holds them."""
+        formats = {np.dtype(np.uint8): lib.LAM_RGBA8, np.dtype(np.float32): lib.LAM_RGBA32F}
+        if self.ndim != 3 or self.shape[2] != 4 or self.dtype not in formats:
+            raise BadValue("Picture: found an array of %s numbers of the type %s, expected height x width x 4 of uint8 or float32" % (
+                "x".join(map(str, self.shape)), self.dtype))
+        pixels = np.ascontiguousarray(self)
+        return ffi.new("lam_image *", {"width": self.shape[1], "height": self.shape[0], "format": formats[self.dtype],
+                                       "pixels": ffi.from_buffer(pixels)}), pixels
+
+    def _params(self, compress, quality):
+        return ffi.new("lam_save_params *", {"raw": self.raw, "compress": choose("compress", words_of("lam_compress"), compress), "quality": quality})
+
+    def encode(self, format: str = "png", *, compress: str = "fast", quality: int = 0) -> bytes:
+        """The bytes of a file: png, ppm, jpg or webp of 8 bits, pfm or exr of floats. `quality` of jpg and webp is 1 to 100."""
+        out, (image, pixels) = ffi.new("lam_bytes *"), self._image()
+        call(lib.lam_image_encode, image, format.encode(), self._params(compress, quality), out)
+        try:
+            return ffi.buffer(out.data, out.size)[:]
+        finally:
+            lib.lam_bytes_free(out)
+
+    def png(self) -> bytes:
+        """The bytes of a PNG file: the same as the program's for the same picture."""
+        return self.encode("png")
+
+    def save(self, path: "str | os.PathLike[str]", *, compress: str = "fast", quality: int = 0) -> None:
+        """Writes a file whose ending names the format; it appears whole or not at all."""
+        image, pixels = self._image()
+        call(lib.lam_image_save, image, os.fsencode(path), self._params(compress, quality))
+
+    @property
+    def hash(self) -> str:
+        """The hash of the PNG file, as journals and reports of the program have it: "xxh64:…"."""
+        png = self.png()
+        return "xxh64:%016x" % lib.xxh64_of(png, len(png))
+
+    def show(self) -> None:
+        """Shows the picture: in the notebook, or in the browser."""
+        ipython = sys.modules.get("IPython")
+        if ipython and ipython.get_ipython():
+            return ipython.display.display(self)
+        with tempfile.NamedTemporaryFile(prefix="lambent-", suffix=".png", delete=False) as file:
+            file.write(self.png())
+        webbrowser.open("file://" + file.name)
+
+    def _repr_png_(self):
+        return self.png() if self.ndim == 3 and self.shape[2] == 4 and self.dtype == np.uint8 and self.size else None

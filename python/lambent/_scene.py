@@ -1,0 +1,336 @@
+"""_scene.py: scenes, and the call that turns a model into a picture."""
+import base64
+import html
+import json
+import os
+import pathlib
+import sys
+import threading
+
+import numpy as np
+
+from ._core import BadModel, BadValue, Unsupported, call, every, run, text_of
+from ._fields import Camera, Light, Material, color, words_of
+from ._mesh import meshes_of
+from ._native import ffi, lib
+from ._options import CHANGES, KEYWORDS, OTHERS, STRUCTS, Options, describe_keywords
+from ._picture import Picture
+
+
+def pair_of(size):
+    """Width and height in pixels, from one number or two."""
+    pair = list(size) if hasattr(size, "__iter__") else [size] * 2
+    if len(pair) != 2 or not all(isinstance(side, (int, np.integer)) and 1 <= side <= 65535 for side in pair):
+        raise BadValue("size: found %r, expected one or two whole numbers from 1 to 65535" % (size,))
+    return int(pair[0]), int(pair[1])
+
+
+class Scene:
+    """Meshes, materials, objects and lights together: `Scene()` is empty, `lambent.load(path)` reads a file.
+
+    While no thread changes it, any number of threads may draw it."""
+
+    def __init__(self, _handle=None):
+        self._handle = ffi.gc(_handle or call(lib.lam_scene_make), lib.lam_scene_free)
+        self._lock, self._page, self._path = threading.Lock(), None, None
+
+    def add(self, model: "Model", material: "Material | str | None" = None, transform: "Array | None" = None, name: "str | None" = None) -> "Scene":
+        """Adds an object: a Mesh or an object of meshio, trimesh …, arrays (vertices, faces), or the name of a built-in shape. `transform` is a 4×4
+        matrix for column vectors. Returns the scene."""
+        meshes = [(model, None)] if isinstance(model, str) else meshes_of(model)
+        if meshes is None:
+            raise BadValue("Scene.add: found %s, expected a Mesh, an object with vertices and faces, arrays, or a shape's name" % type(model).__name__)
+        for mesh, own in meshes:
+            item = ffi.new("lam_object *", lib.lam_object_default())
+            used = material if material is not None else getattr(mesh, "material", None)
+            used = Material(used) if isinstance(used, str) else used
+            item.mesh = call(lib.lam_scene_add_shape, self._handle, mesh.encode(), ffi.NULL) if isinstance(mesh, str) else mesh._add_to(self._handle)
+            if used is not None:
+                item.material = call(lib.lam_scene_add_material, self._handle, used.struct)
+            matrix = np.eye(4) if own is None else np.asarray(own, float)
+            matrix = (np.eye(4) if transform is None else np.asarray(transform, float)) @ matrix
+            if matrix.shape != (4, 4):
+                raise BadValue("transform: found the shape %s, expected 4x4" % (matrix.shape,))
+            item.transform.m = matrix.tolist()
+            label = ffi.new("char[]", (name or getattr(mesh, "name", None) or (mesh if isinstance(mesh, str) else "")).encode())
+            item.name = label
+            call(lib.lam_scene_add_object, self._handle, item)
+        return self
+
+    @property
+    def materials(self) -> "list[Material]":
+        """Copies of the materials; `set_material` changes one."""
+        return [Material(lib.lam_scene_material(self._handle, index)[0]) for index in range(lib.lam_scene_material_count(self._handle))]
+
+    def set_material(self, material: "Material | str", index: "int | None" = None) -> None:
+        """Replaces the material with this number. None: all of them, and that of surfaces without one; words such as "shininess=9" change them."""
+        indices = range(lib.lam_scene_material_count(self._handle)) if index is None else [index]
+        for at in indices:
+            old = lib.lam_scene_material(self._handle, at)
+            if old == ffi.NULL:
+                raise BadValue("set_material: found the number %s, expected 0 to %d" % (at, lib.lam_scene_material_count(self._handle) - 1))
+            call(lib.lam_scene_set_material, self._handle, at, changed(old, material))
+        if index is None:
+            call(lib.lam_scene_set_default_material, self._handle, changed(lib.lam_scene_default_material(self._handle), material))
+
+    @property
+    def lights(self) -> "list[Light]":
+        """Copies of the lights. Assign a list to replace them: of Light or of the words of the program's option --light."""
+        return [Light(lib.lam_scene_light(self._handle, index)[0]) for index in range(lib.lam_scene_light_count(self._handle))]
+
+    @lights.setter
+    def lights(self, lights: "Light | str | Sequence[Light | str]"):
+        self._light(lights)
+
+    def _light(self, lights, camera=ffi.NULL):
+        made = [Light(light) if isinstance(light, str) else light for light in ([lights] if isinstance(lights, (str, Light)) else lights)]
+        lib.lam_scene_clear_lights(self._handle)
+        for light in made:
+            light._add_to(self._handle, ffi.new("lam_light_text_params *", {"camera": camera}))
+
+    @property
+    def ambient(self) -> "tuple[float, float, float]":
+        """Light from everywhere, added to that of the lights: a linear colour, default 0."""
+        found = lib.lam_scene_ambient(self._handle)
+        return found.r, found.g, found.b
+
+    @ambient.setter
+    def ambient(self, value: "Color"):
+        lib.lam_scene_set_ambient(self._handle, color("ambient", value)[:3])
+
+    @property
+    def up(self) -> str:
+        """The up axis: "x", "y", "z", "-x", "-y" or "-z". It turns the view, not the coordinates."""
+        return text_of(lib.lam_up_name(lib.lam_scene_up(self._handle)))
+
+    @up.setter
+    def up(self, value: str):
+        words = words_of("lam_up")
+        if value not in words:
+            raise BadValue("up: found %r, expected %s" % (value, ", ".join(words)))
+        lib.lam_scene_set_up(self._handle, words[value])
+
+    def set_environment(self, name: str, rotation: float = 0.0, _control=ffi.NULL, _mode=lib.LAM_COLOR_SRGB) -> None:
+        """Surrounds the scene by a built-in environment ("sky", "studio") or by a picture (2:1 or a cross), turned by degrees about the up axis."""
+        if name in every(lib.lam_environment_built_in_name):
+            made = call(lib.lam_environment_built_in, name.encode())
+        else:
+            made = call(lib.lam_environment_load, os.fsencode(name), _mode, _control, path=name)
+        try:
+            call(lib.lam_scene_set_environment, self._handle, made, np.radians(rotation))
+        finally:
+            lib.lam_environment_free(made)
+
+    @property
+    def bounds(self) -> "tuple[tuple[float, float, float], tuple[float, float, float]]":
+        """Two corners of the box around the triangles, in world space."""
+        low, high = ffi.new("lam_vec3 *"), ffi.new("lam_vec3 *")
+        lib.lam_scene_bounds(self._handle, low, high)
+        return (low.x, low.y, low.z), (high.x, high.y, high.z)
+
+    @property
+    def triangles(self) -> int:
+        """The number of triangles of all objects."""
+        return lib.lam_scene_triangle_count(self._handle)
+
+    @property
+    def warnings(self) -> "tuple[str, ...]":
+        """Sentences about problems of the model that did not stop it."""
+        return tuple(every(lib.lam_scene_warning, self._handle))
+
+    def render(self, size=None, *, progress=None, **options):
+        """Draws the scene, which stays as it is. `rig` adds lights to those of the scene. `size` and `progress` are those of `lambent.render`.
+
+    Keyword arguments:
+"""
+        chosen, wanted = Options(options, STRUCTS, OTHERS), None if size is None else pair_of(size)
+        return run(lambda task: draw(self, chosen, wanted, task), chosen.control, progress)
+
+    def page(self) -> str:
+        """The interactive page with the model in it: one HTML file, as a text. `make web` builds the page and `make install` installs it; LAMBENT_PAGE names
+        it elsewhere. Unsupported: there is none, or the scene was not loaded from a file, or reads files of other folders."""
+        places = [os.environ.get("LAMBENT_PAGE"), *(prefix + "/share/lambent/lambent.html" for prefix in (sys.prefix, "/usr/local", "/usr"))]
+        place = next((place for place in places if place and os.path.exists(place)), None)
+        if not place or not self._path:
+            raise Unsupported("page: %s" % ("the scene was not loaded from a file" if place else "lambent.html is not installed (docs/python.md)"))
+        folder, inside = os.path.dirname(os.path.abspath(self._path)), ""
+        for path in filter(os.path.isfile, every(lib.lam_scene_file, self._handle)):
+            name = os.path.relpath(os.path.realpath(path), os.path.realpath(folder))
+            if name.startswith(".."):
+                raise Unsupported("page: %s lies outside of the folder of %s" % (path, self._path))
+            inside += '<script type="text/plain" class="inside-file" data-path="/%s">%s</script>\n' % (
+                html.escape(name), base64.b64encode(pathlib.Path(path).read_bytes()).decode())
+        words = json.dumps(["/" + os.path.basename(self._path)]).replace("<", "\\u003c")
+        before, end, after = pathlib.Path(place).read_text().rpartition("</body>")
+        return '%s%s<script type="application/json" id="inside-words">%s</script>\n%s%s' % (before, inside, words, end, after)
+
+    def _repr_html_(self):
+        """The page in a frame of a notebook. If the page is not installed, or the scene was not loaded from a file: a picture."""
+        try:
+            return '<iframe style="width: 100%%; height: 600px; border: 0" srcdoc="%s"></iframe>' % html.escape(self.page())
+        except Unsupported:
+            return '<img src="data:image/png;base64,%s">' % base64.b64encode(self.render(512).png()).decode()
+
+
+def changed(old, material):
+    """A lam_material: another one, or the old one changed by words."""
+    if isinstance(material, Material):
+        return material.struct
+    made = ffi.new("lam_material *", old[0])
+    call(lib.lam_material_parse, material.encode(), lib.LAM_COLOR_SRGB, made)
+    return made
+
+
+def load_scene(model, options, name, task, once=False):
+    """A Scene of whatever a model may be."""
+    path = os.fspath(model) if isinstance(model, (str, os.PathLike)) else None
+    params = ffi.new("lam_load_params *", options.load[0])
+    params.threads = options.get("threads", 0)
+    params.models_anywhere = options.get("models_anywhere", True)
+    params.override_color = "color_mode" in options
+    params.polygon_edges |= bool(options.get("wireframe") or options.get("edges"))
+    params.normals_when_drawn = once and not tangents_of(options.filled("lam_draw_params"))
+    if path is not None and lib.lam_shape_find(os.fsencode(path)) >= 0:
+        scene = Scene().add(path)
+    elif path is not None:
+        scene = Scene(call(lib.lam_scene_load, os.fsencode(path), params, task.control, path=path))
+        scene._path = path
+    elif isinstance(model, (bytes, bytearray, memoryview)):
+        data = ffi.from_buffer(model)
+        scene = Scene(call(lib.lam_scene_load_memory, data, len(data), os.fsencode(name) if name else ffi.NULL, params, task.control))
+    else:
+        scene = Scene().add(model)
+    if scene._path is None and not isinstance(model, (bytes, bytearray, memoryview)): # the loader has done it for files
+        lib.lam_scene_set_up(scene._handle, options.load.up)
+        if "normals" in options or "crease_angle" in options:
+            call(lib.lam_scene_make_normals, scene._handle, params.normals, params.crease_angle_rad, params.threads, task.control)
+    if not any(count(scene._handle) for count in (lib.lam_scene_triangle_count, lib.lam_scene_line_count, lib.lam_scene_point_count)):
+        raise BadModel("%s: found no triangles, lines or points, expected at least one to draw" % (path or name or "the model"))
+    return scene
+
+
+def tangents_of(params):
+    return lib.lam_reflection_describe(params.reflection).tangents
+
+
+def settings_of(scene, options):
+    """The scene file's settings (zero for others), and how the picture is drawn: by them and by the keywords."""
+    settings, params = ffi.new("lam_picture_settings *"), ffi.new("lam_draw_params *")
+    lib.lam_scene_picture_settings(scene._handle, settings)
+    params[0] = settings.draw
+    if "shading" in options:
+        params.stage = lib.LAM_STAGE_AUTO
+    if "ground" in options:
+        params.ground_color = (0, 0, 0)
+    given = options.filled("lam_draw_params", params[0])
+    if "stage" in options and "shading" not in options and given.stage in (lib.LAM_STAGE_APPLICATION, lib.LAM_STAGE_VERTEX):
+        given.shading = lib.LAM_SHADING_GOURAUD
+    return settings, given
+
+
+def camera_of(scene, options, settings, params, size):
+    """The camera of the keywords, of the scene file, or the fitted one."""
+    wanted, handle = options.get("camera"), scene._handle
+    if isinstance(wanted, str):
+        found, number = ffi.new("lam_camera *"), lib.lam_scene_find_camera(handle, wanted.encode())
+        call(lib.lam_camera_parse, wanted.encode(), handle, found) if "=" in wanted else None
+        if "=" not in wanted and not lib.lam_scene_camera(handle, number, found):
+            raise BadValue("camera: found %r, expected keys such as eye=2/1/4, or a camera of the file, which has %d" % (wanted, lib.lam_scene_camera_count(handle)))
+        return found
+    if wanted is not None:
+        return wanted._in_scene(handle)
+    views = [name for name, keyword in KEYWORDS.items() if keyword.struct == "lam_view"] + ["view"]
+    if settings.present & lib.LAM_SETTING_CAMERA and not any(name in options for name in views):
+        return ffi.new("lam_camera *", settings.camera)
+    return ffi.new("lam_camera *", lib.lam_camera_fit_ground(handle, params, *size, options.view, (0, 0, 0), ffi.NULL))
+
+
+def lit_by_file(scene, settings):
+    """Whether lights of a glTF file, in candela and lux, light the scene."""
+    kind = text_of(lib.lam_scene_format(scene._handle))
+    return lib.lam_scene_light_count(scene._handle) > 0 and (kind == "gltf" or kind == "scene" and not settings.present & lib.LAM_SETTING_LIGHTS)
+
+
+def change(scene, options, task, params):
+    """What keywords change of a scene that this call has loaded, before the camera is placed."""
+    if "material" in options:
+        scene.set_material(options.get("material"))
+    if params.rig > lib.LAM_RIG_NONE and "rig" in options or "light" in options:
+        lib.lam_scene_clear_lights(scene._handle)
+    if "light" in options and "rig" not in options:
+        params.rig = lib.LAM_RIG_NONE
+    if "environment" in options:
+        scene.set_environment(options.get("environment"), options.get("environment_rotation", 0), _control=task.control, _mode=params.color)
+
+
+def draw(scene, options, size, task, changes=False):
+    """The picture of a scene, as `lambent MODEL` draws it."""
+    handle = scene._handle
+    settings, params = settings_of(scene, options)
+    by_file = lit_by_file(scene, settings) and "light" not in options
+    if changes:
+        change(scene, options, task, params)
+        by_file = by_file and lib.lam_scene_light_count(handle) > 0
+    model = lib.lam_reflection_describe(params.reflection)
+    if params.rig == lib.LAM_RIG_AUTO and params.reflection and not model.microfacet and lib.lam_scene_light_count(handle) == 0:
+        params.rig = lib.LAM_RIG_STUDIO
+    if size is None:
+        size = (settings.width, settings.height) if settings.present & lib.LAM_SETTING_SIZE else (lib.LAM_RENDER_SIZE,) * 2
+    if model.tangents:
+        with scene._lock:
+            call(lib.lam_scene_make_tangents, handle, task.control)
+    camera = camera_of(scene, options, settings, params, size)
+    if changes and "light" in options:
+        scene._light(options.get("light"), camera)
+    if changes and "ambient" in options:
+        scene.ambient = options.get("ambient")
+    device = ffi.gc(call(lib.lam_device_cpu, ffi.new("lam_cpu_params *", {"threads": options.get("threads", 0)})), lib.lam_device_free)
+    light = lib.lam_output_is_light(params.output)
+    if light and (options.fit_exposure or by_file and "exposure" not in options and not settings.present & lib.LAM_SETTING_EXPOSURE):
+        params.light_cutoff, stops = params.light_cutoff or -1, ffi.new("double *")
+        params.exposure = 0
+        call(lib.lam_exposure_fit, device, handle, camera, params, *size, task.control, stops)
+        params.exposure = stops[0]
+    floats = options.get("floats", False)
+    picture = np.empty((size[1], size[0], 4), np.float32 if floats else np.uint8).view(Picture)
+    image = ffi.new("lam_image *", {"width": size[0], "height": size[1], "format": lib.LAM_RGBA32F if floats else lib.LAM_RGBA8,
+                                    "pixels": ffi.from_buffer(picture, require_writable=True)})
+    call(lib.lam_draw, device, handle, camera, params, image, task.control)
+    picture.raw = bool(params.color == lib.LAM_COLOR_RAW or not light and params.output != lib.LAM_OUTPUT_BASE_COLOR)
+    picture.camera, picture.warnings = Camera(camera[0]), scene.warnings
+    picture.flags.writeable = False
+    return picture
+
+
+def load(model, *, name=None, progress=None, **options):
+    """Reads a model into a Scene; `model`, `name` and `progress` are those of `render`.
+
+    Keyword arguments:
+"""
+    chosen = Options(options, {"lam_load_params", "lam_control"})
+    return run(lambda task: load_scene(model, chosen, name, task), chosen.control, progress)
+
+
+def render(model, size=None, *, name=None, progress=None, **options):
+    """Turns a model into a Picture, the one that `lambent MODEL` draws.
+
+    model     the path of a model or scene file, the name of a built-in shape, the bytes of a file, a Scene, a Mesh, arrays (vertices, faces), or an
+              object with vertices and faces, such as those of trimesh, meshio and Open3D
+    size      pixels: one number or (width, height); None: those of a scene file, or 1024
+    name      of bytes: stands for the file in errors, and its ending helps to find the format
+    progress  is called with the share done, 0 to 1, and the name of the step; if it returns False, the call raises Cancelled
+
+    Raises Error: BadValue, FileNotFound, BadModel, Unsupported, LimitReached (OutOfMemory, TimeLimit), Cancelled. Other threads run meanwhile, and
+    Ctrl-C stops the call.
+
+    Keyword arguments; None is the default:
+"""
+    if isinstance(model, Scene):
+        return model.render(size, progress=progress, **options)
+    chosen, wanted = Options(options, None, {**OTHERS, **CHANGES}), None if size is None else pair_of(size)
+    return run(lambda task: draw(load_scene(model, chosen, name, task, once=True), chosen, wanted, task, changes=True), chosen.control, progress)
+
+
+render.__doc__ += describe_keywords((OTHERS, CHANGES))
+load.__doc__ += describe_keywords((), {"lam_load_params", "lam_control"})
+Scene.render.__doc__ += describe_keywords((OTHERS,), STRUCTS)

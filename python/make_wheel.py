@@ -1,0 +1,30 @@
+#!/usr/bin/env python3
+"""make_wheel.py BUILD FOLDER: builds the wheel from the library in Meson's build folder BUILD, and leaves it and what it was made from in FOLDER (make python)."""
+import os
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def build(library, folder):
+    """The path of the new wheel. The same sources give the same bytes: the time in it is the commit's."""
+    folder = pathlib.Path(folder).resolve()
+    folder.mkdir(exist_ok=True)
+    for old in folder.glob("*.whl"):
+        old.unlink()
+    time = subprocess.run(["git", "-C", ROOT, "log", "-1", "--format=%ct"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
+    done = subprocess.run([sys.executable, "setup.py", "-q", "egg_info", "--egg-base", folder, "build", "--build-base", folder / "build", "bdist_wheel",
+                           "--bdist-dir", folder / "wheel", "--dist-dir", folder], cwd=ROOT / "python", stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          env={"SOURCE_DATE_EPOCH": time or "1", **os.environ, "LAMBENT_BUILD": str(pathlib.Path(library).resolve())})
+    if done.returncode:
+        raise RuntimeError(done.stdout)
+    return next(folder.glob("*.whl"))
+
+
+if __name__ == "__main__":
+    try:
+        print("The wheel: %s" % os.path.relpath(build(*sys.argv[1:3])))
+    except RuntimeError as error:
+        sys.exit("make_wheel.py: %s" % error)

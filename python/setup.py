@@ -1,0 +1,56 @@
+"""setup.py: builds the package `lambent` (docs/python.md). LAMBENT_BUILD names a build folder of Meson: its library becomes part of the extension, and
+the libraries that it needs lie beside it, with their licences. Without it the extension uses the installed liblambent (pkg-config)."""
+import ctypes.util
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+
+from setuptools import setup
+from setuptools.command.build_ext import build_ext
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+os.chdir(ROOT / "python")
+sys.path[:0] = [str(ROOT / "python"), str(ROOT / "scripts")]
+INSIDE = {"spng": "libspng0", "jansson": "libjansson4", "jpeg": "libjpeg62-turbo"}  # library, and the Debian package that has its licence
+
+
+class Build(build_ext):
+    def build_extension(self, extension):
+        build = os.environ.get("LAMBENT_BUILD")
+        if build:
+            extension.extra_objects = [str(pathlib.Path(build, "src/liblambent.a").resolve())]
+            extension.depends = extension.extra_objects
+            extension.libraries = [*INSIDE, "z", "m", "pthread", "dl"]
+            extension.extra_link_args = ["-s", "-Wl,--disable-new-dtags,-rpath,$ORIGIN/libs"]
+        else:
+            extension.extra_link_args = shlex.split(subprocess.check_output(["pkg-config", "--libs", "lambent"], text=True))
+        extension.extra_compile_args = ["-ffile-prefix-map=%s=." % ROOT]
+        super().build_extension(extension)
+
+    def run(self):
+        import describe
+        super().run()
+        folder = pathlib.Path(self.build_lib, "lambent")
+        describe.write_members(folder / "_members.py")
+        if os.environ.get("LAMBENT_BUILD"):
+            self.add_libraries(folder / "libs")
+        shutil.copy(ROOT / "LICENSE", folder)
+        describe.write_stubs(folder)
+
+    def add_libraries(self, folder):
+        """Copies the libraries that the extension loads, by the names by which it loads them, and their licences."""
+        folder.mkdir(parents=True, exist_ok=True)
+        linked = subprocess.check_output(["ldd", self.get_ext_fullpath("lambent._native")], text=True)
+        for library, package in INSIDE.items():
+            name, path = re.search(r"(lib%s\.so\S*) => (\S+)" % library, linked).groups()
+            if pathlib.Path(path).resolve().parent != folder.resolve():
+                shutil.copy(path, folder / name)
+            shutil.copy("/usr/share/doc/%s/copyright" % package, folder / (package + ".copyright"))
+
+
+setup(version=re.search(r"^  version: '(.*)',", (ROOT / "meson.build").read_text(), re.M)[1], cffi_modules=["binding.py:builder"],
+      cmdclass={"build_ext": Build}, options={"bdist_wheel": {"py_limited_api": "cp311"}})

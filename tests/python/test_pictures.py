@@ -1,0 +1,102 @@
+"""The pictures of the package are those of the program: the same bytes, and the same hash as its journal has."""
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+
+import lambent
+
+CASES = [
+    ("teapot", {}, []),
+    ("tests/models/cube.obj", {}, []),
+    ("tests/models/cube.stl", {"up": "y", "wireframe": True}, ["--up", "y", "--wireframe"]),
+    ("tests/models/cube.ply", {"edges": "all", "hidden_lines": "dash"}, ["--edges", "all", "--hidden-lines", "dash"]),
+    ("examples/models/spot.glb", {"azimuth": 150}, ["--azimuth", "150"]),
+    ("tests/models/scene.json", {}, []),
+    ("examples/shadows.json", {}, []),
+    ("torus", {"shadows": True, "ground": "checker"}, ["--shadows", "--ground", "checker"]),
+    ("torus", {"material": "ruby", "background": "#dfe6ee", "view": "iso"}, ["--material", "ruby", "--background", "#dfe6ee", "--view", "iso"]),
+    ("torus", {"light": ["point:position=-2r/3r/2r"], "ambient": 0.1}, ["--light", "point:position=-2r/3r/2r", "--ambient", "0.1"]),
+    ("torus", {"light": lambent.Light("spot", position=(2, 3, 1), cutoff=30, color="orange")}, ["--light", "spot:position=2/3/1,cutoff=30,color=orange"]),
+    ("torus", {"reflection": "kajiya-kay", "rig": "headlight"}, ["--reflection", "kajiya-kay", "--rig", "headlight"]),
+    ("examples/models/spot.glb", {"reflection": "phong"}, ["--reflection", "phong"]),
+    ("examples/models/spot.glb", {"environment": "sky", "environment_rotation": 40, "tone": "aces", "exposure": -1},
+     ["--environment", "sky", "--environment-rotation", "40", "--tone", "aces", "--exposure", "-1"]),
+    ("teapot", {"show": "n.l"}, ["--show", "n.l"]),
+    ("teapot", {"camera": lambent.Camera(eye=(2, 1, 4), fovy=40), "exposure": "auto"}, ["--camera", "eye=2/1/4,fovy=40", "--exposure", "auto"]),
+    ("teapot", {"stage": "vertex", "color_mode": "raw", "samples": 1}, ["--stage", "vertex", "--color-mode", "raw", "--samples", "1"]),
+    ("teapot", {"orthographic": True, "zoom": 2}, ["--projection", "orthographic", "--zoom", "2"]),
+]
+
+
+class SameAsTheProgram(unittest.TestCase):
+    def test_bytes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for number, (model, keywords, words) in enumerate(CASES):
+                with self.subTest(model=model, words=words):
+                    path = "%s/%d.png" % (folder, number)
+                    subprocess.run([os.environ["LAMBENT"], model, *words, "-s", "128x96", "-o", path, "-q"], check=True)
+                    self.assertEqual(lambent.render(model, (128, 96), **keywords).png(), pathlib.Path(path).read_bytes())
+
+    def test_default_size(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for model in ("tests/models/cube.stl", "tests/models/scene.json"):
+                subprocess.run([os.environ["LAMBENT"], model, "-o", folder + "/a.png", "-q"], check=True)
+                lambent.render(model).save(folder + "/b.png")
+                self.assertEqual(pathlib.Path(folder, "a.png").read_bytes(), pathlib.Path(folder, "b.png").read_bytes())
+
+    def test_hash_of_the_journal(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([os.environ["LAMBENT"], "batch", "tests/models/cube.obj", "-s", "512", "-o", folder + "/{stem}.png", "--journal", folder + "/journal", "-q"], check=True)
+            lines = [json.loads(line) for line in pathlib.Path(folder, "journal").read_text().splitlines()]
+            self.assertEqual([line["hash"] for line in lines if "hash" in line], [lambent.render("tests/models/cube.obj", 512).hash])
+
+    def test_bytes_of_a_model(self):
+        data = pathlib.Path("tests/models/cube.stl").read_bytes()
+        for kind in (bytes, bytearray, memoryview):
+            self.assertEqual(lambent.render(kind(data), 64, name="cube.stl").png(), lambent.render("tests/models/cube.stl", 64).png())
+        self.assertEqual(lambent.render(pathlib.Path("tests/models/cube.stl"), 64).png(), lambent.render("tests/models/cube.stl", 64).png())
+
+
+class Arrays(unittest.TestCase):
+    def test_read_only_and_without_a_copy(self):
+        picture = lambent.render("cube", (60, 40))
+        self.assertEqual((picture.shape, picture.dtype, picture.flags.writeable), ((40, 60, 4), np.uint8, False))
+        with self.assertRaises(ValueError):
+            picture[0, 0] = 0
+        self.assertTrue(np.shares_memory(picture, np.asarray(picture)))
+        self.assertIs(type(picture.mean()), np.float64)
+        self.assertIs(type(picture / 255), np.ndarray)
+
+    def test_part_and_others(self):
+        picture = lambent.render("cube", 64)
+        part = picture[10:30, 5:50]
+        with tempfile.TemporaryDirectory() as folder:
+            part.save(folder + "/part.png")
+            picture.save(pathlib.Path(folder, "a.jpg"), quality=80)
+            self.assertEqual(pathlib.Path(folder, "part.png").read_bytes(), np.ascontiguousarray(part).view(lambent.Picture).png())
+            self.assertEqual(pathlib.Path(folder, "a.jpg").read_bytes()[:2], b"\xff\xd8")
+        self.assertEqual(part.camera.eye, picture.camera.eye)
+        self.assertIsNone(picture[..., 0]._repr_png_())
+        self.assertEqual(picture._repr_png_()[:4], b"\x89PNG")
+        with self.assertRaisesRegex(lambent.BadValue, "found an array of 64x64 numbers"):
+            picture[..., 0].png()
+
+    def test_floats(self):
+        picture = lambent.render("cube", 32, floats=True, show="depth")
+        self.assertEqual(picture.dtype, np.float32)
+        self.assertGreater(picture[16, 16, 0], 1)
+        self.assertEqual(picture.encode("pfm")[:2], b"PF")
+
+    def test_camera_of_a_picture(self):
+        first = lambent.render("teapot", 64, azimuth=70)
+        self.assertEqual(first.hash, lambent.render("teapot", 64, camera=first.camera).hash)
+        self.assertNotEqual(first.hash, lambent.render("teapot", 64).hash)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -98,7 +98,7 @@ class Described:
     """A struct of the library. `help` of the class lists its attributes with meaning, range, unit and default."""
 
     def __setattr__(self, name, value):
-        if not hasattr(type(self), name) and name not in ("struct", "values", "maps"):
+        if not hasattr(type(self), name) and name not in ("struct", "values", "kept"):
             raise AttributeError("%s has no attribute %r; it has %s" % (type(self).__name__, name, ", ".join(self._keys())))
         super().__setattr__(name, value)
 
@@ -125,7 +125,7 @@ class Material(type("Fields", (Described,), fields_of(lib.lam_material_field))):
     reflectances as three or four numbers, one number, or a text, which is decoded from sRGB: "#ff8800", "orange"."""
 
     def __init__(self, words="", **fields):
-        self.maps = {}
+        self.kept = []
         self.struct = ffi.new("lam_material *", words if isinstance(words, ffi.CData) else lib.lam_material_default())
         if isinstance(words, str) and words:
             call(lib.lam_material_parse, words.encode(), lib.LAM_COLOR_SRGB, self.struct)
@@ -147,8 +147,8 @@ class Material(type("Fields", (Described,), fields_of(lib.lam_material_field))):
         picture = ffi.new("lam_image *", {"width": pixels.shape[1], "height": pixels.shape[0], "pixels": ffi.from_buffer(pixels),
                                           "format": lib.LAM_RGBA8 if pixels.shape[2] == 4 else lib.LAM_RGB8})
         texture = ffi.gc(call(lib.lam_texture_make, picture, 0 if colors else 1, ffi.NULL), lib.lam_texture_free)
-        self.maps[name] = ffi.new("lam_texture_map *", {"texture": texture, "transform": [[1, 0, 0], [0, -1, 1]]}), texture
-        self.struct.maps[number] = self.maps[name][0]
+        self.struct.maps[number] = ffi.new("lam_texture_map *", {"texture": texture, "transform": [[1, 0, 0], [0, -1, 1]]})
+        self.kept += [texture, self.struct.maps[number]]
 
     def _store(self, row, key, value):
         call(lib.lam_material_parse, ("%s=%s" % (key, written(value))).encode(), lib.LAM_COLOR_SRGB, self.struct)
@@ -166,7 +166,7 @@ class Light(type("Fields", (Described,), fields_of(lib.lam_light_field))):
     target, frame and name. Without a position a point or spot light stands at 1r/2r/3r, where r is the radius of the scene."""
 
     def __init__(self, type="point", **fields):
-        self.values, self.struct = None, ffi.new("lam_light *")
+        self.values, self.struct, self.kept = None, ffi.new("lam_light *"), []
         if isinstance(type, ffi.CData):
             self.struct[0] = type
         else:

@@ -25,16 +25,16 @@ class Member:
         numbers = "float" if kind.cname in ("float", "double") else "Sequence[str]" if kind.cname == "char * *" else "str" if kind.kind == "pointer" else "int"
         self.type = "Color" if kind.kind == "struct" else "bool" if kind.cname == "_Bool" else "Literal" if self.words else numbers
 
-    def store(self, struct, value, kept):
-        setattr(struct, self.member, self.value(value, kept))
+    def store(self, struct, value, kept, mode):
+        setattr(struct, self.member, self.value(value, kept, mode))
         if self.kind.cname == "char * *":
             struct.allowed_path_count = len(value)
 
-    def value(self, value, kept):
+    def value(self, value, kept, mode):
         if self.words:
             return choose(self.name, self.words, value)
         if self.type == "Color":
-            return color(self.name, value)
+            return color(self.name, value, mode)
         try:
             if self.type in ("str", "Sequence[str]"):
                 texts = [ffi.new("char[]", os.fsencode(str(text))) for text in ([value] if self.type == "str" else value)]
@@ -68,10 +68,10 @@ class Setting:
             found[text_of(word)], index = value[0], index + 1
         return found
 
-    def store(self, struct, value, kept):
-        setattr(struct, self.member, self.value(value))
+    def store(self, struct, value, kept, mode):
+        setattr(struct, self.member, self.value(value, mode))
 
-    def value(self, value):
+    def value(self, value, mode):
         row = self.row
         if self.flag:
             wanted = value if isinstance(value, bool) else choose(self.name, {"on": True, "off": False}, value)
@@ -84,7 +84,7 @@ class Setting:
         if self.words:
             return choose(self.name, self.words, value)
         if not self.number:
-            found = color(self.name, value)
+            found = color(self.name, value, mode)
             return found if row.type == lib.LAM_SETTING_RGBA else found[:3]
         whole = row.type == lib.LAM_SETTING_WHOLE
         try:
@@ -145,6 +145,7 @@ class Options:
                 known = "; it is for lambent.render with a model" if name in {*KEYWORDS, *OTHERS, *CHANGES} else ""
                 raise TypeError("unexpected keyword argument %r%s" % (name, "; did you mean %r?" % close[0] if close and not known else known))
         self.given, self.kept = {name: value for name, value in given.items() if value is not None}, []
+        self.mode = choose("color_mode", KEYWORDS["color_mode"].words, self.given.get("color_mode", "srgb"))
         self.fit_exposure = self.given.get("exposure") == "auto"
         if self.fit_exposure:
             del self.given["exposure"]
@@ -164,7 +165,7 @@ class Options:
         made = ffi.new(struct + " *", *([start] if start is not None else []))
         for name, value in self.given.items():
             if name in KEYWORDS and (KEYWORDS[name].struct == struct or KEYWORDS[name].name == "color_mode" and struct == "lam_load_params"):
-                KEYWORDS[name].store(made, value, self.kept)
+                KEYWORDS[name].store(made, value, self.kept, self.mode)
         return made
 
 

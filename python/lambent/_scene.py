@@ -9,7 +9,7 @@ import threading
 
 import numpy as np
 
-from ._core import BadModel, BadValue, Unsupported, call, every, run, text_of
+from ._core import BadModel, BadValue, OutOfMemory, Unsupported, call, every, run, text_of
 from ._fields import Camera, Light, Material, color, words_of
 from ._mesh import meshes_of
 from ._native import ffi, lib
@@ -60,33 +60,39 @@ class Scene:
     @property
     def materials(self) -> "list[Material]":
         """Copies of the materials; `set_material` changes one."""
-        return [Material(lib.lam_scene_material(self._handle, index)[0]) for index in range(lib.lam_scene_material_count(self._handle))]
+        return [self._copy(Material, lib.lam_scene_material, index) for index in range(lib.lam_scene_material_count(self._handle))]
 
-    def set_material(self, material: "Material | str", index: "int | None" = None) -> None:
+    def _copy(self, cls, item, index):
+        """A copy of an item; its names and maps are the scene's, which lives as long."""
+        made = cls(item(self._handle, index)[0])
+        made.kept.append(self._handle)
+        return made
+
+    def set_material(self, material: "Material | str", index: "int | None" = None, _mode=lib.LAM_COLOR_SRGB) -> None:
         """Replaces the material with this number. None: all of them, and that of surfaces without one; words such as "shininess=9" change them."""
         indices = range(lib.lam_scene_material_count(self._handle)) if index is None else [index]
         for at in indices:
             old = lib.lam_scene_material(self._handle, at)
             if old == ffi.NULL:
                 raise BadValue("set_material: found the number %s, expected 0 to %d" % (at, lib.lam_scene_material_count(self._handle) - 1))
-            call(lib.lam_scene_set_material, self._handle, at, changed(old, material))
+            call(lib.lam_scene_set_material, self._handle, at, changed(old, material, _mode))
         if index is None:
-            call(lib.lam_scene_set_default_material, self._handle, changed(lib.lam_scene_default_material(self._handle), material))
+            call(lib.lam_scene_set_default_material, self._handle, changed(lib.lam_scene_default_material(self._handle), material, _mode))
 
     @property
     def lights(self) -> "list[Light]":
         """Copies of the lights. Assign a list to replace them: of Light or of the words of the program's option --light."""
-        return [Light(lib.lam_scene_light(self._handle, index)[0]) for index in range(lib.lam_scene_light_count(self._handle))]
+        return [self._copy(Light, lib.lam_scene_light, index) for index in range(lib.lam_scene_light_count(self._handle))]
 
     @lights.setter
     def lights(self, lights: "Light | str | Sequence[Light | str]"):
         self._light(lights)
 
-    def _light(self, lights, camera=ffi.NULL):
+    def _light(self, lights, camera=ffi.NULL, mode=lib.LAM_COLOR_SRGB):
         made = [Light(light) if isinstance(light, str) else light for light in ([lights] if isinstance(lights, (str, Light)) else lights)]
         lib.lam_scene_clear_lights(self._handle)
         for light in made:
-            light._add_to(self._handle, ffi.new("lam_light_text_params *", {"camera": camera}))
+            light._add_to(self._handle, ffi.new("lam_light_text_params *", {"camera": camera, "color": mode}))
 
     @property
     def ambient(self) -> "tuple[float, float, float]":
@@ -172,12 +178,12 @@ class Scene:
             return '<img src="data:image/png;base64,%s">' % base64.b64encode(self.render(512).png()).decode()
 
 
-def changed(old, material):
+def changed(old, material, mode):
     """A lam_material: another one, or the old one changed by words."""
     if isinstance(material, Material):
         return material.struct
     made = ffi.new("lam_material *", old[0])
-    call(lib.lam_material_parse, material.encode(), lib.LAM_COLOR_SRGB, made)
+    call(lib.lam_material_parse, material.encode(), mode, made)
     return made
 
 
@@ -254,7 +260,7 @@ def lit_by_file(scene, settings):
 def change(scene, options, task, params):
     """What keywords change of a scene that this call has loaded, before the camera is placed."""
     if "material" in options:
-        scene.set_material(options.get("material"))
+        scene.set_material(options.get("material"), _mode=params.color)
     if params.rig > lib.LAM_RIG_NONE and "rig" in options or "light" in options:
         lib.lam_scene_clear_lights(scene._handle)
     if "light" in options and "rig" not in options:
@@ -281,9 +287,9 @@ def draw(scene, options, size, task, changes=False):
             call(lib.lam_scene_make_tangents, handle, task.control)
     camera = camera_of(scene, options, settings, params, size)
     if changes and "light" in options:
-        scene._light(options.get("light"), camera)
+        scene._light(options.get("light"), camera, params.color)
     if changes and "ambient" in options:
-        scene.ambient = options.get("ambient")
+        lib.lam_scene_set_ambient(handle, color("ambient", options.get("ambient"), params.color)[:3])
     device = ffi.gc(call(lib.lam_device_cpu, ffi.new("lam_cpu_params *", {"threads": options.get("threads", 0)})), lib.lam_device_free)
     light = lib.lam_output_is_light(params.output)
     if light and (options.fit_exposure or by_file and "exposure" not in options and not settings.present & lib.LAM_SETTING_EXPOSURE):
@@ -291,7 +297,9 @@ def draw(scene, options, size, task, changes=False):
         params.exposure = 0
         call(lib.lam_exposure_fit, device, handle, camera, params, *size, task.control, stops)
         params.exposure = stops[0]
-    floats = options.get("floats", False)
+    floats, needed = options.get("floats", False), 4 * size[0] * size[1] * (4 if options.get("floats") else 1)
+    if needed > (options.control.memory_limit_bytes or lib.lam_memory_available()):
+        raise OutOfMemory("size: a picture of %dx%d pixels needs %.1f MB, more than the memory limit or the machine's memory" % (*size, needed / 1e6))
     picture = np.empty((size[1], size[0], 4), np.float32 if floats else np.uint8).view(Picture)
     image = ffi.new("lam_image *", {"width": size[0], "height": size[1], "format": lib.LAM_RGBA32F if floats else lib.LAM_RGBA8,
                                     "pixels": ffi.from_buffer(picture, require_writable=True)})

@@ -110,6 +110,14 @@ class Scenes(unittest.TestCase):
         self.assertEqual((scene.up, scene.ambient), ("z", (0.5, 0.5, 0.5)))
         self.assertRaises(lambent.BadValue, scene.set_material, "ruby", 7)
 
+    def test_copies_outlive_their_scene(self):
+        material, light = lambent.load("examples/models/spot.glb").materials[0], lambent.load("examples/shadows.json").lights[0]
+        scene = lambent.Scene().add("cube", material)
+        scene.lights = [light]
+        self.assertEqual(scene.materials[0].name, material.name)
+        self.assertEqual(scene.lights[0].type, light.type)
+        scene.render(32)
+
     def test_page(self):
         scene = lambent.load("tests/models/cube.obj")
         with tempfile.TemporaryDirectory() as folder:

@@ -28,7 +28,8 @@ CASES = [
      ["--environment", "sky", "--environment-rotation", "40", "--tone", "aces", "--exposure", "-1"]),
     ("teapot", {"show": "n.l"}, ["--show", "n.l"]),
     ("teapot", {"camera": lambent.Camera(eye=(2, 1, 4), fovy=40), "exposure": "auto"}, ["--camera", "eye=2/1/4,fovy=40", "--exposure", "auto"]),
-    ("teapot", {"stage": "vertex", "color_mode": "raw", "samples": 1}, ["--stage", "vertex", "--color-mode", "raw", "--samples", "1"]),
+    ("teapot", {"stage": "vertex", "color_mode": "raw", "samples": 1, "background": "#456", "material": "#fa0", "ambient": "#111"},
+     ["--stage", "vertex", "--color-mode", "raw", "--samples", "1", "-b", "#456", "--material", "#fa0", "--ambient", "#111"]),
     ("teapot", {"orthographic": True, "zoom": 2}, ["--projection", "orthographic", "--zoom", "2"]),
 ]
 

@@ -21,10 +21,12 @@ cd /tmp
 lambent deflated.3mf draco.gltf -q -s 64 -o '{stem}.png'
 install "$folder"/liblambent0_*.deb "$folder"/liblambent-check0_*.deb "$folder"/liblambent-dev_*.deb "$folder"/lambent-doc_*.deb gcc libc6-dev pkg-config
 sh "$tree/packaging/debian/tests/library"
-echo "size installed: $(dpkg-query -W -f '${Package} ${Installed-Size} kB\n' lambent lambent-draco lambent-doc 'liblambent*' | tr '\n' ';')"
+install "$folder"/python3-lambent_*.deb
+sh "$tree/packaging/debian/tests/python"
+echo "size installed: $(dpkg-query -W -f '${Package} ${Installed-Size} kB\n' lambent lambent-draco lambent-doc python3-lambent 'liblambent*' | tr '\n' ';')"
 # Everything that they installed is gone afterwards.
-dpkg-query -L lambent lambent-draco lambent-doc liblambent0 liblambent-check0 liblambent-dev | sort -u >/tmp/files
-apt-get purge -y -q lambent lambent-draco lambent-doc liblambent0 liblambent-check0 liblambent-dev >/tmp/apt.log 2>&1 || { cat /tmp/apt.log; exit 1; }
+dpkg-query -L lambent lambent-draco lambent-doc python3-lambent liblambent0 liblambent-check0 liblambent-dev | sort -u >/tmp/files
+apt-get purge -y -q lambent lambent-draco lambent-doc python3-lambent liblambent0 liblambent-check0 liblambent-dev >/tmp/apt.log 2>&1 || { cat /tmp/apt.log; exit 1; }
 left=$(while read -r path; do if [ -f "$path" ] || [ -L "$path" ]; then echo "$path"; fi; done </tmp/files | grep -v '^/lib' || true)
 if [ -n "$left" ] || find / -xdev -name '*lambent*' -not -path '/lambent*' -not -path '/debs*' -not -path '/shared*' -not -path '/proc/*' -not -path '/tmp/*' | grep .; then
     echo "left behind: $left" >&2

@@ -16,7 +16,7 @@ def comment_of(member):
     text = " ".join(line.strip() for line in member.doc).strip()
     for radians, degrees in IN_DEGREES if member.name.endswith("_rad") else ():
         text = text.replace(radians, degrees)
-    return re.sub(r"\blam_\w+\.|LAM_[A-Z]+_(?=[A-Z])", "", text)
+    return re.sub(r"\blam_\w+\.(?=\w)|LAM_[A-Z]+_(?=[A-Z])", "", text).replace("NULL", "None")
 
 
 def write_members(path):

@@ -43,8 +43,8 @@ def written(value):
 
 def range_of(low, high):
     if math.isinf(high):
-        return None if math.isinf(low) else "%g or more" % low
-    return "%g to %g" % (low, high)
+        return None if math.isinf(low) else "%.10g or more" % low
+    return "%.10g to %.10g" % (low, high)
 
 
 def plain(numbers):

@@ -1,4 +1,5 @@
 """_core.py: calls of the library: errors as exceptions, and work that Ctrl-C stops."""
+import contextlib
 import os
 import queue
 import threading
@@ -90,6 +91,30 @@ def call(function, *args, path=None):
 @ffi.def_extern(onerror=lambda *caught: None)
 def tell_progress(user, share, step):
     ffi.from_handle(user).put((share, text_of(step)))
+
+
+class Access:
+    """Many threads read a scene at a time, or one changes it."""
+
+    def __init__(self):
+        self.free, self.readers = threading.Condition(), 0
+
+    @contextlib.contextmanager
+    def shared(self):
+        with self.free:
+            self.readers += 1
+        try:
+            yield
+        finally:
+            with self.free:
+                self.readers -= 1
+                self.free.notify_all()
+
+    @contextlib.contextmanager
+    def alone(self):
+        with self.free:
+            self.free.wait_for(lambda: not self.readers)
+            yield
 
 
 class Run:

@@ -22,6 +22,8 @@ class Member:
         name = next((member.removesuffix(unit) for unit in UNITS if member.endswith(unit) and not member.startswith("file_limit")), member)
         self.name, self.doc = OTHER_NAMES.get(name, name), MEMBERS[struct][member]
         self.words = words_of(kind.cname.removeprefix("enum ")) if kind.kind == "enum" else None
+        if member == "rig":
+            self.words = {"file" if word == "none" else word: value for word, value in self.words.items()}
         numbers = "float" if kind.cname in ("float", "double") else "Sequence[str]" if kind.cname == "char * *" else "str" if kind.kind == "pointer" else "int"
         self.type = "Color" if kind.kind == "struct" else "bool" if kind.cname == "_Bool" else "Literal" if self.words else numbers
 
@@ -145,6 +147,10 @@ class Options:
                 known = "; it is for lambent.render with a model" if name in {*KEYWORDS, *OTHERS, *CHANGES} else ""
                 raise TypeError("unexpected keyword argument %r%s" % (name, "; did you mean %r?" % close[0] if close and not known else known))
         self.given, self.kept = {name: value for name, value in given.items() if value is not None}, []
+        # The program's words for lights: "file" are the scene's alone; with "none" and "default" the call takes them away.
+        self.no_lights = self.given.get("rig") in ("none", "default") and bool(set(CHANGES) & set(others))
+        if self.no_lights:
+            self.given["rig"] = "file" if self.given["rig"] == "none" else "auto"
         self.mode = choose("color_mode", KEYWORDS["color_mode"].words, self.given.get("color_mode", "srgb"))
         self.fit_exposure = self.given.get("exposure") == "auto"
         if self.fit_exposure:

@@ -5,11 +5,10 @@ import json
 import os
 import pathlib
 import sys
-import threading
 
 import numpy as np
 
-from ._core import BadModel, BadValue, OutOfMemory, Unsupported, call, every, run, text_of
+from ._core import Access, BadModel, BadValue, OutOfMemory, Unsupported, call, every, run, text_of
 from ._fields import Camera, Light, Material, color, words_of
 from ._mesh import meshes_of
 from ._native import ffi, lib
@@ -32,7 +31,7 @@ class Scene:
 
     def __init__(self, _handle=None):
         self._handle = ffi.gc(_handle or call(lib.lam_scene_make), lib.lam_scene_free)
-        self._lock, self._page, self._path = threading.Lock(), None, None
+        self._access, self._path = Access(), None
 
     def add(self, model: "Model", material: "Material | str | None" = None, transform: "Array | None" = None, name: "str | None" = None) -> "Scene":
         """Adds an object: a Mesh or an object of meshio, trimesh …, arrays (vertices, faces), or the name of a built-in shape. `transform` is a 4×4
@@ -261,7 +260,7 @@ def change(scene, options, task, params):
     """What keywords change of a scene that this call has loaded, before the camera is placed."""
     if "material" in options:
         scene.set_material(options.get("material"), _mode=params.color)
-    if params.rig > lib.LAM_RIG_NONE and "rig" in options or "light" in options:
+    if "rig" in options and (params.rig > lib.LAM_RIG_NONE or options.no_lights) or "light" in options:
         lib.lam_scene_clear_lights(scene._handle)
     if "light" in options and "rig" not in options:
         params.rig = lib.LAM_RIG_NONE
@@ -283,27 +282,45 @@ def draw(scene, options, size, task, changes=False):
     if size is None:
         size = (settings.width, settings.height) if settings.present & lib.LAM_SETTING_SIZE else (lib.LAM_RENDER_SIZE,) * 2
     if model.tangents:
-        with scene._lock:
+        with scene._access.alone():
             call(lib.lam_scene_make_tangents, handle, task.control)
     camera = camera_of(scene, options, settings, params, size)
     if changes and "light" in options:
         scene._light(options.get("light"), camera, params.color)
     if changes and "ambient" in options:
         lib.lam_scene_set_ambient(handle, color("ambient", options.get("ambient"), params.color)[:3])
+    fitted = by_file and "exposure" not in options and not options.fit_exposure and not settings.present & lib.LAM_SETTING_EXPOSURE
+    fitted = fitted and lib.lam_output_is_light(params.output)
+    with scene._access.alone() if fitted else scene._access.shared(): # a file's lights may get a dim studio, for this picture
+        return paint(scene, options, camera, params, size, task, fitted)
+
+
+def paint(scene, options, camera, params, size, task, fitted):
+    """Draws what `draw` has prepared. `fitted`: the lights are a file's, in its units."""
+    handle, light, lights = scene._handle, lib.lam_output_is_light(params.output), []
     device = ffi.gc(call(lib.lam_device_cpu, ffi.new("lam_cpu_params *", {"threads": options.get("threads", 0)})), lib.lam_device_free)
-    light = lib.lam_output_is_light(params.output)
-    if light and (options.fit_exposure or by_file and "exposure" not in options and not settings.present & lib.LAM_SETTING_EXPOSURE):
-        params.light_cutoff, stops = params.light_cutoff or -1, ffi.new("double *")
-        params.exposure = 0
-        call(lib.lam_exposure_fit, device, handle, camera, params, *size, task.control, stops)
-        params.exposure = stops[0]
-    floats, needed = options.get("floats", False), 4 * size[0] * size[1] * (4 if options.get("floats") else 1)
+    floats = options.get("floats", False)
+    needed = size[0] * size[1] * (16 if floats else 4)
     if needed > (options.control.memory_limit_bytes or lib.lam_memory_available()):
         raise OutOfMemory("size: a picture of %dx%d pixels needs %.1f MB, more than the memory limit or the machine's memory" % (*size, needed / 1e6))
     picture = np.empty((size[1], size[0], 4), np.float32 if floats else np.uint8).view(Picture)
     image = ffi.new("lam_image *", {"width": size[0], "height": size[1], "format": lib.LAM_RGBA32F if floats else lib.LAM_RGBA8,
                                     "pixels": ffi.from_buffer(picture, require_writable=True)})
-    call(lib.lam_draw, device, handle, camera, params, image, task.control)
+    if fitted or options.fit_exposure and light:
+        params.light_cutoff, params.exposure, number = params.light_cutoff or -1, 0, ffi.new("double *")
+        call(lib.lam_exposure_fit, device, handle, camera, params, *size, task.control, number)
+        params.exposure = number[0]
+    try:
+        if fitted and options.get("rig", "auto") == "auto":
+            before = [ffi.new("lam_light *", lib.lam_scene_light(handle, index)[0]) for index in range(lib.lam_scene_light_count(handle))]
+            call(lib.lam_studio_fill, device, handle, camera, params, *size, task.control, number)
+            lights = before if number[0] > 0 else []
+        call(lib.lam_draw, device, handle, camera, params, image, task.control)
+    finally:
+        if lights: # as it was before the fill
+            call(lib.lam_scene_set_environment, handle, ffi.NULL, 0)
+        for index, old in enumerate(lights):
+            call(lib.lam_scene_set_light, handle, index, old)
     picture.raw = bool(params.color == lib.LAM_COLOR_RAW or not light and params.output != lib.LAM_OUTPUT_BASE_COLOR)
     picture.camera, picture.warnings = Camera(camera[0]), scene.warnings
     picture.flags.writeable = False

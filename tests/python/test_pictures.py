@@ -1,4 +1,5 @@
 """The pictures of the package are those of the program: the same bytes, and the same hash as its journal has."""
+import base64
 import json
 import os
 import pathlib
@@ -30,6 +31,9 @@ CASES = [
     ("teapot", {"camera": lambent.Camera(eye=(2, 1, 4), fovy=40), "exposure": "auto"}, ["--camera", "eye=2/1/4,fovy=40", "--exposure", "auto"]),
     ("teapot", {"stage": "vertex", "color_mode": "raw", "samples": 1, "background": "#456", "material": "#fa0", "ambient": "#111"},
      ["--stage", "vertex", "--color-mode", "raw", "--samples", "1", "-b", "#456", "--material", "#fa0", "--ambient", "#111"]),
+    ("examples/shadows.json", {"rig": "none", "ambient": 0.5}, ["--rig", "none", "--ambient", "0.5"]),
+    ("examples/shadows.json", {"rig": "default"}, ["--rig", "default"]),
+    ("examples/shadows.json", {"rig": "headlight"}, ["--rig", "headlight"]),
     ("teapot", {"orthographic": True, "zoom": 2}, ["--projection", "orthographic", "--zoom", "2"]),
 ]
 
@@ -49,6 +53,27 @@ class SameAsTheProgram(unittest.TestCase):
                 subprocess.run([os.environ["LAMBENT"], model, "-o", folder + "/a.png", "-q"], check=True)
                 lambent.render(model).save(folder + "/b.png")
                 self.assertEqual(pathlib.Path(folder, "a.png").read_bytes(), pathlib.Path(folder, "b.png").read_bytes())
+
+    def test_dark_file(self):
+        """A glTF file whose own light leaves most of the model black gets a dim studio, and a Scene stays as it was."""
+        corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 0], [1, 1, 0]], np.float32).tobytes()
+        light = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 30}]}}
+        gltf = {"asset": {"version": "2.0"}, "extensionsUsed": list(light), "extensions": light, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+                "nodes": [{"mesh": 0}, {"translation": [0, 0, -30], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+                "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0}}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+                "bufferViews": [{"buffer": 0, "byteLength": 72}],
+                "buffers": [{"byteLength": 72, "uri": "data:application/octet-stream;base64," + base64.b64encode(corners).decode()}]}
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "lit.gltf").write_text(json.dumps(gltf))
+            subprocess.run([os.environ["LAMBENT"], folder + "/lit.gltf", "-s", "96", "-o", folder + "/a.png", "-q"], check=True)
+            scene = lambent.load(folder + "/lit.gltf")
+            before = repr(scene.lights)
+            pictures = [lambent.render(folder + "/lit.gltf", 96), scene.render(96), scene.render(96)]
+            self.assertEqual({picture.png() for picture in pictures}, {pathlib.Path(folder, "a.png").read_bytes()})
+            self.assertIn("studio", pictures[0].warnings[-1])
+            self.assertEqual(repr(scene.lights), before)
 
     def test_hash_of_the_journal(self):
         with tempfile.TemporaryDirectory() as folder:

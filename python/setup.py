@@ -1,6 +1,5 @@
 """setup.py: builds the package `lambent` (docs/python.md). LAMBENT_BUILD names a build folder of Meson: its library becomes part of the extension, and
 the libraries that it needs lie beside it, with their licences. Without it the extension uses the installed liblambent (pkg-config)."""
-import ctypes.util
 import os
 import pathlib
 import re

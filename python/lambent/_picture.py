@@ -44,7 +44,7 @@ class Picture(np.ndarray):
 
     def encode(self, format: str = "png", *, compress: str = "fast", quality: int = 0) -> bytes:
         """The bytes of a file: png, ppm, jpg or webp of 8 bits, pfm or exr of floats. `quality` of jpg and webp is 1 to 100."""
-        out, (image, pixels) = ffi.new("lam_bytes *"), self._image()
+        out, (image, _pixels) = ffi.new("lam_bytes *"), self._image()
         call(lib.lam_image_encode, image, format.encode(), self._params(compress, quality), out)
         try:
             return ffi.buffer(out.data, out.size)[:]
@@ -57,7 +57,7 @@ class Picture(np.ndarray):
 
     def save(self, path: "str | os.PathLike[str]", *, compress: str = "fast", quality: int = 0) -> None:
         """Writes a file whose ending names the format; it appears whole or not at all."""
-        image, pixels = self._image()
+        image, _pixels = self._image()
         call(lib.lam_image_save, image, os.fsencode(path), self._params(compress, quality))
 
     @property

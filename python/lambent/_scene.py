@@ -37,6 +37,9 @@ class Scene:
         """Adds an object: a Mesh or an object of meshio, trimesh …, arrays (vertices, faces), or the name of a built-in shape. `transform` is a 4×4
         matrix for column vectors. Returns the scene."""
         meshes = [(model, None)] if isinstance(model, str) else meshes_of(model)
+        placed = np.eye(4) if transform is None else np.asarray(transform, float)
+        if placed.shape != (4, 4):
+            raise BadValue("transform: found the shape %s, expected 4x4" % "x".join(map(str, placed.shape)))
         if meshes is None:
             raise BadValue("Scene.add: found %s, expected a Mesh, an object with vertices and faces, arrays, or a shape's name" % type(model).__name__)
         for mesh, own in meshes:
@@ -46,11 +49,7 @@ class Scene:
             item.mesh = call(lib.lam_scene_add_shape, self._handle, mesh.encode(), ffi.NULL) if isinstance(mesh, str) else mesh._add_to(self._handle)
             if used is not None:
                 item.material = call(lib.lam_scene_add_material, self._handle, used.struct)
-            matrix = np.eye(4) if own is None else np.asarray(own, float)
-            matrix = (np.eye(4) if transform is None else np.asarray(transform, float)) @ matrix
-            if matrix.shape != (4, 4):
-                raise BadValue("transform: found the shape %s, expected 4x4" % (matrix.shape,))
-            item.transform.m = matrix.tolist()
+            item.transform.m = (placed if own is None else placed @ np.asarray(own, float)).tolist()
             label = ffi.new("char[]", (name or getattr(mesh, "name", None) or (mesh if isinstance(mesh, str) else "")).encode())
             item.name = label
             call(lib.lam_scene_add_object, self._handle, item)

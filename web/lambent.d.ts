@@ -9,7 +9,10 @@ export class Files {
 }
 
 /** A command line that cannot be drawn: the program's own sentence. */
-export class LambentError extends Error {}
+export class LambentError extends Error {
+  /** The call was asked to end. */
+  readonly cancelled: boolean;
+}
 
 export interface Camera {
   eye: [number, number, number];
@@ -66,17 +69,21 @@ export interface Option {
 export interface Options {
   version: string;
   shapes: string[];
+  /** Of models and scene files that are read: "obj", without the point. */
+  endings: string[];
   options: Option[];
 }
 
-/** The second part of a module in two parts is needed; this Lambent is of no use any more. */
-export class PartMissing extends Error {}
+/** A part of a module in parts is needed that is not there; this Lambent is of no use any more. */
+export class PartMissing extends Error {
+  readonly part: 'rest' | 'more';
+}
 
 export class Lambent {
-  /** `second`: of a module in two parts; `memory`: of a module with threads (threads.js). */
-  constructor(module: WebAssembly.Module, files?: Files, parts?: { second?: WebAssembly.Module | null; memory?: WebAssembly.Memory | null });
-  /** The second part of a module in two parts. */
-  complete(second: WebAssembly.Module): void;
+  /** `parts`: of a module in parts; `memory`: of a module with threads (threads.js); `progress`: gets the share that is drawn, 0 to 1. */
+  constructor(module: WebAssembly.Module, files?: Files, more?: { parts?: WebAssembly.Module[]; memory?: WebAssembly.Memory | null; progress?: ((share: number) => void) | null });
+  /** A part of a module in parts. */
+  complete(part: WebAssembly.Module): void;
   readonly files: Files;
   /** What reading a model and drawing it may each use, in bytes, where the words have no --memory-limit; 0: as much as there is. */
   limitMemory(bytes: number): void;

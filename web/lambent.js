@@ -8,16 +8,23 @@
 //   const png = lambent.save(['/bunny.obj', '--size', '512'], 'png'); // the bytes that the command writes
 import { Files, system } from './wasi.js';
 
-// A command line that cannot be drawn: the program's own sentence.
-export class LambentError extends Error {}
+// A command line that cannot be drawn: the program's own sentence. `cancelled`: the call was asked to end.
+export class LambentError extends Error {
+  cancelled = false;
+}
 
-// The first part of a module that is in two has been asked for what the second has: this Lambent is of no use any more.
-export class PartMissing extends Error {}
+// A module that is in parts has been asked for what a part has that is not there: this Lambent is of no use any more.
+export class PartMissing extends Error {
+  constructor(part) {
+    super(`the part '${part}' of the module is missing`);
+    this.part = part; // 'rest' or 'more'
+  }
+}
 
-// What the first part calls in place of the functions of the second (wasm-split's module "placeholder").
-const placeholder = new Proxy({}, {
+// What a module in parts calls in place of the functions of another part (wasm-split's placeholders).
+const placeholder = (part) => new Proxy({}, {
   get: () => () => {
-    throw new PartMissing();
+    throw new PartMissing(part);
   },
 });
 
@@ -25,19 +32,20 @@ export class Lambent {
   instance; // the module's
   #printed = '';
 
-  // `second`: of a module that is in two parts; without it, until complete() has it, calls that need it throw PartMissing. `memory`: of a module
-  // with threads (threads.js).
-  constructor(module, files = new Files(), { second = null, memory = null } = {}) {
+  // `parts`: of a module that is in parts, those that are there; calls that need another one throw PartMissing until complete() has it. `memory`: of a
+  // module with threads (threads.js). `progress`: called now and then while it draws, with the share that is done, 0 to 1.
+  constructor(module, files = new Files(), { parts = [], memory = null, progress = null } = {}) {
     this.files = files;
     const host = system(files, [], (stream, text) => (this.#printed += text));
-    this.instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, placeholder, env: { memory } });
+    this.instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, rest: placeholder('rest'), more: placeholder('more'),
+      unused: placeholder('unused'), env: { memory, web_progress: (share) => progress?.(share) } });
     host.attach(this.instance);
-    if (second) this.complete(second);
+    for (const part of parts) this.complete(part);
     this.instance.exports._initialize();
   }
 
-  complete(second) {
-    new WebAssembly.Instance(second, { primary: this.instance.exports });
+  complete(part) {
+    new WebAssembly.Instance(part, { primary: this.instance.exports });
   }
 
   // What reading a model and drawing it may each use, in bytes, where the words have no --memory-limit. 0: as much as there is.
@@ -57,7 +65,7 @@ export class Lambent {
     this.#printed = '';
     this.instance.exports[name](...numbers);
     const answer = JSON.parse(this.#printed);
-    if (answer.ok === false) throw new LambentError(answer.error);
+    if (answer.ok === false) throw Object.assign(new LambentError(answer.error), { cancelled: answer.cancelled });
     return answer;
   }
 

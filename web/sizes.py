@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """sizes.py [FOLDER]: what a page loads first, part by part, as docs/web.md has it (tests/web.py compares). FOLDER: build-web, after make web.
 
-The linker's map says which object each byte of the module comes from; gzip packs the parts together, so it has a size for the whole alone."""
-import gzip
+The linker's map says which object each byte of the module comes from. Files that a server sends packed have the sizes of that too."""
 import os
 import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import build  # noqa: E402
+import bundle  # noqa: E402
+import module_parts  # noqa: E402
 
 # Parts of the module: title, and what the object of a symbol is called in the map. The first that fits.
 PARTS = [
@@ -23,7 +23,7 @@ PARTS = [
     ("geometry, environments, shadows, edges, other pictures", r""),
 ]
 
-FIRST = "all that loads first"
+FIRST, MODULE = "all that loads first", "the module of a page: the first two parts"
 
 
 def parts_of(map_path):
@@ -42,40 +42,36 @@ def parts_of(map_path):
     return sizes
 
 
-def packed(path):
-    return len(gzip.compress(open(path, "rb").read(), 9))
+def packed(paths):
+    """Bytes as they are, after gzip, and after brotli (web/build.py puts those files beside them)."""
+    return [sum(os.path.getsize(path + ending) for path in paths) for ending in ("", ".gz", ".br")]
 
 
 def table(folder):
-    """Rows: title, bytes, bytes after gzip or None."""
-    module = os.path.join(folder, "wasm", "web", "lambent.wasm")
-    rows = [(title, size, None) for title, size in parts_of(os.path.join(folder, "wasm", "web", "lambent.map")).items()]
-    rows.append(("the module", os.path.getsize(module), packed(module)))
-    page = os.path.join(folder, "page")
-    first = build.modules_of(build.PAGE) + build.modules_of(build.WORKER)
-    later = [name for name in build.later_modules_of(build.PAGE) + build.later_modules_of(build.WORKER) + build.modules_of(build.THREAD) if name not in first]
-    later.append(build.CODEMIRROR)
-    shaders = [name for name in build.modules_of(build.CHECK_WORKER) if name not in first + later]
-    files = [name for name in os.listdir(page) if name.endswith((".js", ".html", ".css"))]
+    """Rows: title, bytes, bytes after gzip and after brotli, or None."""
+    module, page = os.path.join(folder, "wasm", "web", "lambent.wasm"), os.path.join(folder, "page")
+    bundles = bundle.Bundles(folder)
 
     def of(title, names):
-        paths = [os.path.join(page, name) for name in names]
-        return title, sum(os.path.getsize(path) for path in paths), sum(packed(path) for path in paths)
+        return (title, *packed([os.path.join(page, name) for name in names]))
 
-    rows.append(of("its part that draws the first picture", ["lambent.wasm"]))
-    rows.append(of("scripts, page and style", [name for name in files if name not in later + shaders]))
-    rows.append((FIRST, rows[-2][1] + rows[-1][1], rows[-2][2] + rows[-1][2]))
-    rows.append(of("the other part of the module, fetched after the first picture", ["lambent-rest.wasm"]))
-    rows.append(of("the module with threads, fetched in its place where the page is cross-origin isolated", ["lambent-threads.wasm"]))
-    rows.append(of("scripts that are fetched when they are used", [name for name in files if name in later]))
-    rows.append(of("checks of shaders, fetched when one is checked", [*shaders, "check.wasm"]))
+    first, rest, more = module_parts.PARTS
+    scripts = bundles.first + bundles.worker + ["index.html", "page.css"]
+    rows = [(title, size, None, None) for title, size in parts_of(os.path.join(folder, "wasm", "web", "lambent.map")).items()]
+    rows += [("the module as a whole", os.path.getsize(module), None, None), of("its part that draws the first picture", [first]), of("scripts, page and style", scripts),
+             of(FIRST, [first, *scripts]), of("its second part, fetched after the first picture", [rest]), of(MODULE, [first, rest]),
+             of("its third part, fetched when it is used: explanations, formulas, scene files", [more]),
+             of("the module with threads, fetched in place of these where the page is cross-origin isolated", ["lambent-threads.wasm"]),
+             of("scripts that are fetched when they are used", [name for name in bundles.later if name not in bundles.shaders]),
+             of("the editor of shaders", [*(name for name in bundles.shaders if name != bundle.CHECK_WORKER), bundle.CODEMIRROR]),
+             of("checks of shaders, fetched when one is checked", [bundle.CHECK_WORKER, "check.wasm"])]
     return rows
 
 
 def main():
-    print("| part | kB | kB after gzip |\n|---|---|---|")
-    for title, size, small in table(sys.argv[1] if len(sys.argv) > 1 else "build-web"):
-        print("| %s | %d | %s |" % (title, round(size / 1000), "" if small is None else round(small / 1000)))
+    print("| part | kB | gzip | brotli |\n|---|---|---|---|")
+    for title, *sizes in table(sys.argv[1] if len(sys.argv) > 1 else "build-web"):
+        print("| %s | %s |" % (title, " | ".join("" if size is None else str(round(size / 1000)) for size in sizes)))
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@ import { Files, system } from './wasi.js';
 
 function start(port, { module, memory, thread }) {
   const host = system(new Files(), [], (stream, text) => console.error(text));
-  const instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, env: { memory } });
+  const instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, env: { memory, web_progress() {} } });
   host.attach(instance);
   const { __stack_pointer, web_thread_run, web_thread_failed } = instance.exports;
   __stack_pointer.value = thread; // its stack ends there, and grows downwards

@@ -36,6 +36,10 @@ void progress_update(void *user, double share, const char *step)
 {
     struct progress *progress = user;
     double now = clock_ms();
+    if (progress->show && now - progress->drawn_ms >= pause_ms) {
+        progress->drawn_ms = now;
+        progress->show(progress->from + progress->span * share);
+    }
     if (!progress->allowed || now - progress->start_ms < first_ms || now - progress->drawn_ms < pause_ms)
         return;
     progress->drawn_ms = now;

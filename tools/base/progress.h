@@ -10,6 +10,7 @@ struct progress {
     double from, span; // the running call's part of the whole
     const char *model;
     bool shown;
+    void (*show)(double share); // called in place of the bar, with the share of the whole; NULL: the bar
 };
 
 void progress_start(struct progress *progress, const char *model, bool allowed);

@@ -46,7 +46,7 @@ static char *key_of(const char *name, const struct options *options)
     return key;
 }
 
-bool kept_model_take(struct kept_model *model, struct job *job, lam_error *error)
+bool kept_model_take(struct kept_model *model, struct job *job, struct progress *progress, lam_error *error)
 {
     char *key = key_of(job->model, job->options);
     if (!key)
@@ -61,7 +61,7 @@ bool kept_model_take(struct kept_model *model, struct job *job, lam_error *error
                             .environments = job->environments,
                             .keeps_scene = true};
         first.times.start = clock_ms();
-        bool ok = job_load(&first, NULL, error) && lam_scene_mark(first.scene, error);
+        bool ok = job_load(&first, progress, error) && lam_scene_mark(first.scene, error);
         if (!ok) {
             lam_scene_free(first.scene);
             free(key);

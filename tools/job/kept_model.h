@@ -12,8 +12,8 @@ struct kept_model {
 };
 
 // Gives the job the model, as it was before any option changed it: loads it, if another one is kept or it was loaded by other options. The
-// job has its options, model, device and environments. Errors of job_load.
-bool kept_model_take(struct kept_model *model, struct job *job, lam_error *error);
+// job has its options, model, device and environments. `progress`: of loading; NULL: nobody watches. Errors of job_load.
+bool kept_model_take(struct kept_model *model, struct job *job, struct progress *progress, lam_error *error);
 
 void kept_model_forget(struct kept_model *model);
 

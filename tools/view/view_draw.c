@@ -110,7 +110,7 @@ static bool take_model(struct drawer *d, struct job *job, lam_error *error)
     d->threads = job->options->work.threads;
     job->device = d->device;
     job->environments = d->environments;
-    bool ok = d->device && kept_model_take(&d->model, job, error);
+    bool ok = d->device && kept_model_take(&d->model, job, NULL, error);
     d->stamp = ok ? stamp_of(d->model.scene) : 0;
     return ok;
 }

@@ -1,14 +1,18 @@
-// host.c: what the program's parts ask their system for, where they run within a page: nothing interrupts them but the page,
-// which ends the worker, and the browser is the sandbox.
+// host.c: what the program's parts ask their system for, if they run within a page: the page interrupts them by a flag, and the browser is the
+// sandbox.
+#include "host.h"
+
 #include "interrupt.h"
 #include "sandbox_start.h"
 
 #include <lambent/check.h>
 
-static lam_cancel never;
+static lam_cancel wanted;
+
+lam_cancel *web_cancel_flag(void) { return &wanted; }
 
 void interrupt_start(void) {}
-const lam_cancel *interrupt_flag(void) { return &never; }
+const lam_cancel *interrupt_flag(void) { return &wanted; }
 bool interrupted(void) { return false; }
 
 const char *sandbox_advice(const lam_error *error)

@@ -27,6 +27,7 @@ static struct {
     struct environment_cache *environments; // of the files as they are
     lam_image image;                        // of the last picture
     uint64_t memory_limit_bytes;            // 0: none
+    struct progress progress;
 } session;
 
 char *web_words(uint32_t bytes)
@@ -55,6 +56,9 @@ static bool start(int count, struct options *options, struct job *job, lam_error
     filled = true;
     char **words = calloc((size_t)count + 1, sizeof *words), *at = session.text;
     *options = option_defaults();
+    lam_cancel_clear(web_cancel_flag());
+    progress_start(&session.progress, "", false);
+    session.progress.show = web_progress;
     for (int i = 0; words && i < count && at < session.text + session.bytes; i++) {
         words[i] = at;
         at += strlen(at) + 1;
@@ -92,7 +96,7 @@ static bool start(int count, struct options *options, struct job *job, lam_error
                         .keeps_scene = true,
                         .environments = session.environments};
     job->times.start = clock_ms();
-    return session.device && kept_model_take(&model, job, error);
+    return session.device && kept_model_take(&model, job, &session.progress, error);
 }
 
 // Prints what has become of a command line, and ends the job. Returns the exit code.
@@ -101,8 +105,10 @@ static int answer(struct job *job, bool ok, const lam_error *error)
     struct json json = {.file = stdout};
     json_open(&json, NULL, '{');
     json_flag(&json, "ok", ok);
-    if (!ok)
+    if (!ok) {
         json_text(&json, "error", error->text);
+        json_flag(&json, "cancelled", error->code == LAM_CANCELLED);
+    }
     if (ok)
         picture_json(&json, job, model.read_ms);
     json_close(&json, '}');
@@ -123,7 +129,7 @@ int web_draw(int count)
     struct options options;
     struct job job = {0};
     lam_error error = {0};
-    bool ok = start(count, &options, &job, &error) && job_draw(&job, LAM_RGBA8, NULL, &error);
+    bool ok = start(count, &options, &job, &error) && job_draw(&job, LAM_RGBA8, &session.progress, &error);
     int code = answer(&job, ok, &error);
     options_free(&options);
     return code;
@@ -138,7 +144,7 @@ int web_save(int count)
     job.output = options.picture.output;
     if (ok && (!job.output || strcmp(job.output, "-") == 0))
         ok = complain(&error, LAM_BAD_ARGUMENT, "expected the file to write after -o");
-    ok = ok && job_run(&job, NULL, &error);
+    ok = ok && job_run(&job, &session.progress, &error);
     int code = answer(&job, ok, &error);
     options_free(&options);
     return code;
@@ -311,6 +317,16 @@ void web_options(void)
     json_open(&json, "shapes", '[');
     for (int i = 0; i < lam_shape_count(); i++)
         json_text(&json, NULL, lam_shape_name(i));
+    json_close(&json, ']');
+    json_open(&json, "endings", '[');
+    for (int i = 0; lam_model_format_extensions(i); i++)
+        for (const char *word = lam_model_format_extensions(i); *word; word += strspn(word, " ")) {
+            char ending[16];
+            int length = (int)strcspn(word, " ");
+            snprintf(ending, sizeof ending, "%.*s", length, word);
+            json_text(&json, NULL, ending);
+            word += length;
+        }
     json_close(&json, ']');
     json_open(&json, "options", '[');
     for (const struct option *o = option_table; o->name; o++)

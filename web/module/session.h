@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#define WEB_EXPORT(name) __attribute__((export_name(#name)))
+#include "host.h"
 
 // Memory for the words of the next call. NULL: there is none.
 char *web_words(uint32_t bytes) WEB_EXPORT(web_words);
@@ -33,7 +33,8 @@ int web_curves(int count, int light, double farthest, double shininess) WEB_EXPO
 // Prints that picture's lights, as `lambent lights` does.
 int web_lights(int count) WEB_EXPORT(web_lights);
 
-// Lists the options of a picture with all that the help says of them, in its groups, and the names of shapes.
+// Lists the options of a picture with all that the help says of them, in its groups, the names of shapes, and the
+// endings of models that it reads.
 void web_options(void) WEB_EXPORT(web_options);
 
 // Forgets the model: its files may be others now.

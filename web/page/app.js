@@ -20,7 +20,7 @@ function stageSize() {
 }
 
 export const state = new State(fromFragment(location.hash) ?? insideWords() ?? [START[0], `--size=${stageSize()}`, ...START.slice(1)]);
-const worker = openWorker();
+export const worker = openWorker();
 export const { fetchRest } = worker;
 // The viewer's page (served.js) gets the files of its models first.
 const viewer = $('served') && import('./served.js').then(({ servedCall }) => servedCall(worker.call));
@@ -48,11 +48,12 @@ export function emit(name) {
   for (const listener of listeners.get(name) ?? []) listener();
 }
 
-// A sentence of the program, or of the page, that stays until the next picture. The page's files lie in the root of a tree; a person knows them by
+// A sentence of the program, or of the page, that stays until the next picture, with buttons for what can be done. The page's files lie in the root of a tree; a person knows them by
 // names without its '/', as the command line below the picture has them.
-export function refuse(sentence) {
+export function refuse(sentence, ...buttons) {
   const own = [state.model, ...view.files.keys()].filter((path) => path.startsWith('/'));
-  $('message').textContent = sentence.replace(/(^|[\s'"(])\//g, (found, before, at) => (own.some((path) => sentence.startsWith(path, at + before.length)) ? before : found));
+  $('message-text').textContent = sentence.replace(/(^|[\s'"(])\//g, (found, before, at) => (own.some((path) => sentence.startsWith(path, at + before.length)) ? before : found));
+  $('message-buttons').replaceChildren(...buttons);
   $('message').hidden = false;
 }
 

@@ -1,11 +1,14 @@
 // drawing.js: draws the command line in the worker: of waiting drawings the newest alone, with one sample and fewer pixels while something moves; and
-// places the picture in the page, as large as there is room.
-import { call, emit, on, refuse, say, state, view } from './app.js';
-import { $ } from './dom.js';
+// places the picture in the page, as large as there is room. A drawing that is out of date is ended, and Stop ends any.
+import { call, emit, on, refuse, say, state, view, worker } from './app.js';
+import { Ended } from './caller.js';
+import { $, button } from './dom.js';
 import { text } from './strings.js';
+import { finished, isTooLong, started, stopped } from './unfinished.js';
 
 const canvas = $('canvas'), context = canvas.getContext('2d'), QUICK = 5e5; // pixels
-let busy = false, busyStill = false, wanted = null, model = null;
+const PATIENCE_MS = 1000, SHOWN_MS = 400, FLAG_MS = 50;
+let running = null, wanted = null, model = null;
 
 // A quick picture's words: one sample, and half of the width and height if it is large.
 export function quickWords(words) {
@@ -14,31 +17,98 @@ export function quickWords(words) {
   return [...sized, '--samples=1'];
 }
 
-async function draw() {
-  wanted = { words: state.words, quick: view.moving };
-  if (busy) {
-    if (busyStill) view.giveUpPicture?.();
-    return;
+// A drawing that the worker has. `done`: the share of it; the first half of it reads the model.
+class Running {
+  constructor(task) {
+    Object.assign(this, { task, done: 0, isEnding: false, isStopped: false, timers: [] });
+    if (!task.quick || task.words[0] !== model) this.#after(SHOWN_MS, () => ($('working').hidden = false));
   }
-  busy = true;
+
+  #after(ms, act) {
+    this.timers.push(setTimeout(act, ms));
+  }
+
+  // Ends it, since nobody waits for it: by the flag, else with its worker, after a second in which it may come to its end, or as long as it takes to read the
+  // model, which the next worker has to do. `now`: a person has pressed Stop.
+  end({ now = false } = {}) {
+    if (view.giveUpPicture?.() || (this.isEnding && !now)) return;
+    this.isEnding = true;
+    this.isStopped ||= now;
+    const flagged = this.#raise();
+    this.#endWorker(now && !flagged ? 0 : Math.max(PATIENCE_MS, 2 * (view.picture?.read_ms ?? 0)));
+  }
+
+  #raise() {
+    const flagged = worker.cancel();
+    if (flagged) this.#after(FLAG_MS, () => this.#raise()); // a call that had not begun has cleared the flag
+    return flagged;
+  }
+
+  // A model that is wanted still, and is being read, is read to its end, unless a person has pressed Stop.
+  #endWorker(ms) {
+    this.#after(ms, () => {
+      const [name] = this.task.words;
+      if (!this.isStopped && this.done < 0.5 && name !== model && wanted?.words[0] === name) return this.#endWorker(PATIENCE_MS);
+      model = null;
+      worker.restart();
+    });
+  }
+
+  close() {
+    for (const timer of this.timers) clearTimeout(timer);
+    $('working').hidden = true;
+    $('progress').removeAttribute('value');
+  }
+}
+
+worker.onprogress = (share) => {
+  if (!running) return;
+  running.done = share;
+  $('progress').value = share;
+};
+
+function draw() {
+  wanted = { words: state.words, quick: view.moving };
+  if (!running) work();
+  else if (!running.task.quick || running.task.words[0] !== state.model) running.end();
+}
+
+async function work() {
   while (wanted) {
     const task = wanted;
     wanted = null;
-    busyStill = !task.quick;
+    running = new Running(task);
+    if (!task.quick) started(task.words);
     try {
       const [name] = task.words;
       if (name !== model) $('status').textContent = text('loadingModel', { name: name.replace(/^\//, '') });
       canvas.setAttribute('aria-busy', String(name !== model));
-      show(await call('draw', { words: task.quick ? quickWords(task.words) : task.words }), task);
+      const picture = await call('draw', { words: task.quick ? quickWords(task.words) : task.words, endable: true });
       model = name;
+      if (!task.quick) finished();
+      show(picture, task);
     } catch (error) {
       $('status').textContent = '';
-      if (!wanted) refuse(error.message);
+      finished();
+      if (running.isStopped) stopped(task.words);
+      if (!wanted && error instanceof Ended) refuse(text('stopped'), button('drawAgain', draw));
+      else if (!wanted && !view.explainRefusal?.(error.message)) refuse(error.message);
     }
+    running.close();
+    running = null;
     canvas.setAttribute('aria-busy', 'false');
   }
-  busy = false;
 }
+
+// Stop, and Escape while something is drawn that takes long.
+function stop() {
+  if (!running) return;
+  wanted = null;
+  $('status').textContent = text('stopping');
+  running.end({ now: true });
+}
+$('stop').onclick = stop;
+addEventListener('keydown', (event) => event.key === 'Escape' && !$('working').hidden && stop());
 
 function show({ pixels, ...picture }, task) {
   canvas.width = picture.width;
@@ -71,7 +141,13 @@ export function fit() {
 }
 new ResizeObserver(fit).observe($('view'));
 
-on('words', draw);
+// The first picture is not drawn if it was too long before the page was loaded again.
+let isFirst = true;
+on('words', () => {
+  if (isFirst && isTooLong(state.words)) refuse(text('tooLong'), button('drawAgain', draw));
+  else draw();
+  isFirst = false;
+});
 
 // For those who hear the page: from where the model is seen, once a turn has come to an end.
 let heard = null, last = '';

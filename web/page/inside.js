@@ -1,11 +1,17 @@
-// inside.js: files that stand in the page, and the command line that `lambent MODEL -o page.html` puts there (tools/page/page_write.c):
-// texts that are no scripts, in base64, packed by gzip where they say so.
+// inside.js: what stands in the page itself: the scripts and modules of the page in one file, packed by gzip; files, and the command line that
+// `lambent MODEL -o page.html` puts there (tools/page/page_write.c). They are texts that no browser runs, in base64.
+
+export const insideText = (id) => document.getElementById(id).textContent;
+export const insideScript = (code) => URL.createObjectURL(new Blob([code], { type: 'text/javascript' }));
+
+const unpacked = (bytes) => new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip')));
+const decoded = (letters) => Uint8Array.from(atob(letters), (letter) => letter.charCodeAt(0));
+
+export const insideStream = (id) => unpacked(decoded(insideText(id)));
 
 async function bytesOf(place) {
-  const letters = atob(place.textContent), bytes = new Uint8Array(letters.length);
-  for (let i = 0; i < letters.length; i++) bytes[i] = letters.charCodeAt(i);
-  if (place.dataset.packed !== 'gzip') return bytes;
-  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
+  const bytes = decoded(place.textContent);
+  return place.dataset.packed === 'gzip' ? new Uint8Array(await unpacked(bytes).arrayBuffer()) : bytes;
 }
 
 // The words of the command line; null: the page has none of its own.

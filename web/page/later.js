@@ -1,6 +1,7 @@
 // later.js: the parts of the page that are fetched when they are used, and the tabs of those that have one.
 import { fetchRest, on, refuse, state } from './app.js';
 import { $ } from './dom.js';
+import { keepOffline } from './offline.js';
 import { addTab } from './tabs.js';
 import { text } from './strings.js';
 
@@ -17,8 +18,11 @@ export async function explainAt(across, down) {
   explaining?.pinAt(across, down);
 }
 
+let isFirst = true;
 on('still', () => {
-  fetchRest().catch(() => {}); // what needs it asks again, and says why it cannot be loaded
+  const rest = fetchRest().catch(() => {}); // what needs it asks again, and says why it cannot be loaded
+  if (isFirst) rest.then(keepOffline);
+  isFirst = false;
   if (state.values('light').length) used(import('./handles.js'));
 });
 

@@ -1,10 +1,29 @@
-// offline_worker.js: the service worker of the served page. It keeps the page's own files, FILES of web/build.py, in a cache named by the hash of
-// their contents: when one of them changes, this script does too, and the new files replace the old ones together, once no page uses those.
+// offline_worker.js: the service worker of the served page, started after the first picture (offline.js). It keeps the page's own files in a cache named by
+// the hash of their contents: when one of them changes, this script does too, and the new files replace the old ones together, once no page uses
+// those. Each file is one that web/build.py has listed with its hash: what the browser has loaded by now is not sent again.
 const CACHE = 'lambent-HASH';
-const FILES = [], THREADS = []; // THREADS: of a page that draws with several threads
+const FILES = {};
+// Files that are stored when they are used; those of a page that draws with one thread, or with several.
+const LATER = [];
+const PLAIN = [];
+const THREADS = [];
+
+// The answer for a file, of what the browser has, else of the server. `known`: its name in FILES.
+const answer = (request, known) => fetch(request, { cache: 'force-cache', integrity: FILES[known] }).catch(() => fetch(request, { cache: 'reload', integrity: FILES[known] }));
+
+const nameOf = (address) => {
+  const url = new URL(address), base = new URL('./', location);
+  return url.origin === base.origin && url.pathname.startsWith(base.pathname) ? url.pathname.slice(base.pathname.length) || './' : null;
+};
+
+async function store(name) {
+  const cache = await caches.open(CACHE), found = await answer(name, name);
+  if (found.ok) await cache.put(name, found);
+}
 
 addEventListener('install', (event) => {
-  event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll([...FILES, ...(location.search === '?threads' ? THREADS : [])].map((name) => new Request(name, { cache: 'no-cache' })))));
+  const without = new Set([...LATER, ...(location.search === '?threads' ? PLAIN : THREADS)]);
+  event.waitUntil(Object.keys(FILES).filter((name) => !without.has(name)).reduce((before, name) => before.then(() => store(name)), Promise.resolve()));
 });
 
 addEventListener('activate', (event) => {
@@ -12,6 +31,13 @@ addEventListener('activate', (event) => {
 });
 
 addEventListener('fetch', (event) => {
-  if (event.request.method !== 'GET' || new URL(event.request.url).origin !== location.origin) return;
-  event.respondWith(caches.open(CACHE).then(async (cache) => (await cache.match(event.request, { ignoreSearch: true })) ?? fetch(event.request)));
+  const name = event.request.method === 'GET' ? nameOf(event.request.url) : null;
+  if (name === null || !(name in FILES)) return;
+  event.respondWith(caches.open(CACHE).then(async (cache) => {
+    const kept = await cache.match(name);
+    if (kept) return kept;
+    const found = await fetch(event.request);
+    if (found.ok) event.waitUntil(store(name).catch(() => {}));
+    return found;
+  }));
 });

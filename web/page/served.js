@@ -1,5 +1,6 @@
 // served.js: the page as `lambent view` serves it (tools/view): models come from its folder, and what is too large for the page is drawn by
 // the program itself. Addresses are relative to the page's own, which has the token.
+import { Ended } from './caller.js';
 import { text } from './strings.js';
 
 // { gallery }: whether the viewer shows a folder.
@@ -59,14 +60,18 @@ const natively = {
 };
 
 async function drawNow(words) {
-  drawing = new AbortController();
-  const bytes = await bytesOf(await ask('draw', words, { signal: drawing.signal })), end = bytes.indexOf(10); // a line of JSON, then RGBA
+  const own = (drawing = new AbortController());
+  const bytes = await ask('draw', words, { signal: own.signal }).then(bytesOf).catch((error) => {
+    throw own.signal.aborted ? new Ended() : error;
+  }).finally(() => (drawing = drawing === own ? null : drawing));
+  const end = bytes.indexOf(10); // a line of JSON, then RGBA
   return { ...JSON.parse(new TextDecoder().decode(bytes.subarray(0, end))), pixels: new Uint8ClampedArray(bytes.buffer, end + 1) };
 }
 
-// Gives up the picture that the program draws, since a newer one is wanted.
+// Gives up the picture that the program draws, since a newer one is wanted; false: it draws none.
 export function giveUpPicture() {
   drawing?.abort();
+  return Boolean(drawing);
 }
 
 // Why the program draws the model; null: the page does.

@@ -1,4 +1,6 @@
-// start.js: the worker, and calls to it. (The one-file page has a part of its own in place of this one: web/build.py.)
+// start.js: the worker, and calls to it. ONE_FILE (web/bundle.py): the page in one file, which has in it what the served one fetches.
+import { caller } from './caller.js';
+import { insideScript, insideStream, insideText } from './inside.js';
 import { text } from './strings.js';
 
 // The bytes of a module beside the page. `progress`: called with the bytes that are there, and how many there will be (0: unknown).
@@ -20,61 +22,28 @@ export async function fetchModule(name, progress = () => {}) {
 }
 
 export function openWorker() {
-  const name = 'lambent.wasm', worker = new Worker(new URL('worker.js', import.meta.url), { type: 'module' });
+  if (ONE_FILE) {
+    const served = document.getElementById('served'), threads = served && JSON.parse(served.textContent).threads; // by lambent view
+    const script = insideScript(insideText('worker')), load = async () => (await import('./served.js')).fetchThreads();
+    return caller(() => new Worker(script), insideStream('wasm').arrayBuffer(), threads ? { rest: withThreads(load, insideScript(insideText('thread'))) } : {});
+  }
+  const name = 'lambent.wasm', script = new URL('worker.js', import.meta.url);
   const wasm = fetchModule(name, (size, whole) => {
     const amount = whole ? `${Math.min(100, Math.round((100 * size) / whole))} %` : `${Math.round(size / 1000)} kB`;
     document.getElementById('status').textContent = text('loading', { name, amount });
   });
-  const rest = async () => ({ wasm: await fetchModule('lambent-rest.wasm') });
-  return caller(worker, wasm, [...withThreads(() => fetchModule('lambent-threads.wasm'), new URL('thread.js', import.meta.url)), rest]);
+  const part = (name) => async () => ({ wasm: await fetchModule(`lambent-${name}.wasm`) });
+  return caller(() => new Worker(script, { type: 'module' }), wasm, {
+    rest: [...withThreads(() => fetchModule('lambent-threads.wasm'), new URL('thread.js', import.meta.url)), part('rest')],
+    more: [part('more')],
+  });
 }
 
 const THREADS_MAX = 16;
 
-// Where the page may share memory with its workers, a way to the module with threads (web/threads.js), which takes the place of the one that has drawn
+// If the page may share memory with its workers, a way to the module with threads (web/threads.js), which takes the place of the one that has drawn
 // the first picture.
-export function withThreads(load, script) {
+function withThreads(load, script) {
   const count = Math.min(navigator.hardwareConcurrency, THREADS_MAX);
   return crossOriginIsolated && count > 1 ? [async () => ({ wasm: await load(), threads: { count, script: String(script) } })] : [];
-}
-
-// `rest`: ways to what the module lacks, of which the first that succeeds is taken: the second part of one that is in two (web/build.py), or one with
-// threads. None: it is whole.
-export function caller(worker, wasm, rest = []) {
-  const waiting = new Map();
-  let next = 0, complete = null;
-  const send = (message) =>
-    new Promise((resolve, reject) => {
-      message.id = next++;
-      waiting.set(message.id, { message, resolve, reject });
-      worker.postMessage(message);
-    });
-  // Once; and again after an attempt that has failed.
-  const fetchRest = () =>
-    (complete ??= rest.reduce((before, way) => before.catch(async () => send({ call: 'complete', ...(await way()) })), Promise.reject()).then(({ threads }) => {
-      document.body.dataset.threads = threads;
-    }, (error) => {
-      complete = null;
-      throw error;
-    }));
-  worker.onmessage = ({ data }) => {
-    const { message, resolve, reject } = waiting.get(data.id);
-    waiting.delete(data.id);
-    if (data.missing) fetchRest().then(() => send(message)).then(resolve, reject);
-    else if (data.error === undefined) resolve(data.result);
-    else reject(new Error(data.error));
-  };
-  worker.onerror = (event) => {
-    for (const { reject } of waiting.values()) reject(new Error(event.message || text('workerEnded')));
-    waiting.clear();
-  };
-  return {
-    async call(name, message) {
-      const whole = { ...message, call: name };
-      if (name === 'start') whole.wasm = await wasm;
-      return send(whole);
-    },
-    // What the first pictures do not need, before it is needed.
-    fetchRest: () => (rest.length ? fetchRest() : Promise.resolve()),
-  };
 }

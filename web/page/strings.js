@@ -50,6 +50,12 @@ const STRINGS = {
   fileChanged: 'The file has changed: the picture is new.',
   viewerEnded: 'lambent view has ended. What it has sent can still be turned.',
 
+  stop: 'Stop',
+  stopping: 'Stopping…',
+  stopped: 'The drawing was stopped. The picture before it stays.',
+  tooLong: 'This picture took long, and was not finished when the page was closed. It is not drawn by itself.',
+  drawAgain: 'Draw it',
+  progress: 'Share of the picture that is drawn',
   loading: 'Loading {name}: {amount}',
   loadingModel: 'Loading {name}…',
   notLoaded: '{name} could not be loaded: the server answers {code}',

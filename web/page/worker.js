@@ -1,33 +1,41 @@
-// worker.js: draws in a thread of its own. Messages: {id, call, ...}; answers: {id, result}, {id, error}, or {id, missing}: the call needs the second
-// part of the module, which the page fetches, and then asks again. Of drawings that wait, the page sends the newest alone.
+// worker.js: draws in a thread of its own. Messages: {id, call, ...}; answers: {id, result}, {id, error, cancelled}, or {id, missing}: the call needs that part of
+// the module, which the page fetches, and then asks again; and {progress}: the share of the running call that is done. Of drawings that wait, the page
+// sends the newest alone.
 import { Lambent, LambentError, PartMissing } from './lambent.js';
 
-let lambent = null, first = null, broken = false, memory = 0;
+const parts = new Map(); // by name, of a module in parts
+let lambent = null, first = null, broken = null, memory = 0, threaded = false;
+
+const progress = (share) => self.postMessage({ progress: share });
 
 function use(made) {
   lambent = made;
   lambent.limitMemory(memory);
+  broken = null;
 }
+
+// What these calls need besides, if the module is in parts: asked for first, since a call that stops for it loses the loaded model.
+const NEEDS = { explain: 'more', lights: 'more', scene: 'more' };
 
 const calls = {
   async start({ wasm, memory: bytes }) {
     memory = bytes;
     first = await WebAssembly.compile(wasm);
-    use(new Lambent(first));
+    use(new Lambent(first, undefined, { progress }));
     return lambent.options();
   },
-  // A Lambent that has asked for the second part is replaced, or gives way to one with threads; one that has not yet only gets it.
-  async complete({ wasm, threads }) {
+  // A Lambent that has asked for a part is replaced, or gives way to one with threads; one that has not yet only gets it.
+  async complete({ part, wasm, threads }) {
     if (threads) {
       const { openThreads } = await import('./threads.js');
-      use(await openThreads(wasm, threads.count, () => new Worker(threads.script, { type: 'module' }), lambent.files));
-      broken = false;
-      return { threads: lambent.threads };
+      use(await openThreads(wasm, threads.count, () => new Worker(threads.script, { type: 'module' }), lambent.files, progress));
+      threaded = true;
+      const { memory: shared, web_cancel_flag } = lambent.instance.exports;
+      return { threads: lambent.threads, shared: shared.buffer, flag: web_cancel_flag() };
     }
-    const second = await WebAssembly.compile(wasm);
-    if (broken) use(new Lambent(first, lambent.files, { second }));
-    else lambent.complete(second);
-    broken = false;
+    parts.set(part, await WebAssembly.compile(wasm));
+    if (broken) use(new Lambent(first, lambent.files, { parts: [...parts.values()], progress }));
+    else lambent.complete(parts.get(part));
     return { threads: 1 };
   },
   files({ files }) {
@@ -46,14 +54,16 @@ const calls = {
 
 self.onmessage = async ({ data }) => {
   try {
-    if (broken && data.call !== 'complete') throw new PartMissing();
+    if (broken && data.call !== 'complete') throw new PartMissing(broken);
+    const needed = NEEDS[data.call];
+    if (needed && data.parted && !threaded && !parts.has(needed)) return self.postMessage({ id: data.id, missing: needed });
     const result = await calls[data.call](data);
     const moved = result?.pixels ? [result.pixels.buffer] : [];
     self.postMessage({ id: data.id, result }, moved);
   } catch (error) {
     if (error instanceof PartMissing) {
-      broken = true;
-      self.postMessage({ id: data.id, missing: true });
-    } else self.postMessage({ id: data.id, error: error.message, refused: error instanceof LambentError });
+      broken = error.part;
+      self.postMessage({ id: data.id, missing: error.part });
+    } else self.postMessage({ id: data.id, error: error.message, cancelled: error instanceof LambentError && error.cancelled });
   }
 };

@@ -1,0 +1,116 @@
+// caller.js: calls of a worker, which can be ended and started anew: what made it what it was is said to it again.
+import { text } from './strings.js';
+
+// A call was ended since nobody wants its answer any more.
+export class Ended extends Error {}
+
+// `open`: starts the worker. `wasm`: its module. `ways`: by the name of a part of the module, ways to it, of which the first that succeeds is taken: the part's
+// bytes, or those of a module with threads, which has all parts. Empty: the module is whole.
+export function caller(open, wasm, ways = {}) {
+  const waiting = new Map(), fetched = new Map(), parted = Object.keys(ways).length > 0;
+  let next = 0, worker = null, setup = [], ready = Promise.resolve(), cancel = null, onprogress = () => {};
+
+  function start() {
+    worker = open();
+    cancel = null;
+    worker.onmessage = ({ data }) => (data.id === undefined ? onprogress(data.progress) : answered(data));
+    worker.onerror = (event) => {
+      for (const { reject } of waiting.values()) reject(new Error(event.message || text('workerEnded')));
+      waiting.clear();
+    };
+  }
+
+  const send = (message) =>
+    new Promise((resolve, reject) => {
+      message.id = next++;
+      waiting.set(message.id, { message, resolve, reject });
+      worker.postMessage(message);
+    });
+
+  // What a worker that is started anew is told first: the last of each kind.
+  function remember(message) {
+    const key = message.call + (message.part ?? '');
+    setup = [...setup.filter((one) => one.key !== key), { key, message }];
+  }
+
+  async function complete(part) {
+    if (!ways[part]) throw new Error(text('workerEnded'));
+    let failure = null;
+    for (const way of ways[part]) {
+      try {
+        const message = { call: 'complete', part, ...(await way()) }, answer = await send(message);
+        remember(message);
+        completed(answer);
+        return;
+      } catch (error) {
+        failure = error;
+      }
+    }
+    throw failure;
+  }
+
+  function completed({ threads, shared, flag }) {
+    document.body.dataset.threads = threads;
+    cancel = shared ? new Int32Array(shared, flag, 1) : cancel;
+  }
+
+  // Once; and again after an attempt that has failed.
+  function fetchPart(part) {
+    if (!fetched.has(part)) {
+      fetched.set(part, complete(part).catch((error) => {
+        fetched.delete(part);
+        throw error;
+      }));
+    }
+    return fetched.get(part);
+  }
+
+  function answered(data) {
+    const { message, resolve, reject } = waiting.get(data.id);
+    waiting.delete(data.id);
+    if (data.missing) fetchPart(data.missing).then(() => send(message)).then(resolve, reject);
+    else if (data.error === undefined) resolve(data.result);
+    else if (data.cancelled && message.endable) reject(new Ended());
+    else if (data.cancelled) send(message).then(resolve, reject); // the flag was meant for another call
+    else reject(new Error(data.error));
+  }
+
+  // Ends what the worker does and starts another one; calls that wait behind it are asked again.
+  function restart() {
+    const calls = [...waiting.values()], running = calls.find(({ message }) => message.endable);
+    const others = calls.filter((one) => one !== running);
+    waiting.clear();
+    worker.terminate();
+    running?.reject(new Ended());
+    start();
+    ready = setup.reduce((before, { message }) => before.then(async () => {
+      const answer = await send({ ...message });
+      if (message.call === 'complete') completed(answer);
+    }), Promise.resolve());
+    ready.then(() => others.forEach(({ message, resolve, reject }) => send(message).then(resolve, reject)), () => {});
+  }
+
+  start();
+  return {
+    async call(name, message) {
+      const whole = { ...message, call: name, parted };
+      if (name === 'start') whole.wasm = await wasm;
+      await ready; // of a worker that was started anew
+      if (name === 'start' || name === 'files') remember(whole);
+      return send(whole);
+    },
+    // What the first pictures do not need, before it is needed.
+    fetchRest: () => (ways.rest?.length ? fetchPart('rest') : Promise.resolve()),
+    // Asks the running call to end, if the worker shares its memory; false: only restart() ends it. A call that is `endable` is then rejected (Ended), and
+    // any other is asked again.
+    cancel() {
+      if (cancel) Atomics.store(cancel, 0, 1);
+      return Boolean(cancel);
+    },
+    restart,
+    end: () => worker.terminate(),
+    set onprogress(listener) {
+      onprogress = listener;
+    },
+  };
+}

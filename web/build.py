@@ -146,6 +146,10 @@ def make_page(folder):
             os.remove(os.path.join(served, name))
     make_offline(served, bundles)
     pack(served)
+    shaders = [name for name in bundles.shaders if name != bundle.CHECK_WORKER]
+    kinds = {"first": bundles.first + bundles.worker, "later": [name for name in bundles.later if name not in bundles.shaders],
+             "editor": shaders + [bundle.CODEMIRROR] * bool(editor)}
+    bundle.write(os.path.join(folder, "scripts.json"), json.dumps(kinds)) # for sizes.py
     make_one_file(folder, bundles, editor)
     bundle.write(os.path.join(folder, "lambent-threads.wasm"), files["lambent-threads.wasm"]) # for lambent view
 

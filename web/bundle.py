@@ -83,6 +83,7 @@ class Bundles:
     the tab of shaders. `inside`: the scripts of the page in one file, by name."""
 
     def __init__(self, folder):
+        folder = os.path.abspath(folder)
         place, made = gather(folder), os.path.join(folder, "bundles")
         shutil.rmtree(made, ignore_errors=True)
         facts = os.path.join(folder, "bundles.json")

@@ -2,12 +2,12 @@
 """sizes.py [FOLDER]: what a page loads first, part by part, as docs/web.md has it (tests/web.py compares). FOLDER: build-web, after make web.
 
 The linker's map says which object each byte of the module comes from. Files that a server sends packed have the sizes of that too."""
+import json
 import os
 import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import bundle  # noqa: E402
 import module_parts  # noqa: E402
 
 # Parts of the module: title, and what the object of a symbol is called in the map. The first that fits.
@@ -50,21 +50,21 @@ def packed(paths):
 def table(folder):
     """Rows: title, bytes, bytes after gzip and after brotli, or None."""
     module, page = os.path.join(folder, "wasm", "web", "lambent.wasm"), os.path.join(folder, "page")
-    bundles = bundle.Bundles(folder)
+    scripts = json.load(open(os.path.join(folder, "scripts.json")))
 
     def of(title, names):
         return (title, *packed([os.path.join(page, name) for name in names]))
 
     first, rest, more = module_parts.PARTS
-    scripts = bundles.first + bundles.worker + ["index.html", "page.css"]
+    start = scripts["first"] + ["index.html", "page.css"]
     rows = [(title, size, None, None) for title, size in parts_of(os.path.join(folder, "wasm", "web", "lambent.map")).items()]
-    rows += [("the module as a whole", os.path.getsize(module), None, None), of("its part that draws the first picture", [first]), of("scripts, page and style", scripts),
-             of(FIRST, [first, *scripts]), of("its second part, fetched after the first picture", [rest]), of(MODULE, [first, rest]),
+    rows += [("the module as a whole", os.path.getsize(module), None, None), of("its part that draws the first picture", [first]), of("scripts, page and style", start),
+             of(FIRST, [first, *start]), of("its second part, fetched after the first picture", [rest]), of(MODULE, [first, rest]),
              of("its third part, fetched when it is used: explanations, formulas, scene files", [more]),
              of("the module with threads, fetched in place of these where the page is cross-origin isolated", ["lambent-threads.wasm"]),
-             of("scripts that are fetched when they are used", [name for name in bundles.later if name not in bundles.shaders]),
-             of("the editor of shaders", [*(name for name in bundles.shaders if name != bundle.CHECK_WORKER), bundle.CODEMIRROR]),
-             of("checks of shaders, fetched when one is checked", [bundle.CHECK_WORKER, "check.wasm"])]
+             of("scripts that are fetched when they are used", scripts["later"]),
+             of("the editor of shaders", scripts["editor"]),
+             of("checks of shaders, fetched when one is checked", ["check_worker.js", "check.wasm"])]
     return rows
 
 

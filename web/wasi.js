@@ -19,6 +19,7 @@ export class Files {
   constructor() {
     this.files = new Map();
     this.folders = new Set(['']);
+    this.absent = new Set(); // paths that were asked for, and are not there
   }
 
   static clean(path) {
@@ -249,14 +250,20 @@ export function system(files, words, print) {
     },
     path_filestat_get(fd, flags, path, length, at) {
       const clean = within(fd, path, length), kind = files.kind(clean);
-      if (!kind) return NOENT;
+      if (!kind) {
+        files.absent.add(clean);
+        return NOENT;
+      }
       about(at, kind, kind === FILE ? files.files.get(clean).size : 0);
       return OK;
     },
     path_open(fd, lookup, path, length, how, rights, inheriting, flags, result) {
       const clean = within(fd, path, length), kind = files.kind(clean);
       const create = how & 1, folder = how & 2, exclusive = how & 4, truncate = how & 8;
-      if (!kind && !create) return NOENT;
+      if (!kind && !create) {
+        files.absent.add(clean);
+        return NOENT;
+      }
       if (kind && create && exclusive) return EXIST;
       if (folder && kind !== FOLDER) return NOTDIR;
       if (kind === FOLDER) {

@@ -5,6 +5,7 @@
 #include "codec.h"
 #include "dynamic_library.h"
 #include "fail.h"
+#include "remedy.h"
 #include "pixels.h"
 #include "shown_name.h"
 
@@ -415,8 +416,9 @@ static bool exr_read(const struct picture_file *picture, lam_image *image, lam_e
 #else
 
 #define NOT_BUILT                                                                                                      \
-    "EXR: this build of lambent is without OpenEXR; the Debian package libopenexr-dev is needed to build "             \
-    "it with"
+    REMEDY("EXR: this build of lambent is without OpenEXR; the Debian package libopenexr-dev is needed to build it "   \
+           "with",                                                                                                     \
+           "EXR: this page does not read it; the program lambent does")
 
 static bool write_layers(const lam_layer *layers, int count, lam_bytes *out, lam_error *error)
 {

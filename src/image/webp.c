@@ -5,6 +5,7 @@
 #include "codec.h"
 #include "dynamic_library.h"
 #include "fail.h"
+#include "remedy.h"
 #include "little_endian.h"
 #include "webp_library.h"
 
@@ -268,13 +269,16 @@ static bool webp_write(const lam_image *image, const lam_save_params *params, st
                        lam_error *error)
 {
     (void)image, (void)params, (void)pool, (void)out;
-    return fail(error, LAM_UNSUPPORTED, "WebP is not in this build; the Debian package libwebp-dev was missing");
+    return fail(error, LAM_UNSUPPORTED,
+                "WebP is not in this build" REMEDY("; the Debian package libwebp-dev was missing", ""));
 }
 
 static bool webp_read(const struct picture_file *file, lam_image *image, lam_error *error)
 {
     (void)image;
-    return fail(error, LAM_UNSUPPORTED, "%s: WebP is not in this build; the Debian package libwebp-dev was missing",
+    return fail(error, LAM_UNSUPPORTED,
+                "%s: " REMEDY("WebP is not in this build; the Debian package libwebp-dev was missing",
+                              "is a WebP picture, which this page does not read; the program lambent does"),
                 file->name);
 }
 

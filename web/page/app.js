@@ -5,10 +5,12 @@
 //   on('picture', f)  a picture is shown (view.picture); quick ones while something moves too
 //   on('still', f)    the picture of the command line is shown, with all of its samples
 //   on('ready', f)    the module has started: view.options, view.shapes
+//   on('missing', f)  files of the model are missing, or are not any more: view.missing
 //   on('fit', f)      the picture stands elsewhere in the page, or has another size there
 //   on('explained', f)  another point is explained, or the same one with other numbers: view.explained
 import { $ } from './dom.js';
 import { insideWords } from './inside.js';
+import { giveFilesOf, openedPaths } from './opened.js';
 import { openWorker } from './start.js';
 import { START, State, fromFragment } from './state.js';
 
@@ -24,7 +26,13 @@ export const worker = openWorker();
 export const { fetchRest } = worker;
 // The viewer's page (served.js) gets the files of its models first.
 const viewer = $('served') && import('./served.js').then(({ servedCall }) => servedCall(worker.call));
-export const call = viewer ? async (name, message) => (await viewer)(name, message) : worker.call;
+const ask = viewer ? async (name, message) => (await viewer)(name, message) : worker.call;
+
+// A call of the worker, which has the opened files of the command line's model before it.
+export function call(name, message) {
+  if (message.words) giveFilesOf(message.words[0], (files) => ask('files', { files }).catch(() => {}));
+  return ask(name, message);
+}
 
 export const view = {
   picture: null, // of the last drawing, without its pixels
@@ -35,7 +43,8 @@ export const view = {
   moving: false, // a gesture goes on
   shapes: [],
   options: [],
-  files: new Map(),
+  endings: [], // of models
+  missing: [], // paths of the model's files that are not there
 };
 
 const listeners = new Map();
@@ -48,11 +57,15 @@ export function emit(name) {
   for (const listener of listeners.get(name) ?? []) listener();
 }
 
-// A sentence of the program, or of the page, that stays until the next picture, with buttons for what can be done. The page's files lie in the root of a tree; a person knows them by
-// names without its '/', as the command line below the picture has them.
+// The page's files lie in the root of a tree; a person knows them by names without its '/', as the command line below the picture has them.
+export function plainNames(sentence) {
+  const paths = [state.model, ...openedPaths(), ...view.missing].filter((path) => path.startsWith('/'));
+  return sentence.replace(/(^|[\s'"(])\//g, (found, before, at) => (paths.some((path) => sentence.startsWith(path, at + before.length)) ? before : found));
+}
+
+// A sentence of the program, or of the page, that stays until the next picture, with buttons for what can be done.
 export function refuse(sentence, ...buttons) {
-  const own = [state.model, ...view.files.keys()].filter((path) => path.startsWith('/'));
-  $('message-text').textContent = sentence.replace(/(^|[\s'"(])\//g, (found, before, at) => (own.some((path) => sentence.startsWith(path, at + before.length)) ? before : found));
+  $('message-text').textContent = plainNames(sentence);
   $('message-buttons').replaceChildren(...buttons);
   $('message').hidden = false;
 }

@@ -1,6 +1,7 @@
 // bar.js: undo and redo, the command line with its copies, saving, and the address.
 import { call, on, refuse, state, view } from './app.js';
 import { $, ours } from './dom.js';
+import { setOf } from './opened.js';
 import { command, commandWords, fromFragment, toFragment } from './state.js';
 import { text } from './strings.js';
 
@@ -32,7 +33,10 @@ async function copy(copied, button) {
   setTimeout(() => (button.textContent = label), 1500);
 }
 $('copy-command').onclick = (event) => copy(command(state.words), event.target);
-$('copy-link').onclick = (event) => copy(location.href.split('#')[0] + toFragment(state.words), event.target);
+$('copy-link').onclick = (event) => {
+  copy(location.href.split('#')[0] + toFragment(state.words), event.target);
+  if (setOf(state.model)) $('status').textContent = text('linkCopied', { file: state.model.slice(1) });
+};
 
 // Offers bytes as a file of the model's name.
 export function download(bytes, ending, type) {

@@ -72,7 +72,7 @@ export function caller(open, wasm, ways = {}) {
     else if (data.error === undefined) resolve(data.result);
     else if (data.cancelled && message.endable) reject(new Ended());
     else if (data.cancelled) send(message).then(resolve, reject); // the flag was meant for another call
-    else reject(new Error(data.error));
+    else reject(Object.assign(new Error(data.error), { missing: data.missing_files ?? [] }));
   }
 
   // Ends what the worker does and starts another one; calls that wait behind it are asked again.

@@ -1,6 +1,6 @@
 // drawing.js: draws the command line in the worker: of waiting drawings the newest alone, with one sample and fewer pixels while something moves; and
 // places the picture in the page, as large as there is room. A drawing that is out of date is ended, and Stop ends any.
-import { call, emit, on, refuse, say, state, view, worker } from './app.js';
+import { call, emit, on, plainNames, refuse, say, state, view, worker } from './app.js';
 import { Ended } from './caller.js';
 import { $, button } from './dom.js';
 import { text } from './strings.js';
@@ -79,8 +79,8 @@ async function work() {
     wanted = null;
     running = new Running(task);
     if (!task.quick) started(task.words);
+    const [name] = task.words;
     try {
-      const [name] = task.words;
       if (name !== model) $('status').textContent = text('loadingModel', { name: name.replace(/^\//, '') });
       canvas.setAttribute('aria-busy', String(name !== model));
       const picture = await call('draw', { words: task.quick ? quickWords(task.words) : task.words, endable: true });
@@ -92,12 +92,20 @@ async function work() {
       finished();
       if (running.isStopped) stopped(task.words);
       if (!wanted && error instanceof Ended) refuse(text('stopped'), button('drawAgain', draw));
-      else if (!wanted && !view.explainRefusal?.(error.message)) refuse(error.message);
+      else if (!wanted) refused(error, name);
     }
     running.close();
     running = null;
     canvas.setAttribute('aria-busy', 'false');
   }
+}
+
+// A model that is not there, or not all of it, is the files' part to speak of (files.js); warnings of another model are stale.
+function refused(error, name) {
+  view.missing = error.missing ?? [];
+  if (name !== model) $('warnings').textContent = '';
+  emit('missing');
+  if (!view.missing.length) refuse(error.message);
 }
 
 // Stop, and Escape while something is drawn that takes long.
@@ -115,12 +123,14 @@ function show({ pixels, ...picture }, task) {
   canvas.height = picture.height;
   context.putImageData(new ImageData(pixels, picture.width, picture.height), 0, 0);
   view.picture = picture;
+  view.missing = picture.missing ?? [];
   if (!task.quick || !view.size) view.size = { width: picture.width, height: picture.height };
   if (!view.moving) ({ camera: view.camera, sphere: view.sphere } = picture);
   document.body.dataset.drawn = task.quick ? '' : JSON.stringify(task.words);
   $('message').hidden = true;
   showStatus(picture);
   fit();
+  emit('missing');
   emit('picture');
   if (!task.quick && !view.moving) emit('still');
 }
@@ -128,7 +138,7 @@ function show({ pixels, ...picture }, task) {
 function showStatus({ width, height, triangles, frame_ms, warnings }) {
   const line = text('status', { width, height, triangles: triangles.toLocaleString('en'), ms: Math.round(frame_ms) });
   $('status').textContent = line;
-  $('warnings').textContent = warnings.join(' · ');
+  $('warnings').textContent = warnings.map(plainNames).join(' · ');
 }
 
 // As large as there is room for, in the middle; its pixels are seen as squares from three times their size.

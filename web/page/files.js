@@ -1,20 +1,24 @@
-// files.js: models come in by the menu, as files, as a folder, or dropped; nothing leaves the machine.
-import { call, emit, on, refuse, state, view } from './app.js';
-import { $ } from './dom.js';
+// files.js: models come in by the menu, as files, as a folder, or dropped; nothing leaves the machine. Files that a model names and that are not there
+// are asked for.
+import { emit, on, refuse, state, view } from './app.js';
+import { $, button, element } from './dom.js';
 import { droppedFiles } from './dropped.js';
 import { FILES_BYTES } from './memory.js';
+import { addCompanions, addFiles, openedPaths, setOf } from './opened.js';
 import { FORMULAS, START, withModel } from './state.js';
 import { text } from './strings.js';
 
-const MODELS = /\.(obj|stl|ply|gltf|glb|json)$/i;
+const isModel = (path) => view.endings.includes(path.replace(/^.*\./, '').toLowerCase());
+const baseOf = (path) => path.replace(/^.*\//, '').toLowerCase();
+const plain = (path) => path.replace(/^\//, '');
 
 function showModels() {
-  const own = [...view.files.keys()].filter((path) => MODELS.test(path));
-  const names = [...own, ...view.shapes, ...Object.keys(FORMULAS)];
-  if (!names.includes(state.model)) names.unshift(state.model);
-  const key = names.join('\n');
+  const own = openedPaths().filter(isModel), shapes = [...view.shapes, ...Object.keys(FORMULAS)];
+  if (![...own, ...shapes].includes(state.model)) own.unshift(state.model);
+  const key = [...own, '', ...shapes].join('\n');
   if ($('model').dataset.names !== key) {
-    $('model').replaceChildren(...names.map((name) => new Option(name.replace(/^\//, ''), name)));
+    const group = (label, names) => element('optgroup', { label: text(label), translate: true }, ...names.map((name) => new Option(plain(name), name)));
+    $('model').replaceChildren(...(own.length ? [group('modelsOpened', own)] : []), group('modelsShapes', shapes));
     $('model').dataset.names = key;
   }
   $('model').value = state.model;
@@ -24,34 +28,74 @@ on('ready', showModels);
 
 // Another model is seen whole: its own view. A file's materials are its own, not those of the first picture.
 function takeModel(name) {
-  const own = view.files.has(name) ? START : [];
+  const own = setOf(name) ? START : [];
   state.set(withModel(state.words.filter((word, i) => !i || (!word.startsWith('--camera') && !own.includes(word))), name));
 }
 
-async function takeFiles(list) {
+async function read(list) {
   const taken = new Map();
   const size = list.reduce((sum, [, file]) => sum + file.size, 0), large = list.reduce((a, b) => (a && a[1].size >= b[1].size ? a : b), null);
   const megabytes = (bytes) => Math.round(bytes / 1e6).toLocaleString('en');
-  if (size > FILES_BYTES) return refuse(text('tooLarge', { file: large[0], size: megabytes(size), most: megabytes(FILES_BYTES) }));
-  let read = 0;
-  for (const [path, file] of list) {
-    $('status').textContent = text('loading', { name: path, amount: `${Math.round((100 * read) / (size || 1))} %` });
-    taken.set('/' + path, new Uint8Array(await file.arrayBuffer()));
-    read += file.size;
+  if (size > FILES_BYTES) {
+    refuse(text('tooLarge', { file: large[0], size: megabytes(size), most: megabytes(FILES_BYTES) }));
+    return taken;
   }
-  if (!taken.size) return;
-  view.files = taken;
-  await call('files', { files: [...taken] });
-  const names = [...taken.keys()];
-  const models = names.filter((path) => MODELS.test(path)).sort((a, b) => a.split('/').length - b.split('/').length || (a < b ? -1 : 1));
-  if (!models.length) refuse(text('noModel', { files: names.map((path) => path.slice(1)).join(', ') }));
-  else if (models[0] === state.model) emit('words'); // new contents under an old name
-  else takeModel(models[0]);
+  let done = 0;
+  for (const [path, file] of list) {
+    $('status').textContent = text('loading', { name: path, amount: `${Math.round((100 * done) / (size || 1))} %` });
+    taken.set('/' + path, new Uint8Array(await file.arrayBuffer()));
+    done += file.size;
+  }
+  $('status').textContent = '';
+  return taken;
 }
 
+// Files that the model has missed, put where it looks for them.
+function companions(taken) {
+  const found = new Map();
+  for (const path of view.missing) {
+    const same = [...taken.keys()].find((other) => baseOf(other) === baseOf(path));
+    if (same) found.set(path, taken.get(same));
+  }
+  return found;
+}
+
+async function takeFiles(list) {
+  const taken = await read(list);
+  if (!taken.size) return;
+  const names = [...taken.keys()], awaited = state.model.startsWith('/') && !setOf(state.model) && !view.camera ? state.model : null;
+  const models = names.filter(isModel).sort((a, b) => a.split('/').length - b.split('/').length || (a < b ? -1 : 1));
+  const found = setOf(state.model) ? companions(taken) : new Map();
+  if (!models.length && !found.size) return refuse(text('noModel', { files: names.map(plain).join(', '), endings: view.endings.map((ending) => '.' + ending).join(', ') }));
+  // A folder that has the model itself is opened as a whole.
+  const again = models.find((path) => baseOf(path) === baseOf(state.model));
+  if (found.size && !(again && models.length)) addCompanions(state.model, found);
+  else addFiles(taken, state.model);
+  const [first] = models, wanted = again && (awaited || view.missing.length) ? again : first;
+  if (!wanted || wanted === state.model) emit('words'); // new contents under an old name
+  else if (awaited || wanted === again) state.set([wanted, ...state.words.slice(1)]); // the options of a link, or of the same model
+  else takeModel(wanted);
+}
+
+const openFiles = () => $('files').click(), openFolder = () => $('folder').click();
+
+// What to do about files that are not there: of a link to a model of one's own, the model itself.
+on('missing', () => {
+  const buttons = [button('chooseFiles', openFiles), button('openFolder', openFolder)], [model] = state.words;
+  const isGone = view.missing.includes(model), sentence = isGone ? text('linkWithout', { file: plain(model) })
+    : text('missingFiles', { files: view.missing.map(plain).join(', ') });
+  $('missing').hidden = isGone || !view.missing.length || $('missing').dataset.seen === sentence;
+  $('missing').firstChild.textContent = sentence;
+  $('missing').lastChild.replaceChildren(...buttons, button('missingSeen', () => {
+    $('missing').dataset.seen = sentence;
+    $('missing').hidden = true;
+  }));
+  if (isGone) refuse(sentence, button('openNamed', openFiles), buttons[1]);
+});
+
 $('model').onchange = (event) => takeModel(event.target.value);
-$('open').onclick = () => $('files').click();
-$('open-folder').onclick = () => $('folder').click();
+$('open').onclick = openFiles;
+$('open-folder').onclick = openFolder;
 for (const id of ['files', 'folder'])
   $(id).onchange = (event) => {
     takeFiles([...event.target.files].map((file) => [file.webkitRelativePath || file.name, file]));

@@ -1,9 +1,10 @@
 // page.js: the page's parts and its start. Each part is a module (app.js says what they share); a new one is imported here, and its tab
 // stands where its import stands.
 import { localize } from './strings.js';
-import { call, emit, refuse, view } from './app.js';
+import { call, emit, refuse, state, view } from './app.js';
 import { takeInsideFiles } from './inside.js';
 import { MODULE_BYTES } from './memory.js';
+import { addFiles } from './opened.js';
 import './drawing.js';
 import './files.js';
 import './quick.js';
@@ -15,8 +16,8 @@ async function start() {
   localize(document);
   try {
     Object.assign(view, await call('start', { memory: MODULE_BYTES }));
-    view.files = await takeInsideFiles();
-    if (view.files.size) await call('files', { files: [...view.files] });
+    const files = await takeInsideFiles();
+    if (files.size) addFiles(files, state.model);
     emit('ready');
     emit('words');
   } catch (error) {

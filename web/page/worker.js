@@ -6,6 +6,8 @@ import { Lambent, LambentError, PartMissing } from './lambent.js';
 const parts = new Map(); // by name, of a module in parts
 let lambent = null, first = null, broken = null, memory = 0, threaded = false;
 
+let model = null; // the last one that was drawn
+
 const progress = (share) => self.postMessage({ progress: share });
 
 function use(made) {
@@ -42,9 +44,15 @@ const calls = {
     for (const path of lambent.files.list()) lambent.files.delete(path);
     for (const [path, bytes] of files) lambent.files.set(path, bytes);
     lambent.forget();
+    model = null;
     return null;
   },
-  draw: ({ words }) => lambent.draw(words),
+  // `missing`: the paths that reading the model has asked for, and not found.
+  draw({ words }) {
+    if (model !== words[0]) lambent.files.absent.clear();
+    model = words[0];
+    return { ...lambent.draw(words), missing: [...lambent.files.absent] };
+  },
   save: ({ words, ending }) => lambent.save(words, ending),
   explain: ({ words, x, y }) => lambent.explain(words, x, y),
   curves: ({ words, of }) => lambent.curves(words, of),
@@ -64,6 +72,6 @@ self.onmessage = async ({ data }) => {
     if (error instanceof PartMissing) {
       broken = error.part;
       self.postMessage({ id: data.id, missing: error.part });
-    } else self.postMessage({ id: data.id, error: error.message, cancelled: error instanceof LambentError && error.cancelled });
+    } else self.postMessage({ id: data.id, error: error.message, cancelled: error instanceof LambentError && error.cancelled, missing_files: [...(lambent?.files.absent ?? [])] });
   }
 };

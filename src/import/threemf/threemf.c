@@ -2,6 +2,7 @@
 #include "threemf.h"
 
 #include "fail.h"
+#include "remedy.h"
 #include "threemf_xml.h"
 
 #include <string.h>
@@ -118,7 +119,8 @@ static bool threemf_load(const struct import_source *source, struct lam_scene *s
 {
     (void)scene;
     return fail(error, LAM_UNSUPPORTED,
-                "%s: 3MF is not in this build; the Debian packages libzip-dev and libexpat1-dev were missing",
+                REMEDY("%s: 3MF is not in this build; the Debian packages libzip-dev and libexpat1-dev were missing",
+                       "%s: is a 3MF file, which this page does not read; the program lambent does"),
                 source->name);
 }
 

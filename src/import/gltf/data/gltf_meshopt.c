@@ -7,6 +7,7 @@
 
 #include "dynamic_library.h"
 #include "fail.h"
+#include "remedy.h"
 
 enum mode { ATTRIBUTES, TRIANGLES, INDICES };
 enum filter { NO_FILTER, OCTAHEDRAL, QUATERNION, EXPONENTIAL };
@@ -133,8 +134,9 @@ bool gltf_meshopt_decode(struct gltf *gltf, const struct place *place, const jso
         const json_t *buffer = plain >= 0 ? gltf_list_item(gltf, "buffers", plain) : NULL;
         bool has_plain = buffer && (json_object_get(buffer, "uri") || !gltf_meshopt_is_fallback(buffer));
         return has_plain || fail(gltf->json.error, LAM_UNSUPPORTED,
-                                 "%s: is compressed by EXT_meshopt_compression, and libmeshoptimizer is not installed "
-                                 "(Debian's package libmeshoptimizer2d)",
+                                 "%s: is compressed by EXT_meshopt_compression" REMEDY(
+                                     ", and libmeshoptimizer is not installed (Debian's package libmeshoptimizer2d)",
+                                     ", which this page does not read; the program lambent does"),
                                  gltf->source->name);
     }
     *done = decode(gltf, here, &c, decode_bytes, filter, out);

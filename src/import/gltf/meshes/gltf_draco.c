@@ -11,6 +11,7 @@
 
 #include "dynamic_library.h"
 #include "fail.h"
+#include "remedy.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -240,8 +241,9 @@ bool gltf_draco_decode(struct gltf *gltf, const struct place *place, const json_
     if (!d.functions)
         return has_plain_bytes(gltf, primitive) ||
                fail(gltf->json.error, LAM_UNSUPPORTED,
-                    "%s: is compressed by " NAME ", and its decoder is not installed (the module lambent-draco.so, and "
-                    "Debian's package libdraco7)",
+                    "%s: is compressed by " NAME REMEDY(", and its decoder is not installed (the module "
+                                                        "lambent-draco.so, and Debian's package libdraco7)",
+                                                        ", which this page does not read; the program lambent does"),
                     gltf->source->name);
     bool strip = *mode == GLTF_TRIANGLE_STRIP;
     *mode = GLTF_TRIANGLES;

@@ -187,6 +187,10 @@ def main():
         done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "browser.mjs"), modules, chromium, OUT, folder, str(sequences)],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         drawn = report(results, program, done.stdout, lambda said: folder)
+        people = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "people.mjs"), modules, chromium, OUT, folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                text=True)
+        report(results, program, people.stdout, lambda said: folder)
+        results.ok(people.returncode == 0 and "links ran" in people.stdout, "the page was met as people meet it", people.stderr)
         results.ok(done.returncode == 0 and drawn == sequences, "%d sequences of gestures were drawn" % sequences, done.stderr)
     print("1..%d" % results.count)
     return 1 if results.failed else 0

@@ -20,7 +20,7 @@ export const commandOf = (page) => page.locator('#command').textContent();
 
 // Waits until `f` is true in the page. (Playwright's own way evaluates a string there, which the policy refuses, as it should.)
 export async function until(page, f, argument) {
-  for (const end = Date.now() + 15000; Date.now() < end; await new Promise((done) => setTimeout(done, 20))) if (await page.evaluate(f, argument)) return true;
+  for (const end = Date.now() + 60000; Date.now() < end; await new Promise((done) => setTimeout(done, 20))) if (await page.evaluate(f, argument)) return true;
   throw new Error(`nothing came of ${f}`);
 }
 

@@ -1,4 +1,6 @@
-// serve.mjs: the page of build-web/page on 127.0.0.1, and a browser for it. Below /isolated/ it is cross-origin isolated.
+// serve.mjs: the page of build-web/page on 127.0.0.1, and a browser for it. Below /isolated/ it is cross-origin isolated. Files are sent as brotli packs
+// them, to browsers that take it; a file that the browser has is not sent again. `sent`: the names and bytes of the answers.
+import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
@@ -13,13 +15,17 @@ export function launch(playwright, executablePath) {
 }
 
 export async function openBrowser(playwright, executablePath, built) {
+  const sent = [];
   const server = createServer((request, answer) => {
     const path = new URL(request.url, 'http://x').pathname, isolated = path.startsWith('/isolated/');
     const name = path.replace(/^\/isolated/, '').replace(/^\/$/, '/index.html');
     const headers = isolated ? { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' } : {};
     try {
-      const bytes = readFileSync(join(built, 'page', name));
-      answer.writeHead(200, { ...headers, 'content-type': TYPES[extname(name)] ?? 'application/octet-stream' }).end(bytes);
+      const packed = /\bbr\b/.test(request.headers['accept-encoding']) ? { ending: '.br', 'content-encoding': 'br' } : { ending: '' }, { ending, ...encoding } = packed;
+      const bytes = readFileSync(join(built, 'page', name + ending)), etag = `"${createHash('sha256').update(bytes).digest('hex').slice(0, 16)}"`, known = request.headers['if-none-match'] === etag;
+      Object.assign(headers, { etag, 'cache-control': 'no-cache', vary: 'accept-encoding' });
+      sent.push({ name, bytes: known ? 0 : bytes.length });
+      answer.writeHead(known ? 304 : 200, { ...headers, ...encoding, 'content-type': TYPES[extname(name)] ?? 'application/octet-stream' }).end(known ? undefined : bytes);
     } catch {
       answer.writeHead(404).end();
     }
@@ -31,5 +37,5 @@ export async function openBrowser(playwright, executablePath, built) {
     server.closeAllConnections();
     await new Promise((done) => server.close(done));
   };
-  return { browser, origin: `http://127.0.0.1:${server.address().port}/`, close };
+  return { browser, origin: `http://127.0.0.1:${server.address().port}/`, sent, close };
 }

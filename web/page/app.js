@@ -13,6 +13,9 @@ import { insideWords } from './inside.js';
 import { giveFilesOf, openedPaths } from './opened.js';
 import { openWorker } from './start.js';
 import { START, State, fromFragment } from './state.js';
+import { localize } from './strings.js';
+
+localize(document); // the stage has its size once the page has its texts
 
 // The size that fills the stage, at most 1.6 million pixels.
 function stageSize() {

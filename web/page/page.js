@@ -1,6 +1,5 @@
 // page.js: the page's parts and its start. Each part is a module (app.js says what they share); a new one is imported here, and its tab
 // stands where its import stands.
-import { localize } from './strings.js';
 import { call, emit, refuse, state, view } from './app.js';
 import { takeInsideFiles } from './inside.js';
 import { MODULE_BYTES } from './memory.js';
@@ -13,7 +12,6 @@ import './gestures.js';
 import './bar.js';
 
 async function start() {
-  localize(document);
   try {
     Object.assign(view, await call('start', { memory: MODULE_BYTES }));
     const files = await takeInsideFiles();

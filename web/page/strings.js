@@ -12,6 +12,7 @@ const STRINGS = {
   savePicture: 'Save PNG',
   canvas: 'The model. Arrow keys turn it.',
   keys: 'Drag: turn. Shift-drag or two fingers: move. Wheel, pinch, + and −: zoom. Arrow keys: turn; with Shift: move. Home: whole model. Click or Enter: explain the point.',
+  touchKeys: 'One finger turns, two move and zoom. A tap explains the point.',
   drop: 'Drop a model, its files, or a folder. Nothing leaves this machine.',
   side: 'Options and explanations',
   tabQuick: 'Picture',

@@ -1,0 +1,188 @@
+// people.mjs PLAYWRIGHT CHROMIUM BUILD_WEB MODELS: the page as somebody meets it: what the first picture needs of the line, drawings that take long, files that are
+// missing, links without files, small screens. Prints lines of the Test Anything Protocol without numbers, and as browser.mjs commands with the
+// pixels that they have.
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { commandOf, drawn, fragment, ok, pixels, settled, until, watchedPage } from './driver.mjs';
+import { openBrowser } from './serve.mjs';
+
+const [, , playwright, executablePath, built, models] = process.argv, FIRST_MAX = 300_000;
+const { browser, origin, sent, close } = await openBrowser(playwright, executablePath, built), reports = [];
+const pause = (ms) => new Promise((done) => setTimeout(done, ms));
+const said = async (page, command) => console.log(`pixels ${JSON.stringify({ command: command ?? (await commandOf(page)), hash: await pixels(page) })}`);
+const messageOf = (page) => page.locator('#message-text').textContent();
+const go = (page, words) => page.evaluate((hash) => (location.hash = hash), fragment(words));
+const open = async (address, options = {}) => {
+  const page = await watchedPage(await browser.newContext({ viewport: { width: 1100, height: 800 }, ...options }), reports);
+  await page.goto(address);
+  return page;
+};
+
+// --- the line: bytes before the first picture, and no file twice
+
+async function firstPicture() {
+  sent.length = 0;
+  const page = await open(origin);
+  await drawn(page, 'the first picture');
+  const before = sent.filter(({ name }) => name !== '/lambent-rest.wasm'), bytes = before.reduce((sum, one) => sum + one.bytes, 0);
+  ok(bytes > 100_000 && bytes <= FIRST_MAX, `the first picture: ${bytes} bytes are sent before it, of ${FIRST_MAX}`, JSON.stringify(before));
+  ok(!before.some(({ name }) => /offline|more|check|codemirror/.test(name)), 'the first picture: nothing else is asked for before it', JSON.stringify(before));
+  await page.evaluate(async () => {
+    const { active, waiting, installing } = await navigator.serviceWorker.ready, worker = active ?? waiting ?? installing;
+    if (worker.state !== 'activated') await new Promise((done) => (worker.onstatechange = () => worker.state === 'activated' && done()));
+  });
+  const large = sent.filter((one) => one.bytes > 20_000).map(({ name }) => name);
+  ok(large.length === 3 && new Set(large).size === 3, 'without the server: no file is sent a second time to be stored', JSON.stringify(sent));
+  const stored = await page.evaluate(async () => (await (await caches.open((await caches.keys())[0])).keys()).map((one) => one.url.replace(/^.*\//, '')));
+  ok(stored.includes('lambent-rest.wasm') && !stored.some((name) => /check|codemirror|threads\.wasm/.test(name)), 'without the server: the tab of shaders is stored when it is used', stored.join(' '));
+  await page.reload();
+  await drawn(page, 'by the service worker');
+  await page.locator('#tab-shaders').click();
+  await until(page, async () => (await caches.match(new URL('check.wasm', location).href)) !== undefined);
+  ok(true, 'without the server: a file that is used is stored');
+  await page.context().close();
+}
+
+// --- drawings that take long
+
+const SLOW = ['torus-knot', '--size=1600x1200', '--ao=rays', '--samples=16'];
+
+async function interrupted(address, label) {
+  const page = await open(address + fragment(['sphere', '--size=96x96', '--background=white'])), isThreaded = address !== origin;
+  await drawn(page, label);
+  if (isThreaded) await until(page, () => Number(document.body.dataset.threads) > 1);
+  const before = await pixels(page);
+  await go(page, SLOW);
+  await until(page, () => !document.getElementById('working').hidden && document.getElementById('progress').value > 0.5);
+  await page.locator('#stop').click();
+  const began = Date.now();
+  await until(page, () => !document.getElementById('message').hidden);
+  ok(Date.now() - began < 3000 && /stopped/.test(await messageOf(page)) && (await pixels(page)) === before, `${label}: Stop ends a drawing, and the picture stays`, `${Date.now() - began} ms: ${await messageOf(page)}`);
+  await page.reload();
+  await until(page, () => !document.getElementById('message').hidden);
+  await pause(300);
+  ok(/not drawn by itself/.test(await messageOf(page)) && (await page.locator('#working').isHidden()), `${label}: a page that is loaded again does not repeat it`, await messageOf(page));
+  await page.locator('#message button').click();
+  await until(page, () => !document.getElementById('working').hidden);
+  const changed = Date.now();
+  await go(page, ['cube', '--size=96x96', '--background=white']);
+  await settled(page, label);
+  ok(Date.now() - changed < 5000, `${label}: a drawing that is out of date ends`, `${Date.now() - changed} ms`);
+  await said(page);
+  await page.locator('#canvas').press('Enter');
+  await until(page, () => document.getElementById('explain').textContent.length > 100);
+  ok(true, `${label}: and the page goes on`);
+  await page.context().close();
+}
+
+// --- files
+
+async function files() {
+  const page = await open(origin + fragment(['sphere', '--size=96x96', '--background=white'])), choose = (...names) => page.locator('#files').setInputFiles(names.map((name) => join(models, name)));
+  await drawn(page, 'files');
+  const model = async (path) => {
+    await until(page, (name) => document.getElementById('model').value === name, path);
+    await settled(page, path);
+  };
+  await choose('cube.ply');
+  await model('/cube.ply');
+  const first = await pixels(page);
+  await choose('cube.obj', 'cube.mtl');
+  await model('/cube.obj');
+  const listed = await page.evaluate(() => [...document.getElementById('model').options].map((one) => one.value));
+  ok(['/cube.ply', '/cube.obj', 'teapot'].every((name) => listed.includes(name)), 'opened files stay in the list', listed.join(' '));
+  ok(await page.locator('#missing').isHidden(), 'nothing is missing where nothing is');
+  await page.locator('#undo').click();
+  await model('/cube.ply');
+  ok((await pixels(page)) === first, 'undo over an opened file keeps the file before it');
+  await page.locator('#redo').click();
+  await model('/cube.obj');
+  await said(page);
+
+  // A model without its companions.
+  const alone = await open(origin + fragment(['sphere', '--size=96x96', '--background=white']));
+  await drawn(alone, 'alone');
+  await alone.locator('#files').setInputFiles(join(models, 'textured/quad.obj'));
+  await until(alone, () => !document.getElementById('missing').hidden);
+  const asked = await alone.locator('#missing').textContent();
+  ok(/missing: quad\.mtl\./.test(asked) && !(await alone.locator('#warnings').textContent()).includes('/quad'), 'a missing companion is asked for by its name', asked);
+  await alone.locator('#files').setInputFiles(join(models, 'textured/quad.mtl'));
+  await until(alone, () => /quad\.jpg/.test(document.getElementById('missing').textContent));
+  ok(/quad\.jpg, side\.png|side\.png, quad\.jpg/.test(await alone.locator('#missing').textContent()), 'and then those that it names', await alone.locator('#missing').textContent());
+  await alone.locator('#files').setInputFiles(['quad.jpg', 'side.png'].map((name) => join(models, 'textured', name)));
+  await until(alone, () => document.getElementById('missing').hidden);
+  await settled(alone, 'complete');
+  await said(alone, (await commandOf(alone)).replace('quad.obj', 'textured/quad.obj'));
+  ok((await alone.locator('#warnings').textContent()) === '', 'its warnings are gone with their reason', await alone.locator('#warnings').textContent());
+  await alone.context().close();
+
+  // A model whose buffer is missing is no picture; nor is a format that the page does not read. Neither names a package of the system.
+  mkdirSync(join(models, 'away'), { recursive: true });
+  writeFileSync(join(models, 'away/part.gltf'), '{"asset":{"version":"2.0"},"buffers":[{"uri":"part.bin","byteLength":36}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0}');
+  await choose('away/part.gltf');
+  await until(page, () => /part\.bin/.test(document.getElementById('missing').textContent) && !document.getElementById('missing').hidden);
+  const bin = new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]);
+  writeFileSync(join(models, 'away/part.bin'), bin);
+  await choose('away/part.bin');
+  await model('/part.gltf');
+  ok(await page.locator('#missing').isHidden(), 'a model with its missing buffer is drawn');
+  writeFileSync(join(models, 'away/thing.3mf'), Buffer.concat([Buffer.from('PK\x03\x04'), readFileSync(join(models, 'cube.ply'))]));
+  await choose('away/thing.3mf');
+  await until(page, () => !document.getElementById('message').hidden && document.getElementById('model').value === '/thing.3mf');
+  const sentence = await messageOf(page);
+  ok(/^thing\.3mf: /.test(sentence) && !/Debian|package/.test(sentence), 'a sentence names the file without a slash, and no package', sentence);
+  await choose('away/part.bin');
+  await until(page, () => /no model among/.test(document.getElementById('message-text').textContent));
+  ok(/\.3mf/.test(await messageOf(page)) && /\.gltf/.test(await messageOf(page)), 'the endings of models are those of the program', await messageOf(page));
+  await page.context().close();
+}
+
+// A link to a model of one's own.
+async function links() {
+  const camera = '--camera=eye=0/0/5,target=0/0/0,up=0/1/0,fovy=30', page = await open(origin + fragment(['/cube.ply', '--size=96x96', '--background=white', camera]));
+  await until(page, () => !document.getElementById('message').hidden);
+  ok(/link to cube\.ply\. Links contain no files/.test(await messageOf(page)) && (await page.locator('#missing').isHidden()), 'a link to a model of one\'s own says that it holds no files', await messageOf(page));
+  const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.getByRole('button', { name: 'Open it…' }).click()]);
+  await chooser.setFiles(join(models, 'cube.ply'));
+  await drawn(page, 'of a link');
+  ok((await commandOf(page)) === `lambent cube.ply --size=96x96 --background=white ${camera}`, 'and has its options once the file is opened', await commandOf(page));
+  await said(page);
+  await page.locator('#copy-link').click();
+  ok(/contains no files: whoever opens it needs cube\.ply/.test(await page.locator('#status').textContent()), 'a copied link says so too', await page.locator('#status').textContent());
+  await page.context().close();
+}
+
+// --- phones and tablets
+
+async function screens() {
+  for (const [width, height] of [[320, 640], [390, 844], [768, 1024]]) {
+    const page = await open(origin, { viewport: { width, height }, hasTouch: true }), label = `${width} pixels wide`;
+    await drawn(page, label);
+    const box = (name) => page.locator(name).boundingBox(), canvas = await box('#canvas'), aside = await box('aside');
+    ok(canvas.y < 40 && canvas.width >= width - 8 && aside.y > canvas.y + canvas.height - 1, `${label}: the picture is on top and fills the width`, JSON.stringify([canvas, aside]));
+    ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${label}: nothing is wider`);
+    const session = await page.context().newCDPSession(page), send = (type, ...points) => session.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    const x = width / 2, y = canvas.y + canvas.height / 2;
+    await send('touchStart', [x, y]);
+    for (const step of [10, 20, 30]) await send('touchMove', [x + step, y]);
+    await send('touchEnd');
+    await settled(page, label);
+    ok(/--camera=/.test(await commandOf(page)) && (await page.evaluate(() => scrollY)) === 0, `${label}: one finger turns`, await commandOf(page));
+    const low = height - 30;
+    await send('touchStart', [x, low]);
+    for (let step = 1; step <= 10; step++) await send('touchMove', [x, low - 20 * step]);
+    await send('touchEnd');
+    await until(page, () => scrollY > 40);
+    ok((await box('#canvas')).y < 40, `${label}: the page scrolls below the picture, which stays`, JSON.stringify(await box('#canvas')));
+    await page.context().close();
+  }
+}
+
+const parts = { firstPicture, stop: () => interrupted(origin, 'one thread'), stopThreads: () => interrupted(`${origin}isolated/`, 'threads'), files, links, screens };
+const only = process.env.LAMBENT_BROWSER?.split(',');
+for (const [name, part] of Object.entries(parts)) {
+  if (only && !only.includes(name)) continue;
+  await part().then(() => ok(true, `${name} ran`), (error) => ok(false, name, error.stack));
+}
+ok(!reports.length, 'people: the browser reports no error, and the content-security policy refuses nothing', reports.join('\n'));
+await close();

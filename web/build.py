@@ -22,7 +22,7 @@ from module_parts import call  # noqa: E402
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(HERE)
 NEEDS = {"clang-19": "clang-19", "wasm-ld-19": "lld-19", "/usr/lib/llvm-19/bin/llvm-ar": "llvm-19", "dpkg-source": "dpkg-dev", "node": "nodejs",
-         "wasm-split": "binaryen", "esbuild": "esbuild", "/usr/include/wasm32-wasi/stdio.h": "wasi-libc",
+         "wasm-split": "binaryen", "esbuild": "esbuild", "/usr/include/wasm32-wasi/stdio.h": "wasi-libc", "/usr/lib/llvm-19/include/wasm32-wasi/c++/v1/__config": "libc++-19-dev-wasm32",
          "/usr/lib/llvm-19/lib/clang/19/lib/wasi/libclang_rt.builtins-wasm32.a": "libclang-rt-19-dev-wasm32"}
 
 
@@ -92,7 +92,7 @@ def make_offline(served, bundles):
     names = sorted(name for name in os.listdir(served) if name.endswith((".js", ".css", ".html", ".wasm")) and name != OFFLINE)
     files = {"./" if name == "index.html" else name: integrity(os.path.join(served, name)) for name in names}
     threads, shaders = "lambent-threads.wasm", bundles.shaders + ["check.wasm", bundle.CODEMIRROR]
-    kinds = {"FILES": files, "LATER": [name for name in names if name in shaders], "PLAIN": [*module_parts.PARTS[1:]], "THREADS": [threads]}
+    kinds = {"FILES": files, "LATER": [name for name in names if name in shaders + [DECODERS]], "PLAIN": [*module_parts.PARTS[1:]], "THREADS": [threads]}
     cache = hashlib.sha256(json.dumps(files, sort_keys=True).encode()).hexdigest()[:16]
     text = page_file(OFFLINE).replace("lambent-HASH", "lambent-" + cache)
     for name, value in kinds.items():
@@ -102,7 +102,7 @@ def make_offline(served, bundles):
     bundle.write(os.path.join(served, OFFLINE), text)
 
 
-OFFLINE = "offline_worker.js"
+OFFLINE, DECODERS = "offline_worker.js", "lambent-decoders.wasm"
 PACKED = (".js", ".css", ".html", ".wasm")
 PACKER = """
 const { readFileSync, statSync, utimesSync, writeFileSync, existsSync } = require('fs'), { brotliCompressSync, gzipSync, constants } = require('zlib');
@@ -132,6 +132,7 @@ def make_page(folder):
     files = {**bundles.files, "index.html": served_index(bundles), "page.css": page_file("page.css")}
     for name in ("lambent.d.ts", "threads.d.ts"):
         files[name] = open(os.path.join(HERE, name)).read()
+    files[DECODERS] = open(os.path.join(folder, "decoders.wasm"), "rb").read()
     files["check.wasm"] = open(os.path.join(modules, "check.wasm"), "rb").read()
     files["lambent-threads.wasm"] = open(os.path.join(with_threads, "lambent.wasm"), "rb").read()
     editor = bundle.codemirror(folder, packages(folder))
@@ -164,6 +165,7 @@ def make_one_file(folder, bundles, editor):
     texts = {name[:-3].replace("_", "-"): bundles.inside[name] for name in (bundle.WORKER, bundle.THREAD, bundle.CHECK_WORKER)}
     for name, file in (("wasm", "lambent.wasm"), ("check-wasm", "check.wasm")):
         texts[name] = packed_text(open(os.path.join(folder, "wasm", "web", file), "rb").read())
+    texts["decoders"] = packed_text(open(os.path.join(folder, "decoders.wasm"), "rb").read())
     if editor:
         texts["codemirror"] = packed_text(editor)
     inside = "".join('<script type="text/plain" id="%s">%s</script>\n' % row for row in texts.items())
@@ -199,9 +201,9 @@ def main():
     os.makedirs(folder, exist_ok=True)
     alone = open(os.path.join(folder, "lock"), "w") # two tests build the same folder
     fcntl.flock(alone, fcntl.LOCK_EX)
-    libraries = subprocess.run([sys.executable, os.path.join(HERE, "libraries.py"), folder])
-    if libraries.returncode:
-        sys.exit(1)
+    for script in ("libraries.py", "decoders.py"):
+        if subprocess.run([sys.executable, os.path.join(HERE, script), folder]).returncode:
+            sys.exit(1)
     for name, args in MODULES.items():
         make_modules(folder, name, args)
     make_page(folder)

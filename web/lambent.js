@@ -28,17 +28,26 @@ const placeholder = (part) => new Proxy({}, {
   },
 });
 
+const DECODING = ['web_draco_decode', 'web_draco_attribute', 'web_draco_triangles', 'web_draco_free', 'web_meshopt_decode', 'web_meshopt_filter'];
+
 export class Lambent {
   instance; // the module's
+  decoders = null; // of files compressed by Draco or meshoptimizer (decoders.js); null: there are none
+  wantsDecoders = false; // a file needed them
   #printed = '';
+  #decoding = null;
 
   // `parts`: of a module that is in parts, those that are there; calls that need another one throw PartMissing until complete() has it. `memory`: of a
   // module with threads (threads.js). `progress`: called now and then while it draws, with the share that is done, 0 to 1.
   constructor(module, files = new Files(), { parts = [], memory = null, progress = null } = {}) {
     this.files = files;
     const host = system(files, [], (stream, text) => (this.#printed += text));
+    const own = (at, size) => new Uint8Array(this.instance.exports.memory.buffer, at, size);
+    const decoding = (name) => (...numbers) => (this.#decoding ??= this.decoders.imports(own))[name](...numbers);
+    const decoders = Object.fromEntries(DECODING.map((name) => [name, decoding(name)]));
+    const web_decoders = () => Number(Boolean(this.decoders) || !(this.wantsDecoders = true));
     this.instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, rest: placeholder('rest'), more: placeholder('more'),
-      unused: placeholder('unused'), env: { memory, web_progress: (share) => progress?.(share) } });
+      unused: placeholder('unused'), env: { memory, ...decoders, web_decoders, web_progress: (share) => progress?.(share) } });
     host.attach(this.instance);
     for (const part of parts) this.complete(part);
     this.instance.exports._initialize();

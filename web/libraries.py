@@ -44,8 +44,8 @@ def run(*command, **more):
     return done.stdout
 
 
-def fetch(folder):
-    """Unpacks the source packages below FOLDER/source."""
+def fetch(folder, names):
+    """Unpacks the source packages of these names below FOLDER/source."""
     source = os.path.join(folder, "source")
     lists = os.path.join(source, "lists")
     os.makedirs(os.path.join(lists, "partial"), exist_ok=True)
@@ -62,7 +62,7 @@ def fetch(folder):
     options = ["-o", "Dir::Etc::sourcelist=/dev/null", "-o", "Dir::Etc::sourceparts=" + source, "-o", "Dir::State::lists=" + lists,
                "-o", "Dir::Cache=" + os.path.join(source, "cache"), "-o", "APT::Sandbox::User=", "-q"]
     run("apt-get", *options, "update", cwd=source)
-    run("apt-get", *options, "source", "--download-only", *[row["source"] for row in LIBRARIES], cwd=source)
+    run("apt-get", *options, "source", "--download-only", *names, cwd=source)
     for dsc in glob.glob(os.path.join(source, "*.dsc")):
         if not unpacked(folder, os.path.basename(dsc).split("_")[0]):
             run("dpkg-source", "--no-check", "-x", dsc, cwd=source)
@@ -137,7 +137,7 @@ def main():
         os.makedirs(os.path.join(folder, "root", name), exist_ok=True)
     if any(unpacked(folder, row["source"]) is None for row in LIBRARIES):
         print("web: fetching Debian's sources of " + ", ".join(row["source"] for row in LIBRARIES), flush=True)
-        fetch(folder)
+        fetch(folder, [row["source"] for row in LIBRARIES])
     for row in LIBRARIES:
         print("web: compiling " + row["source"], flush=True)
         build(row, folder)

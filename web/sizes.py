@@ -61,6 +61,7 @@ def table(folder):
     rows += [("the module as a whole", os.path.getsize(module), None, None), of("its part that draws the first picture", [first]), of("scripts, page and style", start),
              of(FIRST, [first, *start]), of("its second part, fetched after the first picture", [rest]), of(MODULE, [first, rest]),
              of("its third part, fetched when it is used: explanations, formulas, scene files", [more]),
+             of("the decoders of Draco and meshoptimizer, fetched when a file needs them", ["lambent-decoders.wasm"]),
              of("the module with threads, fetched in place of these where the page is cross-origin isolated", ["lambent-threads.wasm"]),
              of("scripts that are fetched when they are used", scripts["later"]),
              of("the editor of shaders", scripts["editor"]),

@@ -4,7 +4,7 @@ import { Files, system } from '../../web/wasi.js';
 
 parentPort.once('message', ({ module, memory }) => {
   const host = system(new Files(), [], () => {});
-  const instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, env: { memory, web_progress() {} } });
+  const instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, env: new Proxy({ memory }, { get: (given, name) => given[name] ?? (() => 0) }) });
   parentPort.postMessage('ready');
   instance.exports.web_thread_failed();
 });

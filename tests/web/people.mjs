@@ -1,8 +1,9 @@
 // people.mjs PLAYWRIGHT CHROMIUM BUILD_WEB MODELS: the page as somebody meets it: what the first picture needs of the line, drawings that take long, files that are
 // missing, links without files, small screens. Prints lines of the Test Anything Protocol without numbers, and as browser.mjs commands with the
 // pixels that they have.
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { copyFileSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
 import { commandOf, drawn, fragment, ok, pixels, settled, until, watchedPage } from './driver.mjs';
 import { openBrowser } from './serve.mjs';
 
@@ -21,7 +22,7 @@ const open = async (address, options = {}) => {
 // --- the line: bytes before the first picture, and no file twice
 
 async function firstPicture() {
-  sent.length = 0;
+  sent.length = 0; // of this part alone
   const page = await open(origin);
   await drawn(page, 'the first picture');
   const before = sent.filter(({ name }) => name !== '/lambent-rest.wasm'), bytes = before.reduce((sum, one) => sum + one.bytes, 0);
@@ -137,6 +138,32 @@ async function files() {
   await page.context().close();
 }
 
+// Files that are compressed: the decoders are fetched when one is opened.
+async function compressed() {
+  const corpus = new URL('../fuzz/corpus/gltf/', import.meta.url), damaged = JSON.parse(readFileSync(new URL('draco.gltf', corpus)));
+  for (const name of ['draco', 'meshopt']) copyFileSync(new URL(`${name}.gltf`, corpus), join(models, `${name}.gltf`));
+  const bytes = Buffer.from(damaged.buffers[0].uri.split(',')[1], 'base64').fill(255, 20, 60);
+  damaged.buffers[0].uri = `data:application/octet-stream;base64,${bytes.toString('base64')}`;
+  writeFileSync(join(models, 'damaged.gltf'), JSON.stringify(damaged));
+  for (const [label, address] of [['served', origin], ['one file', pathToFileURL(join(built, 'lambent.html')).href]]) {
+    const page = await open(address + fragment(['sphere', '--size=96x96', '--background=white']), { serviceWorkers: 'block' });
+    await drawn(page, label);
+    ok(label !== 'served' || !sent.some((one) => one.bytes && one.name.includes('decoders')), `${label}: no decoder is fetched before it is needed`);
+    for (const name of ['draco.gltf', 'meshopt.gltf']) {
+      await page.locator('#files').setInputFiles(join(models, name));
+      await until(page, (path) => document.getElementById('model').value === path, `/${name}`);
+      await settled(page, name);
+      await said(page);
+    }
+    await page.locator('#files').setInputFiles(join(models, 'damaged.gltf'));
+    await until(page, () => !document.getElementById('message').hidden);
+    ok(/^damaged\.gltf: .*the compressed bytes are damaged/.test(await messageOf(page)), `${label}: damaged bytes are refused with their place`, await messageOf(page));
+    await page.locator('#undo').click();
+    await settled(page, 'after damaged bytes');
+    await page.context().close();
+  }
+}
+
 // A link to a model of one's own.
 async function links() {
   const camera = '--camera=eye=0/0/5,target=0/0/0,up=0/1/0,fovy=30', page = await open(origin + fragment(['/cube.ply', '--size=96x96', '--background=white', camera]));
@@ -178,7 +205,7 @@ async function screens() {
   }
 }
 
-const parts = { firstPicture, stop: () => interrupted(origin, 'one thread'), stopThreads: () => interrupted(`${origin}isolated/`, 'threads'), files, links, screens };
+const parts = { firstPicture, stop: () => interrupted(origin, 'one thread'), stopThreads: () => interrupted(`${origin}isolated/`, 'threads'), files, compressed, links, screens };
 const only = process.env.LAMBENT_BROWSER?.split(',');
 for (const [name, part] of Object.entries(parts)) {
   if (only && !only.includes(name)) continue;

@@ -143,7 +143,6 @@ static const struct {
 } unreadable[] = {
     {".webp", "EXT_texture_webp", "the page cannot read pictures in WebP"},
     {".exr", NULL, "the page cannot read pictures in EXR"},
-    {NULL, "KHR_draco_mesh_compression", "the page cannot read meshes compressed by Draco"},
 };
 
 static bool has_one(const struct page_model *model, const lam_file_info *info, size_t kind)

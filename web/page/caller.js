@@ -7,7 +7,7 @@ export class Ended extends Error {}
 // `open`: starts the worker. `wasm`: its module. `ways`: by the name of a part of the module, ways to it, of which the first that succeeds is taken: the part's
 // bytes, or those of a module with threads, which has all parts. Empty: the module is whole.
 export function caller(open, wasm, ways = {}) {
-  const waiting = new Map(), fetched = new Map(), parted = Object.keys(ways).length > 0;
+  const waiting = new Map(), fetched = new Map(), parted = Boolean(ways.more);
   let next = 0, worker = null, setup = [], ready = Promise.resolve(), cancel = null, onprogress = () => {};
 
   function start() {

@@ -25,7 +25,8 @@ export function openWorker() {
   if (ONE_FILE) {
     const served = document.getElementById('served'), threads = served && JSON.parse(served.textContent).threads; // by lambent view
     const script = insideScript(insideText('worker')), load = async () => (await import('./served.js')).fetchThreads();
-    return caller(() => new Worker(script), insideStream('wasm').arrayBuffer(), threads ? { rest: withThreads(load, insideScript(insideText('thread'))) } : {});
+    const decoders = [async () => ({ wasm: await insideStream('decoders').arrayBuffer() })];
+    return caller(() => new Worker(script), insideStream('wasm').arrayBuffer(), { decoders, ...(threads ? { rest: withThreads(load, insideScript(insideText('thread'))) } : {}) });
   }
   const name = 'lambent.wasm', script = new URL('worker.js', import.meta.url);
   const wasm = fetchModule(name, (size, whole) => {
@@ -36,6 +37,7 @@ export function openWorker() {
   return caller(() => new Worker(script, { type: 'module' }), wasm, {
     rest: [...withThreads(() => fetchModule('lambent-threads.wasm'), new URL('thread.js', import.meta.url)), part('rest')],
     more: [part('more')],
+    decoders: [part('decoders')],
   });
 }
 

@@ -1,10 +1,11 @@
 // worker.js: draws in a thread of its own. Messages: {id, call, ...}; answers: {id, result}, {id, error, cancelled}, or {id, missing}: the call needs that part of
 // the module, which the page fetches, and then asks again; and {progress}: the share of the running call that is done. Of drawings that wait, the page
 // sends the newest alone.
+import { Decoders } from './decoders.js';
 import { Lambent, LambentError, PartMissing } from './lambent.js';
 
 const parts = new Map(); // by name, of a module in parts
-let lambent = null, first = null, broken = null, memory = 0, threaded = false;
+let lambent = null, decoders = null, first = null, broken = null, memory = 0, threaded = false;
 
 let model = null; // the last one that was drawn
 
@@ -12,6 +13,7 @@ const progress = (share) => self.postMessage({ progress: share });
 
 function use(made) {
   lambent = made;
+  lambent.decoders = decoders;
   lambent.limitMemory(memory);
   broken = null;
 }
@@ -34,6 +36,11 @@ const calls = {
       threaded = true;
       const { memory: shared, web_cancel_flag } = lambent.instance.exports;
       return { threads: lambent.threads, shared: shared.buffer, flag: web_cancel_flag() };
+    }
+    if (part === 'decoders') {
+      lambent.decoders = decoders = new Decoders(await WebAssembly.compile(wasm));
+      lambent.forget();
+      return { threads: lambent.threads ?? 1 };
     }
     parts.set(part, await WebAssembly.compile(wasm));
     if (broken) use(new Lambent(first, lambent.files, { parts: [...parts.values()], progress }));
@@ -66,10 +73,12 @@ self.onmessage = async ({ data }) => {
     const needed = NEEDS[data.call];
     if (needed && data.parted && !threaded && !parts.has(needed)) return self.postMessage({ id: data.id, missing: needed });
     const result = await calls[data.call](data);
+    if (lambent.wantsDecoders && !decoders) return self.postMessage({ id: data.id, missing: 'decoders' });
     const moved = result?.pixels ? [result.pixels.buffer] : [];
     self.postMessage({ id: data.id, result }, moved);
   } catch (error) {
-    if (error instanceof PartMissing) {
+    if (error instanceof LambentError && lambent.wantsDecoders && !decoders) self.postMessage({ id: data.id, missing: 'decoders' });
+    else if (error instanceof PartMissing) {
       broken = error.part;
       self.postMessage({ id: data.id, missing: error.part });
     } else self.postMessage({ id: data.id, error: error.message, cancelled: error instanceof LambentError && error.cancelled, missing_files: [...(lambent?.files.absent ?? [])] });

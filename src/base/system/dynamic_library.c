@@ -7,27 +7,25 @@
 
 #if defined(__wasm__)
 
-// WebAssembly opens no libraries.
+// WebAssembly opens no libraries; the page's module has functions that stand for some (src/import/gltf/draco/page_decoders.c).
+__attribute__((weak)) void *page_library(const char *name);
+__attribute__((weak)) bool page_library_find(void *library, const char *name, void *function);
+
 void *library_open(const char *name, bool resident, const char **reason)
 {
-    (void)name, (void)resident;
+    (void)resident;
     if (reason)
         *reason = "WebAssembly opens no libraries";
-    return NULL;
+    return library_open_own(name);
 }
 
-void *library_open_own(const char *name)
-{
-    (void)name;
-    return NULL;
-}
+void *library_open_own(const char *name) { return page_library ? page_library(name) : NULL; }
 
 void library_close(void *library) { (void)library; }
 
 bool library_find(void *library, const char *name, void *function)
 {
-    (void)library, (void)name, (void)function;
-    return false;
+    return page_library_find && page_library_find(library, name, function);
 }
 
 #elif defined(LAMBENT_STATIC)

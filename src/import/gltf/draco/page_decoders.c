@@ -1,0 +1,102 @@
+// page_decoders.c: in a page, the libraries of Draco and meshoptimizer are a module beside this one (web/decoders.py), which JavaScript calls for these
+// functions (web/decoders.js): it copies the bytes from one memory to the other.
+#include "draco_module.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#define IMPORT(name) __attribute__((import_module("env"), import_name(#name)))
+
+void *page_library(const char *name);
+bool page_library_find(void *library, const char *name, void *function);
+
+// Whether the module is there. If not, the page learns that a file needs it, fetches it, and reads the file again.
+int web_decoders(void) IMPORT(web_decoders);
+// Stores mesh, vertices, triangles at `out`. This and the next: a result of draco_functions.
+int web_draco_decode(const uint8_t *bytes, size_t size, uint32_t out[3], char *reason) IMPORT(web_draco_decode);
+int web_draco_attribute(uint32_t mesh, uint32_t id, int component, int width, void *out, char *reason)
+    IMPORT(web_draco_attribute);
+void web_draco_triangles(uint32_t mesh, uint32_t *out) IMPORT(web_draco_triangles);
+void web_draco_free(uint32_t mesh) IMPORT(web_draco_free);
+// `kind`: 0 vertices, 1 triangles, 2 a sequence of indices. 0, or an error's number.
+int web_meshopt_decode(int kind, void *out, size_t count, size_t stride, const uint8_t *bytes, size_t size)
+    IMPORT(web_meshopt_decode);
+// `kind`: 0 octahedral, 1 quaternions, 2 exponential.
+void web_meshopt_filter(int kind, void *data, size_t count, size_t stride) IMPORT(web_meshopt_filter);
+
+// The other module counts no memory: it has a limit of its own, the browser's.
+static int decode(const uint8_t *bytes, size_t size, struct draco_memory *memory, void **mesh, uint32_t *vertices,
+                  uint32_t *triangles, char reason[DRACO_REASON_SIZE])
+{
+    uint32_t out[3] = {0};
+    (void)memory;
+    strcpy(reason, "the decoder gave up");
+    int result = web_draco_decode(bytes, size, out, reason);
+    *mesh = (void *)(uintptr_t)out[0];
+    *vertices = out[1];
+    *triangles = out[2];
+    return result;
+}
+
+static int attribute(const void *mesh, uint32_t id, int component, int width, void *out, char reason[DRACO_REASON_SIZE])
+{
+    strcpy(reason, "the decoder gave up");
+    return web_draco_attribute((uint32_t)(uintptr_t)mesh, id, component, width, out, reason);
+}
+
+static void triangles(const void *mesh, uint32_t *out) { web_draco_triangles((uint32_t)(uintptr_t)mesh, out); }
+static void free_mesh(void *mesh) { web_draco_free((uint32_t)(uintptr_t)mesh); }
+
+static const struct draco_functions *draco_functions(void)
+{
+    static const struct draco_functions functions = {DRACO_MODULE_VERSION, decode, attribute, triangles, free_mesh};
+    return &functions;
+}
+
+static int vertices(void *out, size_t count, size_t stride, const uint8_t *bytes, size_t size)
+{
+    return web_meshopt_decode(0, out, count, stride, bytes, size);
+}
+
+static int triangle_indices(void *out, size_t count, size_t stride, const uint8_t *bytes, size_t size)
+{
+    return web_meshopt_decode(1, out, count, stride, bytes, size);
+}
+
+static int index_sequence(void *out, size_t count, size_t stride, const uint8_t *bytes, size_t size)
+{
+    return web_meshopt_decode(2, out, count, stride, bytes, size);
+}
+
+static void octahedral(void *data, size_t count, size_t stride) { web_meshopt_filter(0, data, count, stride); }
+static void quaternions(void *data, size_t count, size_t stride) { web_meshopt_filter(1, data, count, stride); }
+static void exponential(void *data, size_t count, size_t stride) { web_meshopt_filter(2, data, count, stride); }
+
+static const struct {
+    const char *name;
+    void (*function)(void);
+} functions[] = {
+    {"lambent_draco_functions", (void (*)(void))draco_functions},
+    {"meshopt_decodeVertexBuffer", (void (*)(void))vertices},
+    {"meshopt_decodeIndexBuffer", (void (*)(void))triangle_indices},
+    {"meshopt_decodeIndexSequence", (void (*)(void))index_sequence},
+    {"meshopt_decodeFilterOct", (void (*)(void))octahedral},
+    {"meshopt_decodeFilterQuat", (void (*)(void))quaternions},
+    {"meshopt_decodeFilterExp", (void (*)(void))exponential},
+};
+
+void *page_library(const char *name)
+{
+    bool known = strcmp(name, "lambent-draco.so") == 0 || strncmp(name, "libmeshoptimizer", 16) == 0;
+    return known && web_decoders() ? (void *)(uintptr_t)functions : NULL;
+}
+
+bool page_library_find(void *library, const char *name, void *function)
+{
+    for (size_t i = 0; library && i < sizeof functions / sizeof *functions; i++)
+        if (strcmp(functions[i].name, name) == 0) {
+            memcpy(function, &functions[i].function, sizeof functions[i].function);
+            return true;
+        }
+    return false;
+}

@@ -68,13 +68,16 @@ def codemirror(folder, modules):
 def gather(folder):
     """All scripts in one folder, as they import one another: FOLDER/scripts."""
     place = os.path.join(folder, "scripts")
-    shutil.rmtree(place, ignore_errors=True)
-    os.makedirs(place)
+    os.makedirs(place, exist_ok=True)
+    texts = {"programs.js": programs()}
     for source in ("", "page", "check"):
         for name in os.listdir(os.path.join(HERE, source)):
             if name.endswith(".js") and not name.endswith(".src.js") and name != "offline_worker.js":
-                shutil.copy(os.path.join(HERE, source, name), place)
-    write(os.path.join(place, "programs.js"), programs())
+                texts[name] = open(os.path.join(HERE, source, name)).read()
+    for name, text in texts.items():
+        write(os.path.join(place, name), text)
+    for name in set(os.listdir(place)) - set(texts):
+        os.remove(os.path.join(place, name))
     return place
 
 

@@ -146,7 +146,7 @@ class Replay {
 
 const SIZE = 40; // TEST_SIZE of record_painter.c
 const [, , wasm, ...files] = process.argv;
-const { Check } = await import(pathToFileURL(join(dirname(resolve(wasm)), '../../page/check.js')));
+const { Check } = await import(pathToFileURL(join(dirname(resolve(wasm)), '../../scripts/check.js')));
 const module = new WebAssembly.Module(readFileSync(wasm));
 const asked = readFileSync(0, 'utf8').split('\n').filter(Boolean).map((line) => JSON.parse(line));
 const ok = (good, label, why) => console.log(`${good ? 'ok' : 'not ok'} ${label}${good ? '' : `\n# ${why}`}`);

@@ -121,12 +121,16 @@ async function files() {
   mkdirSync(join(models, 'away'), { recursive: true });
   writeFileSync(join(models, 'away/part.gltf'), '{"asset":{"version":"2.0"},"buffers":[{"uri":"part.bin","byteLength":36}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0}');
   await choose('away/part.gltf');
-  await until(page, () => /part\.bin/.test(document.getElementById('missing').textContent) && !document.getElementById('missing').hidden);
+  await until(page, () => /part\.bin: cannot open.*missing: part\.bin\./.test(document.getElementById('message-text').textContent) && !document.getElementById('message').hidden);
   const bin = new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]);
   writeFileSync(join(models, 'away/part.bin'), bin);
   await choose('away/part.bin');
   await model('/part.gltf');
   ok(await page.locator('#missing').isHidden(), 'a model with its missing buffer is drawn');
+  writeFileSync(join(models, 'away/broken.obj'), 'mtllib none.mtl\nv 0 0 0\nf 1 2 x\n');
+  await choose('away/broken.obj');
+  await until(page, () => /broken\.obj:3: a face names vertex '2'/.test(document.getElementById('message-text').textContent));
+  ok(true, 'a damaged model says what is wrong, whatever else is missing');
   writeFileSync(join(models, 'away/thing.3mf'), Buffer.concat([Buffer.from('PK\x03\x04'), readFileSync(join(models, 'cube.ply'))]));
   await choose('away/thing.3mf');
   await until(page, () => !document.getElementById('message').hidden && document.getElementById('model').value === '/thing.3mf');

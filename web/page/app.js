@@ -48,6 +48,7 @@ export const view = {
   options: [],
   endings: [], // of models
   missing: [], // paths of the model's files that are not there
+  refusal: null, // why there is no picture, if files are missing; null: there is one
 };
 
 const listeners = new Map();

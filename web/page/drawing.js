@@ -81,7 +81,7 @@ async function work() {
     if (!task.quick) started(task.words);
     const [name] = task.words;
     try {
-      if (name !== model) $('status').textContent = text('loadingModel', { name: name.replace(/^\//, '') });
+      if (name !== model) forgetModel(name);
       canvas.setAttribute('aria-busy', String(name !== model));
       const picture = await call('draw', { words: task.quick ? quickWords(task.words) : task.words, endable: true });
       model = name;
@@ -92,7 +92,7 @@ async function work() {
       finished();
       if (running.isStopped) stopped(task.words);
       if (!wanted && error instanceof Ended) refuse(text('stopped'), button('drawAgain', draw));
-      else if (!wanted) refused(error, name);
+      else if (!wanted) refused(error);
     }
     running.close();
     running = null;
@@ -100,12 +100,21 @@ async function work() {
   }
 }
 
-// A model that is not there, or not all of it, is the files' part to speak of (files.js); warnings of another model are stale.
-function refused(error, name) {
-  view.missing = error.missing ?? [];
-  if (name !== model) $('warnings').textContent = '';
+// Another model is read: what was said of the one before it is stale.
+function forgetModel(name) {
+  $('status').textContent = text('loadingModel', { name: name.replace(/^\//, '') });
+  $('warnings').textContent = '';
+  view.missing = [];
+  view.refusal = null;
   emit('missing');
-  if (!view.missing.length) refuse(error.message);
+}
+
+// If files are missing, the sentence is said with what to do about them (files.js).
+function refused(error) {
+  view.missing = error.missing ?? [];
+  if (!view.missing.length) return refuse(error.message);
+  view.refusal = error.message;
+  emit('missing');
 }
 
 // Stop, and Escape while something is drawn that takes long.
@@ -124,6 +133,7 @@ function show({ pixels, ...picture }, task) {
   context.putImageData(new ImageData(pixels, picture.width, picture.height), 0, 0);
   view.picture = picture;
   view.missing = picture.missing ?? [];
+  view.refusal = null;
   if (!task.quick || !view.size) view.size = { width: picture.width, height: picture.height };
   if (!view.moving) ({ camera: view.camera, sphere: view.sphere } = picture);
   document.body.dataset.drawn = task.quick ? '' : JSON.stringify(task.words);

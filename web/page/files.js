@@ -84,13 +84,14 @@ on('missing', () => {
   const buttons = [button('chooseFiles', openFiles), button('openFolder', openFolder)], [model] = state.words;
   const isGone = view.missing.includes(model), sentence = isGone ? text('linkWithout', { file: plain(model) })
     : text('missingFiles', { files: view.missing.map(plain).join(', ') });
-  $('missing').hidden = isGone || !view.missing.length || $('missing').dataset.seen === sentence;
+  $('missing').hidden = Boolean(view.refusal) || !view.missing.length || $('missing').dataset.seen === sentence;
   $('missing').firstChild.textContent = sentence;
   $('missing').lastChild.replaceChildren(...buttons, button('missingSeen', () => {
     $('missing').dataset.seen = sentence;
     $('missing').hidden = true;
   }));
-  if (isGone) refuse(sentence, button('openNamed', openFiles), buttons[1]);
+  if (view.refusal && isGone) refuse(sentence, button('openNamed', openFiles), buttons[1]);
+  else if (view.refusal) refuse(`${view.refusal}. ${sentence}`, button('chooseFiles', openFiles), button('openFolder', openFolder));
 });
 
 $('model').onchange = (event) => takeModel(event.target.value);

@@ -3,7 +3,8 @@
 lines that they make, controls, links, drops, explanations, the page in one file, without its server, names and roles, texts. After random
 sequences of gestures, 3 or with --long 30, PROGRAM draws the copied command, and the canvas has the same pixels. Shaders are checked with the
 browser's WebGL 2 (web/shaders.mjs): correct ones pass, known mistakes have their names, with --long all. `lambent view` (web/view.mjs): a model is turned,
-its file changes; with --long a gallery, and a model that is too large for the page.
+its file changes; with --long a gallery, and a model that is too large for the page. The page as people meet it (web/people.mjs): the bytes before the
+first picture, drawings that take long, missing and compressed files, small screens.
 
 Skipped where chromium, a package of the group `web`, or playwright-core is missing; npm installs that in build-web/npm, as web/package-lock.json
 has it."""

@@ -33,7 +33,7 @@ help:
 	@echo 'make install    installs to $$(DESTDIR)$$(prefix), prefix=$(prefix)'
 	@echo 'make uninstall  removes what install put there'
 	@echo 'make deb        builds the Debian packages of the committed tree, in build-deb/ (docs/install.md)'
-	@echo 'make static     builds one program without shared libraries, build-static/lambent'
+	@echo 'make static     builds one program without shared libraries, build-static/lambent (machine=aarch64: for ARM)'
 	@echo 'make release    builds packages, static programs and the source in dist/, with checksums and the changes'
 	@echo 'make docs       writes the generated parts of docs/ anew, the pictures of the README, and $(build)/docs/reference.md'
 	@echo 'make gallery    all pictures of docs/: those of make docs, and the known mistakes'
@@ -138,12 +138,13 @@ deb:
 	@scripts/setup.sh build package
 	@packaging/deb.sh build-deb
 
+# make static machine=aarch64 compiles for another machine, in build-static-aarch64/.
 static:
-	@scripts/setup.sh build
-	@python3 packaging/static.py build-static
+	@scripts/setup.sh build $(if $(machine),cross)
+	@python3 packaging/static.py build-static$(if $(machine),-$(machine) $(machine))
 
 release:
-	@scripts/setup.sh build package
+	@scripts/setup.sh build package cross
 	@python3 packaging/release.py dist
 
 docs: $(build)/lambent

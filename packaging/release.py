@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
-"""release.py [FOLDER]: everything of a release in FOLDER (dist): the source, the Debian packages, the static program, the changes, and checksums
+"""release.py [FOLDER]: everything of a release in FOLDER (dist): the source, the Debian packages, the static programs, the changes, and checksums
 (make release). It releases the committed tree, whose version is meson.build's.
 
 release.py --notes prints the changes: the section of CHANGELOG.md, and the pictures of tests/images that differ from the last release (the newest tag
 vX.Y.Z), by name."""
 import hashlib
 import pathlib
+import platform
 import re
 import shutil
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+MACHINES = ("x86_64", "aarch64")  # of the static programs
 EXPECTED = "tests/images/expected/hashes.txt"  # a line for each picture: its name, and the hash of its bytes
 
 
@@ -82,9 +84,11 @@ def main():
     for path in sorted((ROOT / "build-deb").glob("*.deb")):
         if "dbgsym" not in path.name:
             shutil.copy(path, dist)
-    run(sys.executable, ROOT / "packaging" / "static.py", ROOT / "build-static")
-    machine = subprocess.run(["uname", "-m"], stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
-    shutil.copy(ROOT / "build-static" / "lambent", dist / ("%s-%s-linux" % (name, machine)))
+    for machine in MACHINES:
+        folder = ROOT / ("build-static" + "-%s" % machine * (machine != platform.machine()))
+        run(sys.executable, ROOT / "packaging" / "static.py", folder, machine)
+        shutil.copy(folder / "lambent", dist / ("%s-%s-linux" % (name, machine)))
+    shutil.copy(folder / "LICENCES", dist / ("%s-linux-licences.txt" % name))
     (dist / "NOTES.md").write_text(text)
     files = sorted(path for path in dist.iterdir())
     sums = "".join("%s  %s\n" % (hashlib.sha256(path.read_bytes()).hexdigest(), path.name) for path in files)

@@ -16,7 +16,8 @@ extern "C" {
 typedef struct lam_font lam_font;
 
 // Opens a font file: TrueType, OpenType or any other format of FreeType. `path` NULL: the file that the environment
-// variable LAMBENT_FONT names, else the first of lam_font_path() that exists. NULL on failure: LAM_UNSUPPORTED (no
+// variable LAMBENT_FONT names, else the first of lam_font_path() that exists; in the static program of `make static`
+// the font that it contains. NULL on failure: LAM_UNSUPPORTED (no
 // FreeType or no font; the sentence names the Debian packages), LAM_CANNOT_READ (not a font), LAM_LIMIT.
 LAM_API lam_font *lam_font_open(const char *path, lam_error *error);
 LAM_API void lam_font_free(lam_font *font); // NULL is fine

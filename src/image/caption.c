@@ -34,12 +34,19 @@ const char *lam_font_path(int index)
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
+#ifdef LAMBENT_STATIC
+#include "static_font.h"
+
+#include <zlib.h>
+#endif
+
 // The FreeType functions that are used here, with the types of its own declarations.
 struct freetype {
     void *handle;
     __typeof__(&FT_Init_FreeType) init;
     __typeof__(&FT_Done_FreeType) done;
     __typeof__(&FT_New_Face) new_face;
+    __typeof__(&FT_New_Memory_Face) new_memory_face;
     __typeof__(&FT_Done_Face) done_face;
     __typeof__(&FT_Set_Char_Size) set_char_size;
     __typeof__(&FT_Get_Char_Index) get_char_index;
@@ -51,6 +58,7 @@ struct lam_font {
     struct freetype ft;
     FT_Library library;
     FT_Face face;
+    unsigned char *bytes; // of the font that a static program contains
 };
 
 static bool open_freetype(struct freetype *ft, lam_error *error)
@@ -60,8 +68,8 @@ static bool open_freetype(struct freetype *ft, lam_error *error)
         return fail(error, LAM_UNSUPPORTED, "text: libfreetype.so.6 is not installed; " NEEDED);
     void *h = ft->handle;
     if (library_find(h, "FT_Init_FreeType", &ft->init) && library_find(h, "FT_Done_FreeType", &ft->done) &&
-        library_find(h, "FT_New_Face", &ft->new_face) && library_find(h, "FT_Done_Face", &ft->done_face) &&
-        library_find(h, "FT_Set_Char_Size", &ft->set_char_size) &&
+        library_find(h, "FT_New_Face", &ft->new_face) && library_find(h, "FT_New_Memory_Face", &ft->new_memory_face) &&
+        library_find(h, "FT_Done_Face", &ft->done_face) && library_find(h, "FT_Set_Char_Size", &ft->set_char_size) &&
         library_find(h, "FT_Get_Char_Index", &ft->get_char_index) &&
         library_find(h, "FT_Load_Glyph", &ft->load_glyph) && library_find(h, "FT_Get_Kerning", &ft->get_kerning))
         return true;
@@ -73,10 +81,42 @@ static const char *find_font(void)
     const char *named = getenv("LAMBENT_FONT");
     if (named && *named)
         return named;
+#ifndef LAMBENT_STATIC
     for (int i = 0; lam_font_path(i); i++)
         if (access(lam_font_path(i), R_OK) == 0)
             return lam_font_path(i);
+#endif
     return NULL;
+}
+
+// The font of a static program, whatever fonts the machine has: captions are the same everywhere.
+static bool open_contained(lam_font *font, lam_error *error)
+{
+#ifdef LAMBENT_STATIC
+    unsigned long size = static_font_size;
+    font->bytes = malloc(size);
+    if (!font->bytes)
+        return fail_memory(error, size);
+    if (uncompress(font->bytes, &size, static_font, static_font_packed_size) == Z_OK &&
+        font->ft.new_memory_face(font->library, font->bytes, (FT_Long)size, 0, &font->face) == 0)
+        return true;
+    return fail(error, LAM_LIMIT, "text: the program's own font cannot be opened: out of memory");
+#else
+    (void)font;
+    return fail(error, LAM_UNSUPPORTED, "text: no font is installed where fonts are looked for; " NEEDED);
+#endif
+}
+
+static bool open_file(lam_font *font, const char *path, lam_error *error)
+{
+    if (access(path, R_OK) != 0)
+        return fail(error, LAM_CANNOT_READ, "%s: the font is not there or cannot be read", path);
+    if (!file_check_regular(path, error))
+        return false;
+    if (font->ft.new_face(font->library, path, 0, &font->face) != 0)
+        return fail(error, LAM_CANNOT_READ, "%s: not a font that FreeType can read", path);
+    return FT_IS_SCALABLE(font->face) ||
+           fail(error, LAM_CANNOT_READ, "%s: a font of fixed sizes, expected one of outlines", path);
 }
 
 lam_font *lam_font_open(const char *path, lam_error *error)
@@ -88,17 +128,9 @@ lam_font *lam_font_open(const char *path, lam_error *error)
     }
     path = path ? path : find_font();
     bool ok = open_freetype(&font->ft, error);
-    if (ok && !path)
-        ok = fail(error, LAM_UNSUPPORTED, "text: no font is installed where fonts are looked for; " NEEDED);
-    if (ok && access(path, R_OK) != 0)
-        ok = fail(error, LAM_CANNOT_READ, "%s: the font is not there or cannot be read", path);
-    ok = ok && file_check_regular(path, error);
     if (ok && font->ft.init(&font->library) != 0)
         ok = fail(error, LAM_LIMIT, "text: FreeType did not start: out of memory");
-    if (ok && font->ft.new_face(font->library, path, 0, &font->face) != 0)
-        ok = fail(error, LAM_CANNOT_READ, "%s: not a font that FreeType can read", path);
-    if (ok && !FT_IS_SCALABLE(font->face))
-        ok = fail(error, LAM_CANNOT_READ, "%s: a font of fixed sizes, expected one of outlines", path);
+    ok = ok && (path ? open_file(font, path, error) : open_contained(font, error));
     if (ok)
         return font;
     lam_font_free(font);
@@ -115,6 +147,7 @@ void lam_font_free(lam_font *font)
         font->ft.done(font->library);
     if (font->ft.handle)
         library_close(font->ft.handle);
+    free(font->bytes);
     free(font);
 }
 

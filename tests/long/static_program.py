@@ -1,9 +1,14 @@
 #!/usr/bin/env python3
-"""static_program.py PROGRAM: the program of `make static`: one file of at most 9 MB that needs no other, draws in an empty root what PROGRAM draws, byte for
-byte, and refuses what it does not contain with exit code 3. The empty root needs the rights of root; without them it runs where it is."""
+"""static_program.py PROGRAM: the programs of `make static`, for this machine and for aarch64 (by qemu-user-static): one file of at most 9 MB that needs no
+other, draws in an empty root what PROGRAM draws, byte for byte, and refuses what it does not contain with exit code 3. The empty root needs the rights of
+root; without them it runs where it is."""
+import base64
+import json
 import os
 import pathlib
+import platform
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -11,12 +16,19 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 CORPUS = ROOT / "tests" / "fuzz" / "corpus"
-MODELS = [*sorted((ROOT / "tests" / "models").glob("cube.*")), ROOT / "examples" / "models" / "spot.glb", CORPUS / "gltf" / "meshopt.gltf",
-          CORPUS / "gltf" / "draco.gltf", CORPUS / "3mf" / "deflated.3mf"]
-# The ending of the picture and the words before it; "": the words alone.
-DRAWN = [(".png", ["cube.obj"]), (".webp", ["spot.glb"]), (".jpg", ["spot.glb"]), (".png", ["meshopt.gltf"]), (".png", ["cube.ply", "--edges", "all", "--shadows"]),
-         (".png", ["cube.stl", "--compress", "best"]), (".webp", ["cube.stl", "--turntable", "3"]), (".png", ["teapot", "--material", "gold"])]
+PICTURES = ROOT / "tests" / "pictures"
+MODELS = [*sorted((ROOT / "tests" / "models").glob("*")), ROOT / "examples" / "models" / "spot.glb", ROOT / "examples" / "models" / "spot.obj",
+          CORPUS / "gltf" / "meshopt.gltf", CORPUS / "gltf" / "draco.gltf", CORPUS / "gltf" / "triangle.gltf", CORPUS / "3mf" / "deflated.3mf"]
+TEXTURES = {"png": "png/palette8.png", "jpg": "jpeg/color420.jpg", "webp": "webp/lossy.webp"}
+# The ending of the picture and the words before it.
+DRAWN = [(".png", ["cube.obj"]), (".webp", ["spot.glb"]), (".jpg", ["spot.glb"]), (".png", ["spot.obj", "--ground"]), (".png", ["meshopt.gltf"]), (".png", ["triangle.gltf"]),
+         (".png", ["cube.ply", "--edges", "all", "--shadows"]), (".png", ["cube.stl", "--compress", "best"]), (".webp", ["cube.stl", "--turntable", "3"]),
+         (".png", ["teapot", "--material", "gold"]), (".pfm", ["torus-knot", "--ao", "rays"]), (".png", ["scene.json"]),
+         *[(".png", [f"textured-{ending}.gltf"]) for ending in TEXTURES],
+         (".png", ["compare", "cube", "--across", "material=gold,jade"]), (".png", ["plot", "attenuation"])]
 REFUSED = [["draco.gltf", "-o", "x.png"], ["deflated.3mf", "-o", "x.png"], ["cube.obj", "-o", "x.exr"], ["cube.obj", "--device", "gl", "-o", "x.png"], ["view", "cube.obj"]]
+FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"  # which the static program contains
+MACHINES = [platform.machine(), *({"aarch64"} - {platform.machine()})]
 failed = 0
 number = 0
 
@@ -36,31 +48,75 @@ def run(*command, **more):
     return done.returncode, done.stdout
 
 
-def main():
-    folder = pathlib.Path(os.environ.get("LAMBENT_STATIC", ROOT / "build-static"))
-    code, text = run(sys.executable, ROOT / "packaging" / "static.py", folder)
-    report("make static builds the program", code == 0, text)
+def textured(picture, extensions):
+    """A square of glTF with a texture."""
+    corners = struct.pack("<12f8f6H", 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 2, 0, 2, 3)
+    data = "data:application/octet-stream;base64," + base64.b64encode(corners).decode()
+    texture = {"extensions": {"EXT_texture_webp": {"source": 0}}} if extensions else {"source": 0}
+    return json.dumps({
+        "asset": {"version": "2.0"}, "extensionsUsed": extensions or ["KHR_materials_unlit"], "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0}]}],
+        "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicFactor": 0}}], "textures": [texture], "images": [{"uri": picture}],
+        "buffers": [{"byteLength": len(corners), "uri": data}],
+        "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 32}, {"buffer": 0, "byteOffset": 80, "byteLength": 12}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                      {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC2"}, {"bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR"}]})
+
+
+def fill(root):
+    for path in MODELS:
+        shutil.copy(path, root)
+    for ending, picture in TEXTURES.items():
+        shutil.copy(PICTURES / picture, root / ("texture." + ending))
+        (root / f"textured-{ending}.gltf").write_text(textured("texture." + ending, ["EXT_texture_webp"] if ending == "webp" else []))
+
+
+def words_of(words, name):
+    """What draws into NAME: options of size are not those of plots."""
+    return [*words, "-q", *([] if words[0] == "plot" else ["-s", "120"]), "-o", name]
+
+
+def try_machine(machine, root):
+    home = pathlib.Path(os.environ.get("LAMBENT_STATIC", ROOT / "build-static"))
+    folder = home if machine == platform.machine() else home.with_name(home.name + "-" + machine)
+    emulator = None if machine == platform.machine() else shutil.which(f"qemu-{machine}-static")
+    code, text = run(sys.executable, ROOT / "packaging" / "static.py", folder, machine)
+    report(f"{machine}: make static builds the program", code == 0, text)
     if code:
-        return 1
+        return
     program = folder / "lambent"
-    report("it has at most 9 MB", program.stat().st_size <= 9_000_000, str(program.stat().st_size))
+    report(f"{machine}: it has at most 9 MB", program.stat().st_size <= 9_000_000, str(program.stat().st_size))
     code, text = run("readelf", "-ld", program)
-    report("it needs no library and no loader", "INTERP" not in text and "NEEDED" not in text, text)
-    with tempfile.TemporaryDirectory(prefix="lambent-static-") as name:
-        root = pathlib.Path(name)
-        for path in [program, *MODELS]:
-            shutil.copy(path, root)
-        before = ["chroot", str(root), "/lambent"] if os.geteuid() == 0 else [str(root / "lambent")]
-        code, text = run(*before, "--version", cwd=root)
-        report("--version lists what it contains", code == 0 and "static, with FreeType" in text and "without OpenGL" in text, text)
-        for i, (ending, words) in enumerate(DRAWN):
-            code, text = run(*before, *words, "-q", "-s", "120", "-o", f"picture{i}{ending}", cwd=root)
-            other, more = run(PROGRAM, *words, "-q", "-s", "120", "-o", f"other{i}{ending}", cwd=root)
-            same = code == other == 0 and (root / f"picture{i}{ending}").read_bytes() == (root / f"other{i}{ending}").read_bytes()
-            report("%s to %s: the same bytes" % (" ".join(words), ending), same, text + more)
-        for words in REFUSED:
-            code, text = run(*before, *words, "-q", cwd=root)
-            report("%s: refused" % " ".join(words), code == 3 and text.count("\n") == 1 and not (root / "x.png").exists(), "exit code %d: %s" % (code, text))
+    report(f"{machine}: it needs no library and no loader", "INTERP" not in text and "NEEDED" not in text, text)
+    notices = (folder / "LICENCES").read_text()
+    report(f"{machine}: the notices of its libraries are beside it", all("==== " + name in notices for name in ("libspng", "zlib1g-dev", "libfreetype-dev")))
+    if machine != platform.machine() and not emulator:
+        report(f"{machine}: drawn by qemu # SKIP qemu-user-static is not installed", True)
+        return
+    for path in filter(None, [program, emulator]):
+        shutil.copy(path, root)
+    inside = "" if os.geteuid() == 0 else str(root)
+    before = (["chroot", str(root)] if os.geteuid() == 0 else []) + ([f"{inside}/qemu-{machine}-static"] if emulator else []) + [inside + "/lambent"]
+    code, text = run(*before, "--version", cwd=root)
+    report(f"{machine}: --version lists what it contains", code == 0 and "static, with FreeType" in text and "without OpenGL" in text, text)
+    for i, (ending, words) in enumerate(DRAWN):
+        code, text = run(*before, *words_of(words, f"picture{i}{ending}"), cwd=root)
+        other, more = run(PROGRAM, *words_of(words, f"other{i}{ending}"), cwd=root, env={**os.environ, "LAMBENT_FONT": FONT})
+        same = code == other == 0 and (root / f"picture{i}{ending}").read_bytes() == (root / f"other{i}{ending}").read_bytes()
+        report("%s: %s to %s: the same bytes" % (machine, " ".join(words), ending), same, text + more)
+    for words in REFUSED:
+        code, text = run(*before, *words, "-q", cwd=root)
+        report("%s: %s: refused" % (machine, " ".join(words)), code == 3 and text.count("\n") == 1 and not (root / "x.png").exists(), "exit code %d: %s" % (code, text))
+
+
+def main():
+    for machine in MACHINES:
+        if machine != platform.machine() and not shutil.which(machine + "-linux-gnu-g++"):
+            report(f"{machine} # SKIP g++-{machine}-linux-gnu is not installed", True)
+            continue
+        with tempfile.TemporaryDirectory(prefix="lambent-static-") as name:
+            fill(pathlib.Path(name))
+            try_machine(machine, pathlib.Path(name))
     print("1..%d" % number)
     return failed > 0
 

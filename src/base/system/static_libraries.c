@@ -18,16 +18,17 @@
                                 function(WebPAnimEncoderAdd) function(WebPAnimEncoderAssemble)                         \
                                     function(WebPAnimEncoderGetError) function(WebPAnimEncoderDelete)                  \
                                         library("libfreetype.so.6") function(FT_Init_FreeType)                         \
-                                            function(FT_Done_FreeType) function(FT_New_Face) function(FT_Done_Face)    \
-                                                function(FT_Set_Char_Size) function(FT_Get_Char_Index)                 \
-                                                    function(FT_Load_Glyph) function(FT_Get_Kerning)                   \
-                                                        library("libmeshoptimizer.so.2d")                              \
-                                                            function(meshopt_decodeVertexBuffer)                       \
-                                                                function(meshopt_decodeIndexBuffer)                    \
-                                                                    function(meshopt_decodeIndexSequence)              \
-                                                                        function(meshopt_decodeFilterOct)              \
-                                                                            function(meshopt_decodeFilterQuat)         \
-                                                                                function(meshopt_decodeFilterExp)
+                                            function(FT_Done_FreeType) function(FT_New_Face)                           \
+                                                function(FT_New_Memory_Face) function(FT_Done_Face)                    \
+                                                    function(FT_Set_Char_Size) function(FT_Get_Char_Index)             \
+                                                        function(FT_Load_Glyph) function(FT_Get_Kerning)               \
+                                                            library("libmeshoptimizer.so.2d")                          \
+                                                                function(meshopt_decodeVertexBuffer)                   \
+                                                                    function(meshopt_decodeIndexBuffer)                \
+                                                                        function(meshopt_decodeIndexSequence)          \
+                                                                            function(meshopt_decodeFilterOct)          \
+                                                                                function(meshopt_decodeFilterQuat)     \
+                                                                                    function(meshopt_decodeFilterExp)
 
 // The addresses alone are taken: callers know the types.
 #define IGNORED(name)

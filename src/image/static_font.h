@@ -1,0 +1,8 @@
+// static_font.h: the font of captions that a static program contains (static_font.py), packed by zlib.
+#ifndef STATIC_FONT_H
+#define STATIC_FONT_H
+
+extern const unsigned char static_font[];
+extern const unsigned long static_font_size, static_font_packed_size; // bytes
+
+#endif

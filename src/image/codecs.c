@@ -68,6 +68,7 @@ static const char *instead_of(const char *word)
          "webp, which holds animations"},
         {{"bmp", "tga", "tif", "tiff", "heic", "avif", "jp2", "svg", "pdf", "eps", "ico"}, "png"},
         {{"hdr", "rgbe"}, "exr"},
+        {{"obj", "stl", "ply", "gltf", "glb", "3mf", "json", "step", "fbx"}, "png"}, // models
     };
     for (size_t row = 0; row < sizeof rows / sizeof *rows; row++)
         for (const char *const *known = rows[row].words; *known; known++)
@@ -84,6 +85,9 @@ static bool fail_unknown(lam_error *error, const char *subject, const char *befo
     if (instead || (instead = nearest_word(word, names, written_names(names))))
         return fail(error, LAM_UNSUPPORTED, "%s: lambent cannot write %s%s; use %s%s (it writes %s)", subject, before,
                     word, before, instead, list);
+    if (*before && word[strspn(word, "0123456789")] == 0) // "part-v1.0"
+        return fail(error, LAM_UNSUPPORTED, "%s: the ending .%s names no picture format; expected %s, as in %s.png",
+                    subject, word, list, subject);
     return fail(error, LAM_UNSUPPORTED, "%s: lambent cannot write %s%s; use %s", subject, before, word, list);
 }
 

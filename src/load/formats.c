@@ -86,6 +86,9 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
     }
     if (best == 2)
         return by_content;
+    // A reader that the name agrees with says best what is wrong.
+    if (by_content && by_content == by_ending)
+        return by_content;
     // Recognised as another kind of file, whatever its name.
     const struct unsupported_format *foreign = unsupported_format_of(file->data, file->size);
     if (!foreign && !by_ending)

@@ -158,6 +158,69 @@ class Read(ThreeMF):
         done = self.good(self.save("b.3mf", root), "-s", 8, "-o", "-")
         self.assertIn(b"its part 3D/t.png cannot be read: the archive has no part of this name; drawn without it", done.stderr)
 
+    def test_layers(self):
+        """Textures over a base colour are mixed with it: an opaque base stays opaque."""
+        clear = write_png(2, 2, bytes([255, 0, 0, 255, 0, 255, 0, 0, 0, 0, 255, 0, 255, 255, 255, 255]))
+        groups = ('<basematerials id="5"><base name="a" displaycolor="#00FFFF"/><base name="b" displaycolor="#FF00FF"/></basematerials>'
+                  '<m:texture2d id="2" path="/3D/t.png" contenttype="image/png" filter="nearest"/><m:texture2dgroup id="3" texid="2">'
+                  '<m:tex2coord u="0" v="0"/><m:tex2coord u="1" v="0"/><m:tex2coord u="1" v="1"/><m:tex2coord u="0" v="1"/></m:texture2dgroup>'
+                  '<m:multiproperties id="4" pids="5 3"%s>%s</m:multiproperties>')
+        square = ('<mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="1" y="0" z="1"/><vertex x="0" y="0" z="1"/></vertices>'
+                  '<triangles><triangle v1="0" v2="1" v3="2" pid="4" p1="0" p2="1" p3="2"/><triangle v1="0" v2="2" v3="3" pid="4" p1="0" p2="2" p3="3"/></triangles></mesh>')
+
+        def save(name, blend="", last=0):
+            multi = "".join(f'<m:multi pindices="{last if i == 3 else 0} {i}"/>' for i in range(4))
+            return self.save(name, model(groups % (blend, multi) + f'<object id="1">{square}</object>', spaces=f"{CORE} {MATERIALS}"), **{"3D__t_dot_png": clear})
+
+        corners = ((0.3, 0.3), (0.7, 0.3), (0.3, 0.7), (0.7, 0.7))
+        name = save("a.3mf")
+        self.assertEqual([self.pixel(name, "front", at) for at in corners], [(255, 0, 0), (0, 255, 255), (0, 255, 255), (255, 255, 255)])
+        self.assertEqual(self.info(name)["warnings"], [])
+        name = save("b.3mf", ' blendmethods="multiply"')
+        self.assertEqual(self.pixel(name, "front", (0.3, 0.3)), (0, 0, 0))
+        name = save("c.3mf", last=1)  # colours that differ under a texture
+        self.assertIn("layers are not mixed", " ".join(self.info(name)["warnings"]))
+
+    def test_display_properties(self):
+        """Metals and dielectrics, named by the group or by the element; those that are defined later too."""
+        groups = ('<basematerials id="2" displaypropertiesid="7"><base name="a" displaycolor="#FFAA00"/><base name="b" displaycolor="#FFAA00"/></basematerials>'
+                  '<basematerials id="3"><base name="c" displaycolor="#FFAA00" displaypropertiesid="8"/></basematerials>'
+                  '<m:pbmetallicdisplayproperties id="7"><m:pbmetallic name="x" metallicness="1" roughness="0.25"/><m:pbmetallic name="y"/>'
+                  '</m:pbmetallicdisplayproperties>'
+                  '<m:pbspeculardisplayproperties id="8"><m:pbspecular name="z" specularcolor="#FF0000" glossiness="0.5"/></m:pbspeculardisplayproperties>')
+        root = model(groups + f'<object id="1" pid="2" pindex="0">{box()}</object>', spaces=f"{CORE} {MATERIALS}")
+        found = {row["name"]: row for row in self.info(self.save("a.3mf", root))["materials"]}
+        self.assertEqual((found["a"]["metallic"], found["a"]["roughness"]), (1, 0.25))
+        self.assertEqual((found["b"]["metallic"], found["b"]["roughness"]), (0, 1))
+        self.assertEqual((found["c"]["metallic"], found["c"]["roughness"]), (0, 0.5))
+
+    def test_undeclared_prefix(self):
+        """As in samples of the consortium: refused, and read with --lenient as a name of the element around."""
+        root = model('<basematerials id="2"><base name="a" displaycolor="#C0C0C0" displaypropertiesid="9"/></basematerials>'
+                     f'<object id="1" pid="2" pindex="0">{box()}</object><m:pbmetallicdisplayproperties id="9"><ms:pbmetallic name="x" metallicness="1" '
+                     'roughness="0.25"/></m:pbmetallicdisplayproperties>', spaces=f"{CORE} {MATERIALS}")
+        name = self.save("a.3mf", root)
+        self.bad(2, "info", name, says=("3D/3dmodel.model:2: found the name ms:pbmetallic, whose prefix is not declared", "--lenient"))
+        self.assertEqual(self.info(name, "--lenient")["materials"][0]["metallic"], 1)
+
+    def test_beams_and_slices(self):
+        beams = 'xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02"'
+        lattice = '<b:beamlattice radius="1" minlength="0.1"><b:beams><b:beam v1="0" v2="1"/><b:beam v1="1" v2="2"/></b:beams></b:beamlattice></mesh>'
+        root = model(f'<object id="1">{box().replace("</mesh>", lattice)}</object>', spaces=f"{CORE} {beams}")
+        self.assertIn("not drawn: the beams of its lattices (2)", " ".join(self.info(self.save("a.3mf", root))["warnings"]))
+        alone = root[:root.index("<triangles>")] + root[root.index("</triangles>") + 12:]
+        self.bad(3, "info", self.save("b.3mf", alone), says="lattices of beams (2) without triangles; beams are not drawn")
+        slices = 'xmlns:s="http://schemas.microsoft.com/3dmanufacturing/slice/2015/07"'
+        root = model(f'<object id="1" s:slicestackid="3">{box()}</object>', spaces=f"{CORE} {slices}")
+        self.assertIn("not drawn: slices; the objects that have them (1)", " ".join(self.info(self.save("c.3mf", root))["warnings"]))
+
+    def test_not_an_archive(self):
+        """What is wrong with a file that is called .3mf, whatever it is."""
+        whole = package({"_rels/.rels": relations("/3D/3dmodel.model"), "3D/3dmodel.model": model(f'<object id="1">{box()}</object>')})
+        for data, says in ((whole[:40], "the file is truncated: found 40 bytes of a ZIP archive"), (whole[:-30], "the file is truncated"),
+                           (b"hello there", "not a ZIP archive, as a 3MF file is: found 11 bytes"), (package({"a": "b"}), "_rels/.rels cannot be read")):
+            self.bad(2, "info", self.save_bytes("a.3mf", data), says=says)
+
     def test_names_of_parts(self):
         """The root part is the one that the relationships name; the file may have any name, and none."""
         data = package({"_rels/.rels": relations("/Elsewhere/Thing.MODEL.model"), "Elsewhere/Thing.MODEL.model": model(f'<object id="1">{box()}</object>')})
@@ -166,7 +229,7 @@ class Read(ThreeMF):
         self.good("-", "-s", 8, "-o", "-", stdin=data)
         self.bad(2, "info", self.save_bytes("none.3mf", package({"_rels/.rels": relations(), "a.model": "x"})), says="names no 3D model")
         self.bad(2, "info", self.save_bytes("two.3mf", package({"_rels/.rels": relations("/a.model", "/b.model"), "a.model": "x"})), says="second 3D model")
-        self.bad(2, "info", self.save_bytes("zip.3mf", package({"letter.txt": "hello"})), says=("this is a ZIP archive", ".3mf"))
+        self.bad(2, "info", self.save_bytes("zip.3mf", package({"letter.txt": "hello"})), says="its part _rels/.rels cannot be read: the archive has no part of this name")
 
     def test_sandbox(self):
         """The libraries are opened and the file is read inside of the sandbox; from inside of a batch too."""

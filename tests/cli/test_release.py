@@ -4,9 +4,10 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import unittest
 
-from harness import ROOT, Case
+from harness import PROGRAM, ROOT, Case
 
 SPEC = importlib.util.spec_from_file_location("release", ROOT / "packaging" / "release.py")
 release = importlib.util.module_from_spec(SPEC)
@@ -22,6 +23,14 @@ class Release(Case):
         self.assertEqual((".".join(numbers), re.search(r'LAM_VERSION_TEXT +"(.*)"', header)[1]), (version, version))
         self.assertEqual(self.good("--version").stdout.decode().splitlines()[0], "lambent " + version)
         self.assertTrue(release.section())
+
+    @unittest.skipUnless(shutil.which("nm"), "no nm")
+    def test_symbols(self):
+        """The symbols files of the Debian packages have what the libraries export; without that `make deb` stops."""
+        if not list(pathlib.Path(PROGRAM).parent.glob("src/liblambent.so")):
+            self.skipTest("this build has no shared library")
+        done = subprocess.run([sys.executable, ROOT / "packaging" / "symbols.py", pathlib.Path(PROGRAM).parent, "--check"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr + "python3 packaging/symbols.py BUILD writes them anew")
 
     @unittest.skipUnless(shutil.which("git"), "no git")
     def test_notes(self):

@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "console.h"
 #include "exit_codes.h"
@@ -15,8 +16,23 @@
 
 enum { LIST_COLUMN = 15 };
 
+// The ending of a model's name.
+static bool is_model_ending(const char *word)
+{
+    for (int format = 0; lam_model_format_name(format); format++)
+        for (const char *at = lam_model_format_extensions(format); *at; at += strspn(at, " ")) {
+            size_t length = strcspn(at, " ");
+            if (strlen(word) == length && strncasecmp(at, word, length) == 0)
+                return true;
+            at += length;
+        }
+    return false;
+}
+
 static const struct topic *find_topic(const char *word)
 {
+    if (is_model_ending(word + (*word == '.')))
+        word = "formats";
     for (const struct topic *t = topics; t->word; t++)
         if (strcmp(t->word, word) == 0)
             return t;

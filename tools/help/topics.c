@@ -28,6 +28,20 @@ const struct topic topics[] = {
      "on "
      "127.0.0.1 alone, at an address that holds a secret, and ends with Ctrl-C. "
      "`docs/view.md` has the details."},
+    {"formats", "Model formats", 0, TOPIC_NO_TABLE,
+     "`lambent formats` lists the formats that are read and written; `docs/formats.md` says how each element of each "
+     "format is drawn.\n"
+     "3MF (`.3mf`): a ZIP archive of 3D printing, with units, components, colours, textures, layers of them, and "
+     "metals. "
+     "libzip and expat are opened when a file needs them (Debian's `libzip4` and `libexpat1`). Beams, slices and "
+     "displacements are not drawn, with a warning. `--lenient` reads files that require unknown extensions, or use an "
+     "XML "
+     "prefix that they do not declare.\n"
+     "STL (`.stl`): triangles, text or binary. Z is up. The format has no unit; binary files may have colours.\n"
+     "OBJ (`.obj`): with its `.mtl` materials and textures. Y is up.\n"
+     "PLY (`.ply`): triangles, points and lines, with colours, text or binary.\n"
+     "glTF (`.gltf`, `.glb`): scenes with physical materials, lights, cameras, skins and animations, in metres. Y is "
+     "up. Draco and meshoptimizer are decoded if their libraries are installed."},
     {"picture", "The picture", BIT(PICTURE), TOPIC_NO_TABLE, NULL},
     {"output", "Output", 0, TOPIC_NO_TABLE,
      "Without `-o` the picture of `models/koala.obj` is `koala.png` in the current folder. An older picture "

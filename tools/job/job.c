@@ -264,11 +264,12 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     warn_colors(job);
     if (o->shading.slices && !formula_of(o).text && lam_shape_find(job->model) < 0)
         lam_scene_add_warning(job->scene, "option '--segments' changes nothing: the model is a file");
-    if ((o->model.scene || o->model.variant || o->model.animation || o->model.has_time || o->model.lenient) &&
-        strcmp(lam_scene_format(job->scene), "gltf") != 0)
-        lam_scene_add_warning(job->scene,
-                              "options '--scene', '--variant', '--animation', '--time' and '--lenient' count "
-                              "for glTF files alone");
+    bool is_gltf = strcmp(lam_scene_format(job->scene), "gltf") == 0;
+    if (!is_gltf && (o->model.scene || o->model.variant || o->model.animation || o->model.has_time))
+        lam_scene_add_warning(job->scene, "options '--scene', '--variant', '--animation' and '--time' count for glTF "
+                                          "files alone");
+    if (o->model.lenient && !is_gltf && strcmp(lam_scene_format(job->scene), "3mf") != 0)
+        lam_scene_add_warning(job->scene, "option '--lenient' counts for glTF and 3MF files alone");
     return true;
 }
 

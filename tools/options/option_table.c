@@ -365,9 +365,11 @@ struct option option_table[OPTIONS_MAX] = {
      "Before the first and after the last key, that key's pose is held.", NULL, .store = store_number,
      FIELD(model.time_s), .has_field = offsetof(struct options, model.has_time), .min = -1e9, .max = 1e9,
      .others = "seconds", .loads = true},
-    {"lenient", 0, GROUP_MODEL, NULL, NULL, "Read glTF files that require unknown extensions, without them.",
+    {"lenient", 0, GROUP_MODEL, NULL, NULL, "Read glTF and 3MF files that require unknown extensions, without them.",
      "Without this option such a file is refused (exit 3), since its picture may lack what the extension describes. "
-     "Index values that glTF reserves (primitive restart) are accepted as well.",
+     "Index values that glTF reserves (primitive restart), and XML prefixes that a 3MF file does not declare, are "
+     "accepted "
+     "as well.",
      .store = store_switch, .others = "force ignore-extensions permissive", FIELD(model.lenient)},
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",

@@ -14,7 +14,7 @@ static int threemf_probe(const uint8_t *bytes, size_t size)
     bool found = size > 4 && memcmp(bytes, "PK\3\4", 4) == 0 &&
                  memmem(bytes, size, relationships, sizeof relationships - 1) &&
                  memmem(bytes, size, model, sizeof model - 1);
-    return found ? 2 : 0;
+    return found ? 2 : size >= 2 && memcmp(bytes, "PK", 2) == 0; // any ZIP archive, if it is called so
 }
 
 #ifdef HAVE_3MF
@@ -27,9 +27,9 @@ enum { IN_RELATIONSHIPS, IN_RELATIONSHIP };
 static bool begin_relationship(struct threemf_xml *xml, const char *const *attributes)
 {
     static const char wanted[] = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
-    const char *type = threemf_attribute(attributes, NS_NONE, "Type");
-    const char *target = threemf_attribute(attributes, NS_NONE, "Target");
-    const char *mode = threemf_attribute(attributes, NS_NONE, "TargetMode");
+    const char *type = threemf_attribute(attributes, "Type");
+    const char *target = threemf_attribute(attributes, "Target");
+    const char *mode = threemf_attribute(attributes, "TargetMode");
     const char **model = xml->user;
     if (!type || strcmp(type, wanted) != 0)
         return true;
@@ -65,13 +65,25 @@ static bool report_skipped(struct threemf *file, const struct threemf_part *root
     const char *name = file->source->name;
     if (!root->items.count)
         return fail(file->error, LAM_CANNOT_READ, "%s: its build has no items, so there is nothing to draw", name);
+    if (!file->scene->objects.count && file->beams)
+        return fail(file->error, LAM_UNSUPPORTED,
+                    "%s: its objects are lattices of beams (%zu) without triangles; beams are not drawn", name,
+                    file->beams);
     if (!file->scene->objects.count)
         return fail(file->error, LAM_CANNOT_READ, "%s: the objects of its build have no triangles", name);
     if (file->flattened)
         scene_warn(file->scene, "%s: not drawn: objects whose transform has no volume (%zu)", name, file->flattened);
-    if (file->layered_textures)
-        scene_warn(file->scene, "%s: of multiproperties with several textures the first is drawn (%zu)", name,
-                   file->layered_textures);
+    if (file->beams)
+        scene_warn(file->scene, "%s: not drawn: the beams of its lattices (%zu)", name, file->beams);
+    if (file->sliced)
+        scene_warn(
+            file->scene,
+            "%s: not drawn: slices; the objects that have them (%zu) are drawn by their triangles, which may be a box",
+            name, file->sliced);
+    if (file->multiplied_layers)
+        scene_warn(file->scene,
+                   "%s: multiproperties whose layers are not mixed, but drawn as colours times the first texture (%zu)",
+                   name, file->multiplied_layers);
     return true;
 }
 

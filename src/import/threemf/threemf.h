@@ -1,7 +1,7 @@
 // threemf.h: internals of the 3MF importer.
 //
 // A 3MF file is a ZIP archive with model parts in XML. The steps are: threemf_package.c opens the archive (libzip), threemf_xml.c parses a
-// part (expat), threemf_model.c and threemf_properties.c take its elements, threemf_mesh.c makes meshes of its objects, and threemf_build.c
+// part (expat), threemf_model.c takes its elements, with threemf_properties.c, threemf_layers.c and threemf_display.c, threemf_mesh.c makes meshes of its objects, and threemf_build.c
 // places them as the build items and their components say.
 #ifndef THREEMF_H
 #define THREEMF_H
@@ -21,7 +21,8 @@ enum resource_kind {
     RESOURCE_COLORS,
     RESOURCE_TEXTURE,
     RESOURCE_TEXCOORDS,
-    RESOURCE_MULTI
+    RESOURCE_MULTI,
+    RESOURCE_DISPLAY // display properties
 };
 
 // The kinds of resources: an <object>, a group of properties, or a texture of a model part.
@@ -43,6 +44,11 @@ struct threemf_layers {
     int count;
     int32_t groups[LAYERS_MAX]; // indices of resources
     bool multiply[LAYERS_MAX];  // the layer multiplies those below; false: it covers them by its alpha
+    int texture;                // the first layer that is a texture; −1: none is
+    int texture_count;
+    int base;                    // the base material whose surface the mixed layers have; −1: none
+    uint32_t colors[LAYERS_MAX]; // of the first element: indices into the part's colours
+    bool varies; // another element has other colours, or textures lie at other coordinates than the first
 };
 
 // An element of multiproperties: indices into the part's colours and texture coordinates.
@@ -110,7 +116,8 @@ struct threemf {
     uint64_t expanded;         // bytes of all parts that were read
     uint64_t placed;           // components and items that were followed
     size_t flattened;          // instances whose transform has no volume
-    size_t layered_textures;   // multiproperties with more than one texture
+    size_t multiplied_layers;  // multiproperties whose layers are drawn as a product
+    size_t beams, sliced;      // beams, and objects with slices
 };
 
 // Room for `count` rows of `size` bytes each. False: out of memory, and the error says so.

@@ -89,7 +89,7 @@ bool extensions_check(struct threemf_xml *xml, const char *const *attributes)
 {
     struct model_reader *reader = reader_of(xml);
     struct threemf *file = reader->file;
-    const char *required = threemf_attribute(attributes, NS_NONE, "requiredextensions");
+    const char *required = threemf_attribute(attributes, "requiredextensions");
     const struct declared *spaces = reader->spaces.items;
     reader->in_model = true;
     if (!reader->is_root)

@@ -39,7 +39,8 @@ static bool fail_object(const struct mesh_maker *maker, const char *what, uint32
 
 static bool is_group(const struct threemf_resource *resource)
 {
-    return resource && resource->kind != RESOURCE_OBJECT && resource->kind != RESOURCE_TEXTURE;
+    return resource && resource->kind != RESOURCE_OBJECT && resource->kind != RESOURCE_TEXTURE &&
+           resource->kind != RESOURCE_DISPLAY;
 }
 
 static bool resolve(const struct mesh_maker *maker, const struct threemf_property *property, struct surface *out)

@@ -22,7 +22,7 @@ static const struct unit {
 
 static bool begin_model(struct threemf_xml *xml, const char *const *attributes)
 {
-    const char *unit = threemf_attribute(attributes, NS_NONE, "unit");
+    const char *unit = threemf_attribute(attributes, "unit");
     char shown[SHOWN_NAME_SIZE];
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
         if (!unit || strcmp(unit, units[i].name) == 0) {
@@ -36,7 +36,7 @@ static bool begin_model(struct threemf_xml *xml, const char *const *attributes)
 static bool begin_metadata(struct threemf_xml *xml, const char *const *attributes)
 {
     struct model_reader *reader = reader_of(xml);
-    const char *name = threemf_attribute(attributes, NS_NONE, "name");
+    const char *name = threemf_attribute(attributes, "name");
     lam_file_info *info = &reader->file->scene->file;
     reader->wanted_text = !name || !reader->is_root          ? NULL
                           : strcmp(name, "Application") == 0 ? &info->generator
@@ -63,7 +63,7 @@ static bool begin_object(struct threemf_xml *xml, const char *const *attributes)
 {
     struct model_reader *reader = reader_of(xml);
     struct threemf_resource *resource = model_add_resource(xml, attributes, RESOURCE_OBJECT);
-    const char *name = threemf_attribute(attributes, NS_NONE, "name");
+    const char *name = threemf_attribute(attributes, "name");
     if (!resource)
         return false;
     struct threemf_object *object = arena_alloc_zeroed(reader->file->scratch, sizeof *object);
@@ -82,6 +82,7 @@ static bool begin_object(struct threemf_xml *xml, const char *const *attributes)
         !threemf_take_number(xml, attributes, "pindex", &object->index, &has_index))
         return false;
     object->id = (int32_t)id;
+    reader->file->sliced += threemf_attribute_of(xml, attributes, NS_SLICES, "slicestackid") != NULL;
     object->group = has_group ? (int32_t)group : 0;
     reader->positions.count = reader->indices.count = reader->properties.count = reader->components.count = 0;
     reader->has_properties = false;
@@ -179,7 +180,7 @@ static bool end_object(struct threemf_xml *xml)
 // A transform is 4 rows of 3 numbers for row vectors: "m00 m01 m02 m10 … m32", the last row the translation.
 static bool take_transform(struct threemf_xml *xml, const char *const *attributes, lam_mat4 *out)
 {
-    const char *text = threemf_attribute(attributes, NS_NONE, "transform");
+    const char *text = threemf_attribute(attributes, "transform");
     char shown[SHOWN_NAME_SIZE];
     *out = lam_mat4_identity();
     if (!text)
@@ -201,7 +202,7 @@ static bool add_component(struct threemf_xml *xml, const char *const *attributes
 {
     struct model_reader *reader = reader_of(xml);
     struct threemf_component *component = threemf_add(reader->file, rows, sizeof *component);
-    const char *path = threemf_attribute(attributes, NS_PRODUCTION, "path");
+    const char *path = threemf_attribute_of(xml, attributes, NS_PRODUCTION, "path");
     uint32_t id;
     if (!component || !threemf_take_number(xml, attributes, "objectid", &id, NULL) ||
         !take_transform(xml, attributes, &component->transform))
@@ -220,6 +221,14 @@ static bool begin_component(struct threemf_xml *xml, const char *const *attribut
 static bool begin_item(struct threemf_xml *xml, const char *const *attributes)
 {
     return !reader_of(xml)->is_root || add_component(xml, attributes, &reader_of(xml)->part->items);
+}
+
+// Beams are counted, not drawn.
+static bool begin_beam(struct threemf_xml *xml, const char *const *attributes)
+{
+    (void)attributes;
+    reader_of(xml)->file->beams++;
+    return true;
 }
 
 static const struct threemf_element elements[IN_COUNT] = {
@@ -243,9 +252,16 @@ static const struct threemf_element elements[IN_COUNT] = {
     [IN_TEXCOORD] = {NS_MATERIALS, "tex2coord", IN_TEXCOORD_GROUP, begin_texcoord, NULL},
     [IN_COMPOSITES] = {NS_MATERIALS, "compositematerials", IN_RESOURCES, begin_composites, end_group},
     [IN_COMPOSITE] = {NS_MATERIALS, "composite", IN_COMPOSITES, begin_composite, NULL},
-    [IN_MULTIS] = {NS_MATERIALS, "multiproperties", IN_RESOURCES, begin_multis, end_group},
+    [IN_MULTIS] = {NS_MATERIALS, "multiproperties", IN_RESOURCES, begin_multis, end_multis},
     [IN_MULTI] = {NS_MATERIALS, "multi", IN_MULTIS, begin_multi, NULL},
     [IN_CORE_MULTI] = {NS_CORE, "multi", IN_MULTIS, begin_multi, NULL}, // as samples of the consortium have it
+    [IN_METALLIC_GROUP] = {NS_MATERIALS, "pbmetallicdisplayproperties", IN_RESOURCES, begin_display, end_group},
+    [IN_METALLIC] = {NS_MATERIALS, "pbmetallic", IN_METALLIC_GROUP, begin_metallic, NULL},
+    [IN_SPECULAR_GROUP] = {NS_MATERIALS, "pbspeculardisplayproperties", IN_RESOURCES, begin_display, end_group},
+    [IN_SPECULAR] = {NS_MATERIALS, "pbspecular", IN_SPECULAR_GROUP, begin_specular, NULL},
+    [IN_BEAM_LATTICE] = {NS_BEAMS, "beamlattice", IN_MESH, NULL, NULL},
+    [IN_BEAMS] = {NS_BEAMS, "beams", IN_BEAM_LATTICE, NULL, NULL},
+    [IN_BEAM] = {NS_BEAMS, "beam", IN_BEAMS, begin_beam, NULL},
     [IN_BUILD] = {NS_CORE, "build", IN_MODEL, NULL, NULL},
     [IN_ITEM] = {NS_CORE, "item", IN_BUILD, begin_item, NULL},
 };
@@ -273,12 +289,16 @@ static bool read_part(struct threemf *file, struct threemf_part *part)
                               .user = &reader,
                               .declare = extensions_declare};
     bool ok = properties_start(file, part) && threemf_xml_parse(&xml) && keep_lists(&reader);
+    if (ok)
+        display_finish(&reader);
     threemf_rows_free(file, &reader.positions);
     threemf_rows_free(file, &reader.indices);
     threemf_rows_free(file, &reader.properties);
     threemf_rows_free(file, &reader.components);
     threemf_rows_free(file, &reader.text);
     threemf_rows_free(file, &reader.spaces);
+    threemf_rows_free(file, &reader.wishes);
+    threemf_rows_free(file, &reader.displays);
     return ok;
 }
 

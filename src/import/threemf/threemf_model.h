@@ -29,6 +29,13 @@ enum threemf_row {
     IN_MULTIS,
     IN_MULTI,
     IN_CORE_MULTI,
+    IN_METALLIC_GROUP,
+    IN_METALLIC,
+    IN_SPECULAR_GROUP,
+    IN_SPECULAR,
+    IN_BEAM_LATTICE,
+    IN_BEAMS,
+    IN_BEAM,
     IN_BUILD,
     IN_ITEM,
     IN_COUNT
@@ -49,6 +56,9 @@ struct model_reader {
     int32_t group;
     uint32_t bases[LAYERS_MAX]; // composite materials: the indices of the base materials that they mix
     int base_count;
+    uint32_t display; // id of the display properties of the open base materials
+    bool has_display;
+    struct threemf_rows wishes, displays; // threemf_display.c
     struct threemf_rows text;
     const char **wanted_text; // where the text of a metadata element goes
 };
@@ -59,14 +69,40 @@ static inline struct model_reader *reader_of(struct threemf_xml *xml) { return x
 struct threemf_resource *model_add_resource(struct threemf_xml *xml, const char *const *attributes,
                                             enum resource_kind kind);
 
+// A resource by its number; the group that is open.
+struct threemf_resource *model_resource(struct threemf_part *part, int32_t index);
+struct threemf_resource *model_group(struct model_reader *reader);
+bool model_add_color(struct threemf *file, struct threemf_part *part, const float color[4]);
+// Reads the next whole number below `limit` of a list in an attribute. False: there is none.
+bool model_next_number(const char **at, uint32_t limit, uint32_t *out);
+bool model_at_end(const char *at); // only spaces are left
+
+// A base material that names an element of display properties.
+struct display_wish {
+    int material;
+    uint32_t id, index;
+};
+
+// Keeps the wish of a base material for the display properties that its element or its group names.
+bool model_want_display(struct threemf_xml *xml, const char *const *attributes, int material, uint32_t index);
+
 // threemf_extensions.c: keeps a name space; checks the extensions that the model element requires.
 void extensions_declare(struct threemf_xml *xml, const char *prefix, const char *uri);
 bool extensions_check(struct threemf_xml *xml, const char *const *attributes);
 
 // threemf_properties.c: the elements of groups of properties.
 threemf_begin_fn begin_base_materials, begin_base, begin_color_group, begin_color, begin_texture, begin_texcoord_group,
-    begin_texcoord, begin_composites, begin_composite, begin_multis, begin_multi;
+    begin_texcoord, begin_composites, begin_composite;
 threemf_end_fn end_group;
+// "#RRGGBB" or "#RRGGBBAA" of an attribute, sRGB, as linear numbers.
+bool properties_take_color(struct threemf_xml *xml, const char *const *attributes, const char *name, float out[4]);
+// threemf_layers.c: multiproperties.
+threemf_begin_fn begin_multis, begin_multi;
+threemf_end_fn end_multis;
+// threemf_display.c: display properties. display_finish grants the wishes at the end of the part, since the properties may follow the
+// materials.
+threemf_begin_fn begin_display, begin_metallic, begin_specular;
+void display_finish(struct model_reader *reader);
 // A fault of properties does not stop the load: a warning "FILE: PART:LINE: sentence", and the open group is faulty. Returns true.
 bool properties_fault(struct threemf_xml *xml, const char *format, ...) __attribute__((format(printf, 2, 3)));
 // White and the colour of parts without a material, which a part's colours begin with.

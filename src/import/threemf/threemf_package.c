@@ -79,7 +79,9 @@ static bool check_claims(struct threemf *file, uint64_t *entries)
     if (!claimed_entries(source->bytes, source->size, entries))
         return fail(
             file->error, LAM_CANNOT_READ,
-            "%s: the file is truncated: found %zu bytes without the list of entries at the end of a ZIP archive",
+            source->size >= 2 && memcmp(source->bytes, "PK", 2) == 0
+                ? "%s: the file is truncated: found %zu bytes of a ZIP archive, expected its list of entries at the end"
+                : "%s: the file is not a ZIP archive, as a 3MF file is: found %zu bytes without a list of entries",
             source->name, source->size);
     return *entries <= source->size / ENTRY_BYTES ||
            fail(file->error, LAM_CANNOT_READ,
@@ -173,12 +175,14 @@ static bool read_pieces(struct threemf *file, const char *name, zip_file_t *part
     const struct zip_library *zip = file->zip;
     struct call_control *call = file->source->call;
     uint8_t *piece = arena_alloc(file->scratch, PIECE);
+    char shown[SHOWN_NAME_SIZE];
     if (!piece)
         return threemf_no_memory(file, PIECE);
     for (;;) {
         zip_int64_t got = zip->zip_fread(part, piece, PIECE);
         if (got < 0)
-            return fail_part(file, name, zip->zip_error_strerror(zip->zip_file_get_error(part)));
+            return fail(file->error, LAM_CANNOT_READ, "%s: its part %s is damaged: %s", file->source->name,
+                        shown_name(name, shown), zip->zip_error_strerror(zip->zip_file_get_error(part)));
         file->expanded += (uint64_t)got;
         if (!call_check_expanded(call, file->source->name, file->expanded, file->error) ||
             (!call_should_continue(call) && !call_error(call, file->error)) ||

@@ -1,5 +1,5 @@
-// threemf_properties.c: groups of properties: base materials of the core, and colours, textures, composite materials and multiproperties of the
-// materials extension 1.2. https://github.com/3MFConsortium/spec_materials
+// threemf_properties.c: groups of properties: base materials of the core, and colours, textures and composite materials of the materials
+// extension 1.2 (multiproperties: threemf_layers.c; display properties: threemf_display.c). https://github.com/3MFConsortium/spec_materials
 #include "threemf_model.h"
 
 #include "fail.h"
@@ -14,26 +14,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static struct threemf_resource *resource_of(struct threemf_part *part, int32_t index)
-{
-    return (struct threemf_resource *)part->resources.items + index;
-}
-static struct threemf_resource *open_group(struct model_reader *reader)
-{
-    return resource_of(reader->part, reader->group);
-}
-
 const float *threemf_color(const struct threemf_part *part, const struct threemf_resource *group, uint32_t index)
 {
     return (const float *)part->colors.items + 4 * (size_t)(group->first + index);
-}
-
-static bool add_color(struct threemf *file, struct threemf_part *part, const float color[4])
-{
-    float *row = threemf_add(file, &part->colors, 4 * sizeof *row);
-    if (row)
-        memcpy(row, color, 4 * sizeof *row);
-    return row != NULL;
 }
 
 bool properties_fault(struct threemf_xml *xml, const char *format, ...)
@@ -44,18 +27,18 @@ bool properties_fault(struct threemf_xml *xml, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(sentence, sizeof sentence, format, arguments);
     va_end(arguments);
-    if (!open_group(reader)->faulty)
+    if (!model_group(reader)->faulty)
         scene_warn(reader->file->scene, "%s: %s:%zu: %s; drawn without this group", reader->file->source->name,
                    shown_name(xml->part, shown), threemf_xml_line(xml), sentence);
-    open_group(reader)->faulty = true;
+    model_group(reader)->faulty = true;
     return true;
 }
 
 bool properties_start(struct threemf *file, struct threemf_part *part)
 {
     lam_rgba neutral = lam_material_default().diffuse;
-    return add_color(file, part, (float[]){1, 1, 1, 1}) &&
-           add_color(file, part, (float[]){neutral.r, neutral.g, neutral.b, 1});
+    return model_add_color(file, part, (float[]){1, 1, 1, 1}) &&
+           model_add_color(file, part, (float[]){neutral.r, neutral.g, neutral.b, 1});
 }
 
 bool end_group(struct threemf_xml *xml)
@@ -64,10 +47,9 @@ bool end_group(struct threemf_xml *xml)
     return true;
 }
 
-// "#RRGGBB" or "#RRGGBBAA", sRGB.
-static bool take_color(struct threemf_xml *xml, const char *const *attributes, const char *name, float out[4])
+bool properties_take_color(struct threemf_xml *xml, const char *const *attributes, const char *name, float out[4])
 {
-    const char *text = threemf_attribute(attributes, NS_NONE, name);
+    const char *text = threemf_attribute(attributes, name);
     char shown[SHOWN_NAME_SIZE];
     lam_rgba color;
     if (!text)
@@ -91,7 +73,7 @@ bool begin_base_materials(struct threemf_xml *xml, const char *const *attributes
         return false;
     group->first = (uint32_t)reader->part->colors.count;
     group->material = reader->file->scene->materials.count;
-    return true;
+    return threemf_take_number(xml, attributes, "displaypropertiesid", &reader->display, &reader->has_display);
 }
 
 bool begin_base(struct threemf_xml *xml, const char *const *attributes)
@@ -99,17 +81,18 @@ bool begin_base(struct threemf_xml *xml, const char *const *attributes)
     struct model_reader *reader = reader_of(xml);
     struct threemf *file = reader->file;
     lam_material material = lam_material_default();
-    const char *name = threemf_attribute(attributes, NS_NONE, "name");
+    const char *name = threemf_attribute(attributes, "name");
     float color[4] = {0};
-    if (!take_color(xml, attributes, "displaycolor", color) || !add_color(file, reader->part, color))
+    if (!properties_take_color(xml, attributes, "displaycolor", color) || !model_add_color(file, reader->part, color))
         return false;
     material.name = name && *name ? arena_string(&file->scene->arena, name) : NULL;
     if (name && *name && !material.name)
         return threemf_no_memory(file, strlen(name));
     material.diffuse = (lam_rgba){color[0], color[1], color[2], color[3]};
     material.ambient = (lam_rgb){color[0], color[1], color[2]};
-    open_group(reader)->count++;
-    return scene_adopt_material(file->scene, &material, file->error) >= 0;
+    uint32_t index = model_group(reader)->count++;
+    int added = scene_adopt_material(file->scene, &material, file->error);
+    return added >= 0 && model_want_display(xml, attributes, added, index);
 }
 
 // --- colours
@@ -126,9 +109,9 @@ bool begin_color(struct threemf_xml *xml, const char *const *attributes)
 {
     struct model_reader *reader = reader_of(xml);
     float color[4] = {0};
-    if (!take_color(xml, attributes, "color", color) || !add_color(reader->file, reader->part, color))
+    if (!properties_take_color(xml, attributes, "color", color) || !model_add_color(reader->file, reader->part, color))
         return false;
-    open_group(reader)->count++;
+    model_group(reader)->count++;
     return true;
 }
 
@@ -136,7 +119,7 @@ bool begin_color(struct threemf_xml *xml, const char *const *attributes)
 
 static lam_wrap wrap_of(const char *const *attributes, const char *name)
 {
-    const char *style = threemf_attribute(attributes, NS_NONE, name);
+    const char *style = threemf_attribute(attributes, name);
     return !style || strcmp(style, "wrap") == 0 ? LAM_WRAP_REPEAT
            : strcmp(style, "mirror") == 0       ? LAM_WRAP_MIRROR
                                                 : LAM_WRAP_CLAMP;
@@ -178,8 +161,8 @@ bool begin_texture(struct threemf_xml *xml, const char *const *attributes)
 {
     struct model_reader *reader = reader_of(xml);
     struct threemf_resource *texture = model_add_resource(xml, attributes, RESOURCE_TEXTURE);
-    const char *path = threemf_attribute(attributes, NS_NONE, "path");
-    const char *filter = threemf_attribute(attributes, NS_NONE, "filter");
+    const char *path = threemf_attribute(attributes, "path");
+    const char *filter = threemf_attribute(attributes, "filter");
     lam_texture *picture;
     if (!texture)
         return false;
@@ -237,26 +220,9 @@ bool begin_texcoord(struct threemf_xml *xml, const char *const *attributes)
         !threemf_take_float(xml, attributes, "v", &row[1]))
         return false;
     row[1] = 1 - row[1];
-    open_group(reader)->count++;
+    model_group(reader)->count++;
     return true;
 }
-
-// --- lists of numbers in attributes
-
-// Reads the next whole number below `limit` of a list. False: there is none.
-static bool next_number(const char **at, uint32_t limit, uint32_t *out)
-{
-    uint64_t value = 0;
-    const char *digits = *at + strspn(*at, " \t\r\n");
-    const char *end = digits;
-    while (*end >= '0' && *end <= '9' && value <= INT32_MAX)
-        value = 10 * value + (uint64_t)(*end++ - '0');
-    *at = end;
-    *out = (uint32_t)value;
-    return end > digits && value < limit && (!*end || strchr(" \t\r\n", *end));
-}
-
-static bool at_end(const char *at) { return !at[strspn(at, " \t\r\n")]; }
 
 // --- composite materials: base materials mixed by shares
 
@@ -264,7 +230,7 @@ bool begin_composites(struct threemf_xml *xml, const char *const *attributes)
 {
     struct model_reader *reader = reader_of(xml);
     struct threemf_resource *group = model_add_resource(xml, attributes, RESOURCE_COLORS);
-    const char *list = threemf_attribute(attributes, NS_NONE, "matindices");
+    const char *list = threemf_attribute(attributes, "matindices");
     uint32_t id;
     char shown[SHOWN_NAME_SIZE];
     if (!group || !threemf_take_number(xml, attributes, "matid", &id, NULL))
@@ -277,8 +243,9 @@ bool begin_composites(struct threemf_xml *xml, const char *const *attributes)
     group->first = (uint32_t)reader->part->colors.count;
     group->base = (int32_t)(base - (const struct threemf_resource *)reader->part->resources.items);
     reader->base_count = 0;
-    for (const char *at = list; !at_end(at);)
-        if (reader->base_count == LAYERS_MAX || !next_number(&at, base->count, &reader->bases[reader->base_count++]))
+    for (const char *at = list; !model_at_end(at);)
+        if (reader->base_count == LAYERS_MAX ||
+            !model_next_number(&at, base->count, &reader->bases[reader->base_count++]))
             return properties_fault(xml, "found matindices=\"%s\", expected up to %d numbers below %u",
                                     shown_name(list, shown), LAYERS_MAX, base->count);
     return true;
@@ -288,14 +255,14 @@ bool begin_composite(struct threemf_xml *xml, const char *const *attributes)
 {
     struct model_reader *reader = reader_of(xml);
     struct threemf_part *part = reader->part;
-    const struct threemf_resource *group = open_group(reader), *base = resource_of(part, group->base);
-    const char *list = threemf_attribute(attributes, NS_NONE, "values");
+    const struct threemf_resource *group = model_group(reader), *base = model_resource(part, group->base);
+    const char *list = threemf_attribute(attributes, "values");
     char shown[SHOWN_NAME_SIZE];
     float sum = 0, mixed[4] = {0};
     if (group->faulty)
         return true;
     const uint8_t *at = (const uint8_t *)list, *end = list ? at + strlen(list) : NULL;
-    for (int i = 0; list && i < reader->base_count && !at_end((const char *)at); i++) {
+    for (int i = 0; list && i < reader->base_count && !model_at_end((const char *)at); i++) {
         float share;
         at = number_float(at + strspn((const char *)at, " \t\r\n"), end, &share);
         if (!at || !(share >= 0 && share <= 1e6f))
@@ -308,106 +275,8 @@ bool begin_composite(struct threemf_xml *xml, const char *const *attributes)
     }
     for (int c = 0; c < 4; c++)
         mixed[c] = sum > 0 ? mixed[c] / sum : 1;
-    open_group(reader)->count++;
-    return add_color(reader->file, part, mixed);
-}
-
-// --- multiproperties: layers of other groups
-
-static bool take_layers(struct threemf_xml *xml, const char *list, struct threemf_layers *layers)
-{
-    struct threemf_part *part = reader_of(xml)->part;
-    char shown[SHOWN_NAME_SIZE];
-    for (const char *at = list; !at_end(at);) {
-        uint32_t id;
-        bool good = layers->count < LAYERS_MAX && next_number(&at, INT32_MAX, &id);
-        const struct threemf_resource *group = good ? threemf_resource_at(part, (int32_t)id) : NULL;
-        if (!group || group->kind == RESOURCE_OBJECT || group->kind == RESOURCE_TEXTURE ||
-            group->kind == RESOURCE_MULTI)
-            return properties_fault(xml, "found pids=\"%s\", expected ids of up to %d groups before it",
-                                    shown_name(list, shown), LAYERS_MAX);
-        layers->groups[layers->count++] = (int32_t)(group - (const struct threemf_resource *)part->resources.items);
-    }
-    return true;
-}
-
-bool begin_multis(struct threemf_xml *xml, const char *const *attributes)
-{
-    struct model_reader *reader = reader_of(xml);
-    struct threemf_resource *group = model_add_resource(xml, attributes, RESOURCE_MULTI);
-    const char *list = threemf_attribute(attributes, NS_NONE, "pids");
-    const char *blend = threemf_attribute(attributes, NS_NONE, "blendmethods");
-    if (!group)
-        return false;
-    if (!list)
-        return properties_fault(xml, "the attribute pids is missing");
-    struct threemf_layers *layers = arena_alloc_zeroed(reader->file->scratch, sizeof *layers);
-    if (!layers)
-        return threemf_no_memory(reader->file, sizeof *layers);
-    if (!take_layers(xml, list, layers) || open_group(reader)->faulty)
-        return open_group(reader)->faulty;
-    // The methods of the second layer on.
-    for (int i = 1; blend && i < layers->count && !at_end(blend); i++) {
-        blend += strspn(blend, " \t\r\n");
-        size_t length = strcspn(blend, " \t\r\n");
-        layers->multiply[i] = length == 8 && memcmp(blend, "multiply", 8) == 0;
-        blend += length;
-    }
-    int textures = 0;
-    for (int i = 0; i < layers->count; i++) {
-        const struct threemf_resource *layer = resource_of(reader->part, layers->groups[i]);
-        if (layer->kind == RESOURCE_TEXCOORDS && !textures++)
-            group->material = layer->material;
-    }
-    reader->file->layered_textures += textures > 1;
-    group->first = (uint32_t)reader->part->pairs.count;
-    group->layers = layers;
-    return true;
-}
-
-static void blend_layer(float below[4], const float color[4], bool multiply)
-{
-    float alpha = color[3];
-    for (int c = 0; c < 3; c++)
-        below[c] = multiply ? below[c] * color[c] : below[c] + alpha * (color[c] - below[c]);
-    below[3] = multiply ? below[3] * alpha : below[3] + alpha * (1 - below[3]);
-}
-
-// The colours of an element's layers become one, which multiplies the texture if there is one.
-bool begin_multi(struct threemf_xml *xml, const char *const *attributes)
-{
-    struct model_reader *reader = reader_of(xml);
-    struct threemf_part *part = reader->part;
-    const struct threemf_resource *group = open_group(reader);
-    const char *list = threemf_attribute(attributes, NS_NONE, "pindices"), *at = list ? list : "";
-    char shown[SHOWN_NAME_SIZE];
-    float color[4] = {1, 1, 1, 1};
-    struct threemf_pair pair = {0};
-    bool textured = false, colored = false;
-    if (group->faulty)
-        return true;
-    for (int i = 0; i < group->layers->count; i++) {
-        const struct threemf_resource *layer = resource_of(part, group->layers->groups[i]);
-        uint32_t index = 0; // of layers that the list leaves out
-        if (at_end(at) ? layer->count == 0 : !next_number(&at, layer->count, &index))
-            return properties_fault(xml, "found pindices=\"%s\", expected the number of an element of each layer",
-                                    shown_name(list ? list : "", shown));
-        if (layer->kind == RESOURCE_TEXCOORDS && !textured) {
-            pair.texcoord = layer->first + index;
-            textured = true;
-        } else if (layer->kind != RESOURCE_TEXCOORDS) {
-            blend_layer(color, threemf_color(part, layer, index), i == 0 || textured || group->layers->multiply[i]);
-            colored = true;
-        }
-    }
-    struct threemf_pair *row = threemf_add(reader->file, &part->pairs, sizeof *row);
-    if (!row || (colored && !add_color(reader->file, part, color)))
-        return false;
-    if (colored)
-        pair.color = (uint32_t)part->colors.count - 1;
-    *row = pair;
-    open_group(reader)->count++;
-    return true;
+    model_group(reader)->count++;
+    return model_add_color(reader->file, part, mixed);
 }
 
 #endif

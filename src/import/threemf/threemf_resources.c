@@ -4,6 +4,39 @@
 #ifdef HAVE_3MF
 
 #include <stdio.h>
+#include <string.h>
+
+struct threemf_resource *model_resource(struct threemf_part *part, int32_t index)
+{
+    return (struct threemf_resource *)part->resources.items + index;
+}
+
+struct threemf_resource *model_group(struct model_reader *reader)
+{
+    return model_resource(reader->part, reader->group);
+}
+
+bool model_add_color(struct threemf *file, struct threemf_part *part, const float color[4])
+{
+    float *row = threemf_add(file, &part->colors, 4 * sizeof *row);
+    if (row)
+        memcpy(row, color, 4 * sizeof *row);
+    return row != NULL;
+}
+
+bool model_next_number(const char **at, uint32_t limit, uint32_t *out)
+{
+    uint64_t value = 0;
+    const char *digits = *at + strspn(*at, " \t\r\n");
+    const char *end = digits;
+    while (*end >= '0' && *end <= '9' && value <= INT32_MAX)
+        value = 10 * value + (uint64_t)(*end++ - '0');
+    *at = end;
+    *out = (uint32_t)value;
+    return end > digits && value < limit && (!*end || strchr(" \t\r\n", *end));
+}
+
+bool model_at_end(const char *at) { return !at[strspn(at, " \t\r\n")]; }
 
 struct threemf_resource *threemf_resource_at(const struct threemf_part *part, int32_t id)
 {
@@ -36,6 +69,20 @@ struct threemf_resource *model_add_resource(struct threemf_xml *xml, const char 
     *resource = (struct threemf_resource){.kind = kind, .material = -1, .base = -1};
     reader->group = (int32_t)part->resources.count - 1;
     return resource;
+}
+
+bool model_want_display(struct threemf_xml *xml, const char *const *attributes, int material, uint32_t index)
+{
+    struct model_reader *reader = reader_of(xml);
+    uint32_t id;
+    bool own;
+    if (!threemf_take_number(xml, attributes, "displaypropertiesid", &id, &own))
+        return false;
+    struct display_wish *row =
+        own || reader->has_display ? threemf_add(reader->file, &reader->wishes, sizeof *row) : NULL;
+    if (row)
+        *row = (struct display_wish){material, own ? id : reader->display, index};
+    return row || (!own && !reader->has_display);
 }
 
 #endif

@@ -23,9 +23,8 @@
 
 #define FUNCTIONS(each)                                                                                                \
     each(XML_ParserCreate_MM) each(XML_ParserFree) each(XML_SetUserData) each(XML_SetElementHandler)                   \
-        each(XML_SetCharacterDataHandler) each(XML_SetStartDoctypeDeclHandler) each(XML_SetStartNamespaceDeclHandler)  \
-            each(XML_Parse) each(XML_StopParser) each(XML_GetErrorCode) each(XML_ErrorString)                          \
-                each(XML_GetCurrentLineNumber) each(XML_GetCurrentByteIndex)
+        each(XML_SetCharacterDataHandler) each(XML_SetStartDoctypeDeclHandler) each(XML_Parse) each(XML_StopParser)    \
+            each(XML_GetErrorCode) each(XML_ErrorString) each(XML_GetCurrentLineNumber) each(XML_GetCurrentByteIndex)
 
 struct expat_library {
     void *handle;
@@ -33,16 +32,25 @@ struct expat_library {
     FUNCTIONS(MEMBER)
 };
 
-enum { DEPTH_MAX = 256, TOKEN_BYTES = 1 << 20 };
+enum { DEPTH_MAX = 256, TOKEN_BYTES = 1 << 20, SPACES_MAX = 256 };
 enum { AT_ROOT = -1, SKIPPED = -2 };
+
+// A prefix of a name space, in force in the element that declares it.
+struct declaration {
+    size_t prefix; // where its text begins in xml_parser.prefixes; "": names without a prefix
+    enum threemf_namespace space;
+    int depth;
+};
 
 struct xml_parser {
     XML_Parser expat;
     const struct expat_library *library;
     uint64_t given; // bytes
     int depth;
-    int rows[DEPTH_MAX + 1]; // the table's row of each open element; rows[0] is AT_ROOT
-    bool failed;             // the error is filled
+    int rows[DEPTH_MAX + 1];                      // the table's row of each open element; rows[0] is AT_ROOT
+    bool failed;                                  // the error is filled
+    enum threemf_namespace spaces[DEPTH_MAX + 1]; // of the open elements
+    struct threemf_rows declarations, prefixes;   // struct declaration, char
 };
 
 static const char *const uris[] = {
@@ -51,9 +59,9 @@ static const char *const uris[] = {
     [NS_MATERIALS] = "http://schemas.microsoft.com/3dmanufacturing/material/2015/02",
     [NS_PRODUCTION] = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06",
     [NS_RELATIONSHIPS] = "http://schemas.openxmlformats.org/package/2006/relationships",
+    [NS_BEAMS] = "http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02",
+    [NS_SLICES] = "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07",
 };
-
-#define SEPARATOR "|" // expat puts it between a name space and a name
 
 // --- expat's memory, charged to the call of the thread that parses
 
@@ -114,52 +122,124 @@ bool threemf_xml_fail(struct threemf_xml *xml, const char *format, ...)
                 shown_name(xml->part, shown), threemf_xml_line(xml), sentence);
 }
 
+// --- name spaces
+//
+// They are found here and not by expat, which refuses a prefix that nothing declares: samples of the consortium have one.
+
+static enum threemf_namespace space_of_uri(const char *uri)
+{
+    for (int i = NS_CORE; i < NS_UNKNOWN; i++)
+        if (strcmp(uris[i], uri) == 0)
+            return (enum threemf_namespace)i;
+    return NS_UNKNOWN;
+}
+
+static bool declare(struct threemf_xml *xml, const char *prefix, const char *uri)
+{
+    struct xml_parser *parser = xml->parser;
+    size_t length = strlen(prefix) + 1, begin = parser->prefixes.count;
+    if (parser->declarations.count == SPACES_MAX)
+        return threemf_xml_fail(xml, "found more than %d name spaces", SPACES_MAX);
+    struct declaration *row = threemf_add(xml->file, &parser->declarations, sizeof *row);
+    if (!row || !threemf_reserve(xml->file, &parser->prefixes, 1, begin + length))
+        return false;
+    memcpy((char *)parser->prefixes.items + begin, prefix, length);
+    parser->prefixes.count += length;
+    *row = (struct declaration){begin, *uri ? space_of_uri(uri) : NS_NONE, parser->depth + 1};
+    if (xml->declare)
+        xml->declare(xml, prefix, uri);
+    return true;
+}
+
+// The name space of an element's or attribute's name. False: its prefix is not declared.
+static bool find_space(const struct xml_parser *parser, const char *name, enum threemf_namespace *out)
+{
+    const char *colon = strchr(name, ':');
+    size_t length = colon ? (size_t)(colon - name) : 0;
+    const struct declaration *rows = parser->declarations.items;
+    for (size_t i = parser->declarations.count; i-- > 0;) {
+        const char *prefix = (const char *)parser->prefixes.items + rows[i].prefix;
+        if (strncmp(prefix, name, length) == 0 && !prefix[length]) {
+            *out = rows[i].space;
+            return true;
+        }
+    }
+    *out = colon ? NS_UNKNOWN : NS_NONE;
+    return !colon || (length == 3 && memcmp(name, "xml", 3) == 0);
+}
+
+static bool refuse_prefix(struct threemf_xml *xml, const char *name)
+{
+    char shown[SHOWN_NAME_SIZE];
+    return threemf_xml_fail(xml, "found the name %s, whose prefix is not declared (--lenient reads on)",
+                            shown_name(name, shown));
+}
+
+// Takes what the element declares, and finds its own name space. A prefix that nothing declares is refused; with --lenient it has the name
+// space of the element around it.
+static bool take_spaces(struct threemf_xml *xml, const char *name, const char *const *attributes,
+                        enum threemf_namespace *out)
+{
+    struct xml_parser *parser = xml->parser;
+    bool lenient = xml->file->source->params->lenient;
+    enum threemf_namespace unused;
+    for (int i = 0; attributes[i]; i += 2)
+        if (strncmp(attributes[i], "xmlns", 5) == 0 && (!attributes[i][5] || attributes[i][5] == ':') &&
+            !declare(xml, attributes[i] + 5 + (attributes[i][5] == ':'), attributes[i + 1]))
+            return false;
+    for (int i = 0; attributes[i] && !lenient; i += 2)
+        if (strchr(attributes[i], ':') && strncmp(attributes[i], "xmlns:", 6) != 0 &&
+            !find_space(parser, attributes[i], &unused))
+            return refuse_prefix(xml, attributes[i]);
+    if (find_space(parser, name, out))
+        return true;
+    *out = parser->spaces[parser->depth];
+    return lenient || refuse_prefix(xml, name);
+}
+
 // --- elements
 
-// The part of a name after its name space.
+// The part of a name after its prefix.
 static const char *local_name(const char *name)
 {
-    const char *separator = strrchr(name, *SEPARATOR);
-    return separator ? separator + 1 : name;
+    const char *colon = strchr(name, ':');
+    return colon ? colon + 1 : name;
 }
 
-static bool has_space(const char *name, const char *local, enum threemf_namespace space)
-{
-    size_t length = local > name ? (size_t)(local - name) - 1 : 0;
-    return strlen(uris[space]) == length && memcmp(name, uris[space], length) == 0;
-}
-
-static int find_row(const struct threemf_xml *xml, const char *name)
+static int find_row(const struct threemf_xml *xml, const char *name, enum threemf_namespace space)
 {
     const char *local = local_name(name);
     int parent = xml->parser->rows[xml->parser->depth];
     for (int i = 0; parent != SKIPPED && i < xml->element_count; i++) {
         const struct threemf_element *row = &xml->elements[i];
-        if (row->parent == parent && strcmp(row->name, local) == 0 && has_space(name, local, row->space))
+        if (row->parent == parent && row->space == space && strcmp(row->name, local) == 0)
             return i;
     }
     return SKIPPED;
 }
 
+static bool open_element(struct threemf_xml *xml, const char *name, const char *const *attributes)
+{
+    struct xml_parser *parser = xml->parser;
+    char shown[SHOWN_NAME_SIZE];
+    enum threemf_namespace space = NS_NONE;
+    if (parser->depth == DEPTH_MAX)
+        return threemf_xml_fail(xml, "found more than %d elements within one another", DEPTH_MAX);
+    if (!take_spaces(xml, name, attributes, &space))
+        return false;
+    int row = find_row(xml, name, space);
+    if (parser->depth == 0 && row == SKIPPED)
+        return threemf_xml_fail(xml, "found the element %s, expected %s of 3MF", shown_name(local_name(name), shown),
+                                xml->elements[0].name);
+    parser->rows[++parser->depth] = row;
+    parser->spaces[parser->depth] = space;
+    return row == SKIPPED || !xml->elements[row].begin || xml->elements[row].begin(xml, attributes);
+}
+
 static void XMLCALL begin_element(void *user, const XML_Char *name, const XML_Char **attributes)
 {
     struct threemf_xml *xml = user;
-    struct xml_parser *parser = xml->parser;
-    char shown[SHOWN_NAME_SIZE];
-    if (parser->failed)
-        return;
-    int row = find_row(xml, name);
-    bool ok = true;
-    if (parser->depth == 0 && row == SKIPPED)
-        ok = threemf_xml_fail(xml, "found the element %s, expected %s of 3MF", shown_name(local_name(name), shown),
-                              xml->elements[0].name);
-    else if (parser->depth == DEPTH_MAX)
-        ok = threemf_xml_fail(xml, "found more than %d elements within one another", DEPTH_MAX);
-    if (ok)
-        parser->rows[++parser->depth] = row;
-    if (ok && row != SKIPPED && xml->elements[row].begin)
-        ok = xml->elements[row].begin(xml, (const char *const *)attributes);
-    if (!ok)
+    if (!xml->parser->failed && !open_element(xml, name, (const char *const *)attributes))
         stop(xml);
 }
 
@@ -173,6 +253,9 @@ static void XMLCALL end_element(void *user, const XML_Char *name)
     int row = parser->rows[parser->depth--];
     if (row != SKIPPED && xml->elements[row].end && !xml->elements[row].end(xml))
         stop(xml);
+    const struct declaration *rows = parser->declarations.items;
+    while (parser->declarations.count && rows[parser->declarations.count - 1].depth > parser->depth)
+        parser->prefixes.count = rows[--parser->declarations.count].prefix;
 }
 
 static void XMLCALL take_text(void *user, const XML_Char *text, int length)
@@ -195,13 +278,6 @@ static void XMLCALL refuse_document_type(void *user, const XML_Char *name, const
     (void)name, (void)system, (void)public, (void)internal;
     threemf_xml_fail(xml, "found a document type (<!DOCTYPE), which 3MF does not allow");
     stop(xml);
-}
-
-static void XMLCALL declare_space(void *user, const XML_Char *prefix, const XML_Char *uri)
-{
-    struct threemf_xml *xml = user;
-    if (xml->declare && !xml->parser->failed)
-        xml->declare(xml, prefix ? prefix : "", uri ? uri : "");
 }
 
 // --- parsing
@@ -263,17 +339,18 @@ bool threemf_xml_parse(struct threemf_xml *xml)
     struct xml_parser parser = {.library = library, .rows = {AT_ROOT}};
     parsing_call = xml->file->source->call;
     xml->parser = &parser;
-    parser.expat = library->XML_ParserCreate_MM(NULL, &memory, SEPARATOR);
+    parser.expat = library->XML_ParserCreate_MM(NULL, &memory, NULL);
     bool ok = parser.expat || threemf_no_memory(xml->file, sizeof parser);
     if (ok) {
         library->XML_SetUserData(parser.expat, xml);
         library->XML_SetElementHandler(parser.expat, begin_element, end_element);
         library->XML_SetCharacterDataHandler(parser.expat, take_text);
         library->XML_SetStartDoctypeDeclHandler(parser.expat, refuse_document_type);
-        library->XML_SetStartNamespaceDeclHandler(parser.expat, declare_space);
         ok = threemf_package_read(xml->file, xml->part, parse_piece, xml);
         library->XML_ParserFree(parser.expat);
     }
+    threemf_rows_free(xml->file, &parser.declarations);
+    threemf_rows_free(xml->file, &parser.prefixes);
     parsing_call = before;
     xml->parser = NULL;
     return ok;
@@ -281,25 +358,29 @@ bool threemf_xml_parse(struct threemf_xml *xml)
 
 // --- attributes
 
-const char *threemf_attribute(const char *const *attributes, enum threemf_namespace space, const char *name)
+const char *threemf_attribute(const char *const *attributes, const char *name)
 {
-    for (; *attributes; attributes += 2) {
-        if (space == NS_NONE) {
-            if (strcmp(attributes[0], name) == 0)
-                return attributes[1];
-            continue;
-        }
-        const char *local = local_name(attributes[0]);
-        if (strcmp(local, name) == 0 && has_space(attributes[0], local, space))
+    for (; *attributes; attributes += 2)
+        if (strcmp(attributes[0], name) == 0)
             return attributes[1];
-    }
+    return NULL;
+}
+
+const char *threemf_attribute_of(const struct threemf_xml *xml, const char *const *attributes,
+                                 enum threemf_namespace space, const char *name)
+{
+    enum threemf_namespace found;
+    for (; *attributes; attributes += 2)
+        if (strchr(attributes[0], ':') && strcmp(local_name(attributes[0]), name) == 0 &&
+            find_space(xml->parser, attributes[0], &found) && found == space)
+            return attributes[1];
     return NULL;
 }
 
 bool threemf_take_number(struct threemf_xml *xml, const char *const *attributes, const char *name, uint32_t *out,
                          bool *found)
 {
-    const char *text = threemf_attribute(attributes, NS_NONE, name);
+    const char *text = threemf_attribute(attributes, name);
     char shown[SHOWN_NAME_SIZE];
     if (found)
         *found = text != NULL;
@@ -317,7 +398,7 @@ bool threemf_take_number(struct threemf_xml *xml, const char *const *attributes,
 
 bool threemf_take_float(struct threemf_xml *xml, const char *const *attributes, const char *name, float *out)
 {
-    const char *text = threemf_attribute(attributes, NS_NONE, name);
+    const char *text = threemf_attribute(attributes, name);
     char shown[SHOWN_NAME_SIZE];
     if (!text)
         return threemf_xml_fail(xml, "the attribute %s is missing", name);

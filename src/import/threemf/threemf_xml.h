@@ -4,7 +4,16 @@
 
 #include "threemf.h"
 
-enum threemf_namespace { NS_NONE, NS_CORE, NS_MATERIALS, NS_PRODUCTION, NS_RELATIONSHIPS };
+enum threemf_namespace {
+    NS_NONE,
+    NS_CORE,
+    NS_MATERIALS,
+    NS_PRODUCTION,
+    NS_RELATIONSHIPS,
+    NS_BEAMS,
+    NS_SLICES,
+    NS_UNKNOWN
+};
 
 struct threemf_xml;
 typedef bool threemf_begin_fn(struct threemf_xml *xml, const char *const *attributes);
@@ -43,8 +52,11 @@ size_t threemf_xml_line(const struct threemf_xml *xml);
 // "FILE: PART:LINE: sentence". Returns false.
 bool threemf_xml_fail(struct threemf_xml *xml, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// The value of an attribute; NULL: the element has none of this name.
-const char *threemf_attribute(const char *const *attributes, enum threemf_namespace space, const char *name);
+// The value of an attribute without a prefix; NULL: the element has none of this name.
+const char *threemf_attribute(const char *const *attributes, const char *name);
+// The same of an attribute of a name space, while its element begins.
+const char *threemf_attribute_of(const struct threemf_xml *xml, const char *const *attributes,
+                                 enum threemf_namespace space, const char *name);
 // A whole number from 0 to INT32_MAX. *found: the attribute is there. Without `found` it must be.
 bool threemf_take_number(struct threemf_xml *xml, const char *const *attributes, const char *name, uint32_t *out,
                          bool *found);

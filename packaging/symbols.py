@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+"""symbols.py BUILD [--check]: the symbols files of the Debian packages (packaging/debian/*.symbols), from the shared libraries of a build folder: what is new
+gets the present version, what is gone is left out. With --check nothing is written, and a difference ends with exit code 1."""
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+LIBRARIES = {"liblambent0": "liblambent.so", "liblambent-check0": "liblambent-check.so"}
+
+
+def exported(library):
+    text = subprocess.run(["nm", "-D", "--defined-only", "--format=posix", library], stdout=subprocess.PIPE, text=True, check=True).stdout
+    return sorted(line.split()[0] for line in text.splitlines())
+
+
+def main():
+    build = pathlib.Path(sys.argv[1])
+    version = re.search(r"^  version: '(.*)',", (ROOT / "meson.build").read_text(), re.M)[1]
+    differs = False
+    for package, library in LIBRARIES.items():
+        path = ROOT / "packaging" / "debian" / (package + ".symbols")
+        text = path.read_text()
+        since = dict(re.findall(r"^ (\w+)@Base (\S+)$", text, re.M))
+        found = next(build.glob("src/**/" + library))
+        rows = "".join(" %s@Base %s\n" % (name, since.get(name, version)) for name in exported(found))
+        wanted = text[:text.index("\n ") + 1] + rows
+        if wanted != text and "--check" in sys.argv:
+            names = set(exported(found)) ^ set(since)
+            print("%s: differs from %s: %s" % (path.relative_to(ROOT), library, ", ".join(sorted(names)) or "order"))
+        elif wanted != text:
+            path.write_text(wanted)
+        differs |= wanted != text
+    sys.exit(differs and "--check" in sys.argv)
+
+
+if __name__ == "__main__":
+    main()

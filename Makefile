@@ -9,7 +9,7 @@ MAKEFLAGS += --no-print-directory
 # looks there. The compiler knows the folder too; it prints nothing where there is none.
 folders  = --prefix=$(prefix) $$(gcc -print-multiarch 2>/dev/null | sed 's:.:--libdir=lib/&:')
 
-.PHONY: all demo web python site test test-more test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall deb static release clean help
+.PHONY: all demo web npm python site test test-more test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall deb static release clean help
 
 all: $(build)/lambent
 
@@ -18,6 +18,7 @@ help:
 	@echo 'make demo       builds and renders a textured cow with a glaze to out/demo.png'
 	@echo 'make web        builds the WebAssembly module and the page, in build-web/'
 	@echo 'make python     builds the Python package as a wheel, in build-python/ (docs/python.md)'
+	@echo 'make npm        packs the npm package, build-web/lambent-VERSION.tgz (docs/npm.md)'
 	@echo 'make site       writes README and docs/ as pages, in build-site/; figures open in the Lab'
 	@echo 'make test       builds with gcc, and with clang and sanitizers, and runs the tests of every change (docs/testing.md)'
 	@echo 'make test-more  what continuous integration runs besides: clang, threads, the page in a browser, larger shares of tables'
@@ -65,6 +66,10 @@ web:
 python: $(build)/lambent
 	@scripts/setup.sh python
 	@/usr/bin/python3 python/make_wheel.py $(build) build-python
+
+npm: web
+	@command -v npm >/dev/null || scripts/setup.sh npm
+	@python3 web/npm.py build-web
 
 site: $(build)/lambent web
 	@python3 scripts/make_site.py $(build)/lambent build-site

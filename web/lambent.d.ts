@@ -10,6 +10,8 @@ export class Files {
 
 /** A command line that cannot be drawn: the program's own sentence. */
 export class LambentError extends Error {
+  /** By the program's exit codes: BAD_ARGUMENT, CANNOT_READ, UNSUPPORTED, LIMIT, CANNOT_WRITE; FAILED for others. */
+  readonly code: string;
   /** The call was asked to end. */
   readonly cancelled: boolean;
 }

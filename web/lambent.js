@@ -8,10 +8,17 @@
 //   const png = lambent.save(['/bunny.obj', '--size', '512'], 'png'); // the bytes that the command writes
 import { Files, system } from './wasi.js';
 
-// A command line that cannot be drawn: the program's own sentence. `cancelled`: the call was asked to end.
+// A command line that cannot be drawn: the program's own sentence, and a word for its exit code. `cancelled`: the call was asked to end.
 export class LambentError extends Error {
   cancelled = false;
+
+  constructor(sentence, code = 'FAILED') {
+    super(sentence);
+    this.name = 'LambentError';
+    this.code = code;
+  }
 }
+const CODES = ['OK', 'BAD_ARGUMENT', 'CANNOT_READ', 'UNSUPPORTED', 'LIMIT', 'CANNOT_WRITE'];
 
 // A module that is in parts has been asked for what a part has that is not there: this Lambent is of no use any more.
 export class PartMissing extends Error {
@@ -65,16 +72,16 @@ export class Lambent {
   #words(words) {
     const bytes = new TextEncoder().encode(words.map((word) => word + '\0').join(''));
     const at = this.instance.exports.web_words(bytes.length);
-    if (!at) throw new LambentError('out of memory');
+    if (!at) throw new LambentError('out of memory', 'LIMIT');
     new Uint8Array(this.instance.exports.memory.buffer, at, bytes.length).set(bytes);
     return words.length;
   }
 
   #call(name, ...numbers) {
     this.#printed = '';
-    this.instance.exports[name](...numbers);
+    const code = this.instance.exports[name](...numbers);
     const answer = JSON.parse(this.#printed);
-    if (answer.ok === false) throw Object.assign(new LambentError(answer.error), { cancelled: answer.cancelled });
+    if (answer.ok === false) throw Object.assign(new LambentError(answer.error, CODES[code]), { cancelled: answer.cancelled });
     return answer;
   }
 

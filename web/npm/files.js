@@ -1,0 +1,45 @@
+// files.js: the files that a Lambent sees, in memory. Wrong types are refused where they are given, not where they are read.
+import { Files as Plain } from './wasi.js';
+
+export function typeError(where, name, found, expected) {
+  const kind = found === null ? 'null' : Array.isArray(found) ? 'an array' : typeof found === 'object' ? (found.constructor?.name ?? 'an object') : typeof found;
+  return Object.assign(new TypeError(`${where}: found ${kind} as ${name}, expected ${expected}`), { code: 'BAD_ARGUMENT' });
+}
+
+function checkPath(where, path) {
+  if (typeof path !== 'string' || path === '') throw typeError(where, 'path', path, 'a path such as "/model.stl"');
+}
+
+export class Files extends Plain {
+  changed = false; // since the last picture
+  // Notes what changes, for a worker; null: nobody asks.
+  onChange = null;
+
+  // The bytes are not copied. A text is stored as UTF-8.
+  set(path, content) {
+    checkPath('files.set', path);
+    const bytes = typeof content === 'string' ? new TextEncoder().encode(content)
+      : content instanceof ArrayBuffer ? new Uint8Array(content)
+      : ArrayBuffer.isView(content) ? new Uint8Array(content.buffer, content.byteOffset, content.byteLength) : null;
+    if (!bytes) throw typeError('files.set', 'content', content, 'a Uint8Array, an ArrayBuffer or a text');
+    super.set(path, bytes);
+    this.changed = true;
+    this.onChange?.(path, bytes);
+  }
+
+  get(path) {
+    checkPath('files.get', path);
+    return super.get(path);
+  }
+
+  has(path) {
+    return this.get(path) !== undefined;
+  }
+
+  delete(path) {
+    checkPath('files.delete', path);
+    this.changed = true;
+    this.onChange?.(path, null);
+    return super.delete(path);
+  }
+}

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """packages.py: the Debian packages of `make deb`: built twice in different folders to the same bytes, without complaints of lintian, and installed, used and
-removed in a fresh root of Debian 12 (tests/long/try_packages.sh). Needs debhelper and lintian; the last part also root, mmdebstrap and a mirror."""
+removed in a fresh root of Debian 12 (tests/long/try_packages.sh), tested by autopkgtest there, and built and used in a root of Debian 13. Needs debhelper and
+lintian; what a root is made for also needs root, mmdebstrap and a mirror."""
 import glob
 import os
 import pathlib
@@ -29,10 +30,34 @@ def run(*command):
     return done.returncode, done.stdout
 
 
+AS_ROOT = [] if os.geteuid() == 0 else ["sudo"]
+
+
+def in_root(release, folder, files, command):
+    """Runs a command in a root of a release, which is made the first time, with files in its /debs."""
+    place = folder + "/" + release
+    if files:
+        code, text = run(ROOT / "scripts/fresh_root.sh", release, place, "mkdir /debs")
+        if code:
+            return code, text
+        subprocess.run(AS_ROOT + ["cp", *files, place + "/root/debs"], check=True)
+    return run(ROOT / "scripts/fresh_root.sh", release, place, command)
+
+
+def try_autopkgtest(root, files):
+    """The tests of debian/tests as Debian runs them, in the root."""
+    if not shutil.which("autopkgtest"):
+        report("autopkgtest", True, skip="autopkgtest is not installed")
+        return
+    script = 'mount -t proc proc "$0/proc"; mount --rbind /dev "$0/dev"; cd /tmp; autopkgtest --no-built-binaries "$@" -- chroot "$0"'
+    code, text = run(*AS_ROOT, "unshare", "--mount", "--fork", "sh", "-c", script, root, *files)
+    report("autopkgtest", code == 0, text)
+
+
 def main():
-    print("1..4")
+    print("1..6")
     if not all(map(shutil.which, ("dh", "dpkg-buildpackage", "lintian"))):
-        for title in ("built", "built again", "lintian", "used"):
+        for title in ("built", "built again", "lintian", "used", "autopkgtest", "Debian 13"):
             report(title, True, skip="debhelper or lintian is not installed")
         return 0
     with tempfile.TemporaryDirectory(prefix="lambent-deb-") as folder:
@@ -44,17 +69,18 @@ def main():
         report("a second build in another folder gives the same bytes", same, text)
         code, text = run("lintian", "--allow-root", "--fail-on", "error,warning", *glob.glob(first + "/*.changes"))
         report("lintian has no error and no warning", code == 0, text)
-        code, text = run(ROOT / "scripts/fresh_root.sh", "bookworm", folder + "/clean", "true")
-        if code == 77:
-            report("installed, used and removed in a fresh root", True, skip="no root of Debian can be made here")
+        if in_root("bookworm", folder, [], "true")[0] == 77:
+            for title in ("installed, used and removed in a fresh root", "autopkgtest", "built and used on Debian 13"):
+                report(title, True, skip="no root of Debian can be made here")
             return failed > 0
-        as_root = [] if os.geteuid() == 0 else ["sudo"]
         debs = [path for path in glob.glob(first + "/*.deb") if "dbgsym" not in path]
-        subprocess.run(as_root + ["mkdir", folder + "/clean/root/debs"], check=True)
-        subprocess.run(as_root + ["cp", *debs, folder + "/clean/root/debs"], check=True)
-        code, text = run(ROOT / "scripts/fresh_root.sh", "bookworm", folder + "/clean", "sh tests/long/try_packages.sh /debs")
+        sources = glob.glob(first + "/*.dsc") + glob.glob(first + "/*.tar.xz")
+        code, text = in_root("bookworm", folder, debs, "sh tests/long/try_packages.sh /debs")
         report("installed, used and removed in a fresh root", code == 0, text)
-        subprocess.run(as_root + ["rm", "-rf", "--one-file-system", folder + "/clean"], check=True)
+        try_autopkgtest(folder + "/bookworm/root", debs + glob.glob(first + "/*.dsc"))
+        code, text = in_root("trixie", folder, sources, "sh tests/long/build_packages.sh /debs && sh tests/long/try_packages.sh /debs")
+        report("built, installed, used and removed on Debian 13", code == 0, text)
+        subprocess.run(AS_ROOT + ["rm", "-rf", "--one-file-system", folder + "/bookworm", folder + "/trixie"], check=True)
     return failed > 0
 
 

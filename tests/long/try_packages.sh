@@ -15,7 +15,9 @@ if comm -13 /tmp/before /tmp/after | grep -E '^(libegl|libgl|python|node|perl)';
     exit 1
 fi
 sh "$tree/packaging/debian/tests/program"
-install libzip4 libexpat1 "$folder"/lambent-draco_*.deb
+zip=libzip4
+apt-cache show libzip4t64 >/dev/null 2>&1 && zip=libzip4t64 # Debian 13
+install $zip libexpat1 "$folder"/lambent-draco_*.deb
 cp "$tree/tests/fuzz/corpus/3mf/deflated.3mf" "$tree/tests/fuzz/corpus/gltf/draco.gltf" /tmp
 cd /tmp
 lambent deflated.3mf draco.gltf -q -s 64 -o '{stem}.png'

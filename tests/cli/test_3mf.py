@@ -366,6 +366,16 @@ class Hostile(ThreeMF):
         data = body + rows + struct.pack("<IHHHHIIH", 0x06054b50, 0, 0, 502, 502, len(rows), len(body), 0)
         self.refused(self.save_bytes("many.3mf", data), 4, "--expansion-limit")
 
+    def test_mixed_layers(self):
+        """Many groups that mix the same large texture with a colour."""
+        corner = '<m:tex2coord u="0" v="0"/>'
+        groups = (f'<basematerials id="1"><base name="a" displaycolor="#ff0000"/></basematerials><m:texture2d id="2" path="/t.png" contenttype="image/png"/>'
+                  f'<m:texture2dgroup id="3" texid="2">{corner}</m:texture2dgroup>')
+        groups += "".join(f'<m:multiproperties id="{i}" pids="1 3"><m:multi pindices="0 0"/></m:multiproperties>' for i in range(10, 300))
+        picture = write_png(1000, 1000, bytes([0, 0, 255, 128]) * 1_000_000)
+        root = model(f'{groups}<object id="4">{box()}</object>', '<item objectid="4"/>', spaces=f"{CORE} {MATERIALS}")
+        self.refused(self.save("a.3mf", root, **{"t_dot_png": picture}), 4, "--expansion-limit")
+
     def test_claims(self):
         """Numbers of entries and sizes that the archive does not have."""
         good = package({"_rels/.rels": relations("/3D/3dmodel.model"), "3D/3dmodel.model": model(f'<object id="1">{box()}</object>')})

@@ -9,7 +9,7 @@
 
 #ifdef HAVE_3MF
 
-#define LANES 1
+#define LANES 4 // the four channels of a texel
 #include "codec.h"
 #include "encoding.h"
 #include "texture_levels.h"
@@ -153,23 +153,34 @@ bool begin_multi(struct threemf_xml *xml, const char *const *attributes)
 
 struct mixed_layer {
     const lam_texture_map *map; // NULL: the colour
-    float color[4];
+    texel color;
     bool multiply;
 };
 
-static void mix_texel(const struct mixed_layer *layers, int count, double s, double t, float out[4])
+// As blend_layer.
+static texel blend_texel(texel below, texel color, bool multiply)
 {
-    for (int c = 0; c < 4; c++)
-        out[c] = 1;
+    texel mixed = below + color[3] * (color - below);
+    mixed[3] = below[3] + color[3] * (1 - below[3]);
+    return multiply ? below * color : mixed;
+}
+
+// The layers at a texel of a picture of this size.
+static texel mix_texel(const struct mixed_layer *layers, int count, int x, int y, int width, int height)
+{
+    texel out = {1, 1, 1, 1};
     for (int i = 0; i < count; i++) {
-        float color[4];
-        memcpy(color, layers[i].color, sizeof color);
-        if (layers[i].map) {
-            lam_rgba sample = lam_texture_sample(layers[i].map, s, t, 0);
-            memcpy(color, (float[]){sample.r, sample.g, sample.b, sample.a}, sizeof color);
+        const lam_texture_map *map = layers[i].map;
+        texel color = layers[i].color;
+        if (map && map->texture->levels[0].width == width && map->texture->levels[0].height == height) {
+            color = texel_at(map->texture, 0, x, y);
+        } else if (map) {
+            lam_rgba sample = lam_texture_sample(map, (x + 0.5) / width, (y + 0.5) / height, 0);
+            color = (texel){sample.r, sample.g, sample.b, sample.a};
         }
-        blend_layer(out, color, i == 0 || layers[i].multiply);
+        out = blend_texel(out, color, i == 0 || layers[i].multiply);
     }
+    return out;
 }
 
 // Each texel is what the layers are there, at the size of the largest picture. The scene owns the texture.
@@ -184,7 +195,10 @@ static bool mix_texture(struct threemf *file, const struct mixed_layer *layers, 
         width = texture && texture->levels[0].width > width ? texture->levels[0].width : width;
         height = texture && texture->levels[0].height > height ? texture->levels[0].height : height;
     }
-    if (!picture_make(&picture, (uint32_t)width, (uint32_t)height, LAM_RGBA8, &image, file->error))
+    // Any number of groups may name one texture: what they become counts as what the file expands to.
+    file->expanded += (uint64_t)width * (uint64_t)height * 4;
+    if (!call_check_expanded(picture.call, file->source->name, file->expanded, file->error) ||
+        !picture_make(&picture, (uint32_t)width, (uint32_t)height, LAM_RGBA8, &image, file->error))
         return false;
     uint8_t *pixel = image.pixels;
     for (int y = 0; y < height; y++) {
@@ -193,10 +207,11 @@ static bool mix_texture(struct threemf *file, const struct mixed_layer *layers, 
             return false;
         }
         for (int x = 0; x < width; x++, pixel += 4) {
-            float mixed[4];
-            mix_texel(layers, count, (x + 0.5) / width, (y + 0.5) / height, mixed);
-            for (int c = 0; c < 4; c++)
-                pixel[c] = (uint8_t)byte_of(c == 3 || raw ? mixed[c] : srgb_encode(mixed[c]));
+            texel mixed = mix_texel(layers, count, x, y, width, height);
+            inum bytes = byte_of(raw ? mixed : srgb_encode(mixed));
+            for (int c = 0; c < 3; c++)
+                pixel[c] = (uint8_t)bytes[c];
+            pixel[3] = (uint8_t)(mixed[3] * 255 + 0.5f);
         }
     }
     *out = texture_of_image(&image, raw ? LAM_TEXTURE_NUMBERS : LAM_TEXTURE_COLOR, NULL, picture.call, file->error);
@@ -225,8 +240,8 @@ static bool collect_layers(struct model_reader *reader, const struct threemf_lay
             if (!out[i].map || out[i].map->wrap_s != first->wrap_s || out[i].map->wrap_t != first->wrap_t)
                 return false;
         } else {
-            memcpy(out[i].color, (const float *)reader->part->colors.items + 4 * (size_t)layers->colors[i],
-                   sizeof out[i].color);
+            out[i].color =
+                *(const texel_memory *)((const float *)reader->part->colors.items + 4 * (size_t)layers->colors[i]);
         }
     }
     return !layers->varies;

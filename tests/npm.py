@@ -128,7 +128,7 @@ def main():
         results.ok(code == 0, "npm install of the packed file", text)
         make_inputs(program, folder)
         try_node(results, folder, modules)
-        try_types(results, folder, modules)
+        try_types(results, folder, build.packages(str(OUT / "npm-tools"), str(HERE / "npm-tools")))
         try_pages(results, folder, modules)
     print("1..%d" % results.count)
     return results.failed > 0

@@ -41,7 +41,9 @@ const struct topic topics[] = {
      "OBJ (`.obj`): with its `.mtl` materials and textures. Y is up.\n"
      "PLY (`.ply`): triangles, points and lines, with colours, text or binary.\n"
      "glTF (`.gltf`, `.glb`): scenes with physical materials, lights, cameras, skins and animations, in metres. Y is "
-     "up. Draco and meshoptimizer are decoded if their libraries are installed."},
+     "up. `--scene`, `--variant`, `--animation` and `--time` select from its contents. Draco and meshoptimizer are "
+     "decoded "
+     "if their libraries are installed."},
     {"picture", "The picture", BIT(PICTURE), TOPIC_NO_TABLE, NULL},
     {"output", "Output", 0, TOPIC_NO_TABLE,
      "Without `-o` the picture of `models/koala.obj` is `koala.png` in the current folder. An older picture "

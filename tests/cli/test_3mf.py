@@ -245,8 +245,8 @@ class Read(ThreeMF):
     def test_library_missing(self):
         """Without libzip or expat a sentence names their package; other formats are read as before."""
         name = self.save("a.3mf", model(f'<object id="1">{box()}</object>'))
-        for library, debian in (("libzip.so.4", "libzip4"), ("libexpat.so.1", "libexpat1")):
-            found = [path for folder in ("/usr/lib", "/lib") for path in pathlib.Path(folder).glob(f"*/{library}")]
+        for library, files, debian in (("libzip.so.4", "libzip.so.[45]", "libzip4, in Debian 13 libzip5"), ("libexpat.so.1", "libexpat.so.1", "libexpat1")):
+            found = [path for folder in ("/usr/lib", "/lib") for path in pathlib.Path(folder).glob(f"*/{files}")]
             hide = [word for path in found for word in ("--ro-bind", "/dev/null", str(path.resolve()))]
             box_words = ["bwrap", "--dev-bind", "/", "/", *hide, "--chdir", str(self.folder), PROGRAM]
             if subprocess.run([*box_words, "--version"], capture_output=True).returncode:

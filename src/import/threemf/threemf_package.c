@@ -11,7 +11,9 @@
 #include <string.h>
 #include <zip.h>
 
-#define LIBRARY "libzip.so.4"
+// Of Debian 12 and of Debian 13: what is called here is the same in both.
+#define LIBRARY       "libzip.so.4"
+#define NEWER_LIBRARY "libzip.so.5"
 
 #define FUNCTIONS(each)                                                                                                \
     each(zip_source_buffer_create) each(zip_source_free) each(zip_open_from_source) each(zip_discard)                  \
@@ -96,7 +98,9 @@ static bool open_library(struct threemf *file)
     struct zip_library *zip = arena_alloc_zeroed(file->scratch, sizeof *zip);
     if (!zip)
         return threemf_no_memory(file, sizeof *zip);
-    zip->handle = library_open(LIBRARY, true, NULL);
+    zip->handle = library_open(NEWER_LIBRARY, true, NULL);
+    if (!zip->handle)
+        zip->handle = library_open(LIBRARY, true, NULL);
     bool all = zip->handle != NULL;
 #define LOOK_UP(name) all = all && library_find(zip->handle, #name, &zip->name);
     FUNCTIONS(LOOK_UP)
@@ -105,7 +109,8 @@ static bool open_library(struct threemf *file)
         return true;
     }
     library_close(zip->handle);
-    return fail(file->error, LAM_UNSUPPORTED, "%s: reading 3MF needs " LIBRARY ", which %s (Debian's package libzip4)",
+    return fail(file->error, LAM_UNSUPPORTED,
+                "%s: reading 3MF needs " LIBRARY ", which %s (Debian's package libzip4, in Debian 13 libzip5)",
                 file->source->name, zip->handle ? "lacks functions of libzip 1.7" : "is not installed");
 }
 

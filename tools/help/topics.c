@@ -3,7 +3,7 @@
 
 #include "options.h"
 
-#define BIT(group) (1u << GROUP_##group)
+#define BIT(group) (1ull << GROUP_##group)
 
 const struct topic topics[] = {
     {"models", "Models", BIT(MODEL), TOPIC_NO_TABLE,

@@ -5,7 +5,7 @@
 #include <jansson.h>
 #include <stdio.h>
 
-#include "job.h"
+#include "batch_use.h"
 
 // A model to draw.
 struct batch_item {
@@ -23,6 +23,8 @@ struct batch_item {
     bool several;             // of the command line: views or sizes, which are not the options' own
     bool makes_folders;       // of pictures that the options name, too
     const lam_cancel *cancel; // stops it; NULL: Ctrl-C does
+    const struct batch_use *use; // takes the picture; NULL: it is written
+    size_t index;                // of the model in the plan, for `use`
 };
 
 // Who draws it.

@@ -61,6 +61,12 @@ def main():
         for words in REFUSED:
             code, text = run(*before, *words, "-q", cwd=root)
             report("%s: refused" % " ".join(words), code == 3 and text.count("\n") == 1 and not (root / "x.png").exists(), "exit code %d: %s" % (code, text))
+    if shutil.which("buildah") and os.geteuid() == 0 and folder == ROOT / "build-static":
+        code, text = run("buildah", "--storage-driver", "vfs", "build", "--no-cache", "--isolation", "chroot", "-f", "packaging/ci/Containerfile", "-t", "lambent-test", ".", cwd=ROOT)
+        report("the container file builds, and draws", code == 0 and "/tmp/cube.png  64x64" in text, text)
+        run("buildah", "--storage-driver", "vfs", "rmi", "lambent-test")
+    else:
+        print("# the container is not built: buildah, the rights of root or build-static is missing")
     print("1..%d" % number)
     return failed > 0
 

@@ -88,8 +88,9 @@ void help_option(const struct option *option, const struct command *command, boo
 
 // Groups whose options `lambent --help` describes: other commands list them by name alone.
 #define SHARED                                                                                                         \
-    (1ull << GROUP_PICTURE | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW | 1ull << GROUP_LIGHTS | 1ull << GROUP_MATERIALS |         \
-     1ull << GROUP_SHADING | 1ull << GROUP_ANIMATION | 1ull << GROUP_WORK | 1ull << GROUP_LIMITS | 1ull << GROUP_REPORT)
+    (1ull << GROUP_PICTURE | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW | 1ull << GROUP_LIGHTS |                         \
+     1ull << GROUP_MATERIALS | 1ull << GROUP_SHADING | 1ull << GROUP_ANIMATION | 1ull << GROUP_WORK |                  \
+     1ull << GROUP_LIMITS | 1ull << GROUP_REPORT)
 
 // A command describes its own options, those of which it accepts no other of the group, and those whose default is its own.
 static bool is_shared(const struct option *o, const struct command *command)

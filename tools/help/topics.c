@@ -117,7 +117,19 @@ const struct topic topics[] = {
      "A `.pfm` stores the differences as floats without clamping. With `--json` the figures are one line: `a`, "
      "`b`, `width`, `height`, `maximum`, `mean`, `rmse`, `psnr_db`, `share_over_1`, `share_over_2`, `tolerance`, "
      "`differ` (0 or 1: beyond the tolerance) and `picture`. The exit code is 6 if the largest difference exceeds "
-     "the tolerance, 1 if the sizes or kinds differ."},
+     "the tolerance, 1 if the sizes or kinds differ. `lambent diff OLD NEW` of two models or two folders draws the "
+     "models of "
+     "both sides with one camera: `-o report.html` is a page with what was added, removed or changed, and pictures "
+     "before and after. More: `docs/pull-requests.md`."},
+    {"hash", "Hashes of pictures", BIT(HASH), TOPIC_NO_TABLE,
+     "`lambent hash models/ -o pictures.hash` writes a line for each model: the XXH64 of its picture's pixels (rows "
+     "from "
+     "the "
+     "top, red, green, blue, alpha) and its name, relative to the file. The head of the file names the version and the "
+     "options. "
+     "Pictures are the same on every machine, so a repository can keep this file in place of the pictures: `lambent "
+     "hash "
+     "models/ --check pictures.hash` names the models whose pictures are others. More: `docs/pull-requests.md`."},
     {"formulas", "Surfaces given by formulas", BIT(SHAPE), TOPIC_NO_TABLE,
      "`lambent shape --parametric 'x=...; y=...; z=...'` draws a surface over u and v, `--implicit 'x^2+y^2+z^2-1'` "
      "one "

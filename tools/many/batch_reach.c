@@ -20,7 +20,8 @@ enum { SINGLE = 64 };
 // Whether the pictures' folder as a whole may be read: the journal and the page need pictures again.
 static bool takes_folder(const struct batch *b)
 {
-    return !b->options->batch.jobs && !b->use && (b->options_text || b->plan->count * (size_t)b->plan->view_count > SINGLE);
+    return !b->options->batch.jobs && !b->use &&
+           (b->options_text || b->plan->count * (size_t)b->plan->view_count > SINGLE);
 }
 
 // The folder of a path, from malloc: "." where it names none.

@@ -6,9 +6,10 @@
 #define ABOUT (1ull << GROUP_ABOUT)
 // The options of a picture of a model. `render` alone makes several of one model.
 #define ALL                                                                                                            \
-    (((1ull << GROUP_COUNT) - 1) &                                                                                       \
-     ~(1ull << GROUP_DIFF | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | 1ull << GROUP_SHEET | 1ull << GROUP_CHECK |            \
-       1ull << GROUP_SHADER | 1ull << GROUP_SHAPE | 1ull << GROUP_VIEWER | 1ull << GROUP_HASH | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION))
+    (((1ull << GROUP_COUNT) - 1) &                                                                                     \
+     ~(1ull << GROUP_DIFF | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | 1ull << GROUP_SHEET | 1ull << GROUP_CHECK |  \
+       1ull << GROUP_SHADER | 1ull << GROUP_SHAPE | 1ull << GROUP_VIEWER | 1ull << GROUP_HASH | 1ull << GROUP_BATCH |  \
+       1ull << GROUP_ANIMATION))
 
 static const struct own_default compare_defaults[] = {
     {"output", "MODEL-SHEET.png"}, {"size", "480x400 each"}, {"background", SHEET_BACKGROUND}, {NULL, NULL}};
@@ -20,7 +21,8 @@ static const struct own_default check_defaults[] = {
 static const struct own_default shader_defaults[] = {{"output", "standard output"}, {NULL, NULL}};
 static const struct own_default shape_defaults[] = {{"output", "NAME.png, parametric.png or implicit.png"},
                                                     {NULL, NULL}};
-static const struct own_default diff_defaults[] = {{"output", "no picture, no page"}, {"size", "384x384"}, {NULL, NULL}};
+static const struct own_default diff_defaults[] = {
+    {"output", "no picture, no page"}, {"size", "384x384"}, {NULL, NULL}};
 static const struct own_default hash_defaults[] = {{"output", "none: --check compares"}, {NULL, NULL}};
 static const struct own_default plot_defaults[] = {{"output", "KIND.png"}, {"size", "1600x1000"}, {NULL, NULL}};
 static const struct own_default materials_defaults[] = {
@@ -56,13 +58,14 @@ const struct command command_table[] = {
     [COMMAND_info] = {"info", "MODEL...",
                       "Print what is in models: size, triangles, materials, pictures, lights, cameras, animations, "
                       "extensions.",
-                      ABOUT | 1ull << GROUP_MODEL | 1ull << GROUP_WORK | 1ull << GROUP_LIMITS | TAKES_JSON | TAKES_QUIET,
+                      ABOUT | 1ull << GROUP_MODEL | 1ull << GROUP_WORK | 1ull << GROUP_LIMITS | TAKES_JSON |
+                          TAKES_QUIET,
                       .min_operands = 1, .max_operands = -1},
     [COMMAND_check] =
         {"check", "SHADER.frag...",
          "Compare GLSL shaders with reference scenes, and name the known mistakes that explain the differences.",
-         ABOUT | 1ull << GROUP_CHECK | 1ull << GROUP_DIFF | 1ull << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
-             TAKES_QUIET | TAKES_THREADS | TAKES_MEMORY,
+         ABOUT | 1ull << GROUP_CHECK | 1ull << GROUP_DIFF | 1ull << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE |
+             TAKES_JSON | TAKES_QUIET | TAKES_THREADS | TAKES_MEMORY,
          .min_operands = 0, .max_operands = -1, .defaults = check_defaults},
     [COMMAND_shader] = {"shader", "[MODEL]",
                         "Print the shaders that light a model, for use in another program, and their inputs.",
@@ -71,7 +74,8 @@ const struct command command_table[] = {
                       "Compare two pictures, two models or the models of two folders; -o writes a picture, or a page "
                       "of "
                       "models before and after.",
-                      (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_DIFF | TAKES_JSON | TAKES_QUIET | TAKES_MANY,
+                      (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_DIFF | TAKES_JSON | TAKES_QUIET | TAKES_MANY |
+                          TAKES_TITLE,
                       .min_operands = 2, .max_operands = 2,
                       .one_more = "it compares two pictures, models or folders of models", .defaults = diff_defaults},
     [COMMAND_hash] = {"hash", "[MODEL|FOLDER|@LIST|-]...",
@@ -85,8 +89,8 @@ const struct command command_table[] = {
                       .min_operands = 1, .max_operands = -1, .defaults = plot_defaults},
     [COMMAND_lights] = {"lights", "MODEL",
                         "Print the lights of a model, or of the rig if it has none, in scene file form.",
-                        ABOUT | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW | 1ull << GROUP_LIGHTS | 1ull << GROUP_SHADING |
-                            1ull << GROUP_WORK | 1ull << GROUP_LIMITS,
+                        ABOUT | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW | 1ull << GROUP_LIGHTS |
+                            1ull << GROUP_SHADING | 1ull << GROUP_WORK | 1ull << GROUP_LIMITS,
                         .min_operands = 1, .max_operands = 1, .one_more = "it prints the lights of one model"},
     [COMMAND_shape] = {"shape", "[NAME]",
                        "Draw a built-in shape or a surface given by formulas (--parametric, --implicit), or save it as "
@@ -96,8 +100,8 @@ const struct command command_table[] = {
     [COMMAND_view] = {"view", "MODEL|FOLDER",
                       "Show a model in the browser, and again whenever its file changes; or the gallery of a folder.",
                       ABOUT | 1ull << GROUP_VIEWER | 1ull << GROUP_PICTURE | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW |
-                          1ull << GROUP_LIGHTS | 1ull << GROUP_MATERIALS | 1ull << GROUP_SHADING | 1ull << GROUP_LIMITS |
-                          TAKES_THREADS | TAKES_QUIET | WRITES_NO_FILE,
+                          1ull << GROUP_LIGHTS | 1ull << GROUP_MATERIALS | 1ull << GROUP_SHADING |
+                          1ull << GROUP_LIMITS | TAKES_THREADS | TAKES_QUIET | WRITES_NO_FILE,
                       .min_operands = 1, .max_operands = 1,
                       .one_more = "it shows one model, or the models of one folder"},
     [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, .min_operands = 0, .max_operands = 0,

@@ -811,8 +811,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"isolate", 0, GROUP_BATCH, NULL, NULL, "Draw each model in a process of its own.",
      "A model that crashes or uses up the memory costs one line of the journal, of the class `crashed`, and the others "
      "go on.",
-     .store = store_switch, .others = "process fork sandbox-process", FIELD(batch.isolate),
-     .single = TAKES_MANY},
+     .store = store_switch, .others = "process fork sandbox-process", FIELD(batch.isolate), .single = TAKES_MANY},
     {"shard", 0, GROUP_BATCH, "K/N", "1/1",
      "Draw the K-th of N parts of the models (from 1), beside other machines that draw the others.",
      "Which part a model belongs to follows from its path alone: one that is added moves no other. `auto` takes K and "
@@ -883,13 +882,17 @@ struct option option_table[OPTIONS_MAX] = {
      "models on the command line it draws those of the file. If the version or the options of the file are others, it "
      "says so first.",
      .kind = VALUE_FILE, .store = store_text, .others = "verify compare-with against", FIELD(hash.check)},
-    {"update", 0, GROUP_HASH, NULL, NULL, "With `--check`: write the new hashes to the file, with a sheet of what changed.",
-     "The sheet lies beside the file: `pictures-changes.png` for `pictures.hash`, with the old picture, the new one and "
-     "their difference for the first 40 models that changed. A hash cannot be turned back into a picture: the old one is "
+    {"update", 0, GROUP_HASH, NULL, NULL,
+     "With `--check`: write the new hashes to the file, with a sheet of what changed.",
+     "The sheet lies beside the file: `pictures-changes.png` for `pictures.hash`, with the old picture, the new one "
+     "and "
+     "their difference for the first 40 models that changed. A hash cannot be turned back into a picture: the old one "
+     "is "
      "shown if `--pictures` kept it.",
      .store = store_switch, .others = "renew accept bless", FIELD(hash.update)},
     {"pictures", 0, GROUP_HASH, "DIR", NULL, "Keep the pictures in this folder, for the sheet of the next `--update`.",
-     "Each is a PNG with the name of its model: `DIR/models/koala.obj.png`. Written with `-o` and with `--update`, read "
+     "Each is a PNG with the name of its model: `DIR/models/koala.obj.png`. Written with `-o` and with `--update`, "
+     "read "
      "by "
      "`--update`. It need not be in the repository: a cache of the continuous integration will do.",
      .kind = VALUE_FILE, .store = store_text, .others = "keep cache-dir baseline", FIELD(hash.pictures)},

@@ -41,18 +41,18 @@ struct options {
 };
 
 // Options that a command accepts without the rest of their group: bits above those of the groups.
-#define TAKES_OUTPUT (1ull << 40)
-#define TAKES_JSON (1ull << 41)
-#define TAKES_QUIET (1ull << 42)
-#define TAKES_SIZE (1ull << 43)
-#define TAKES_FILES (1ull << 44)
-#define TAKES_THREADS (1ull << 45)
-#define TAKES_MEMORY (1ull << 46)
+#define TAKES_OUTPUT         (1ull << 40)
+#define TAKES_JSON           (1ull << 41)
+#define TAKES_QUIET          (1ull << 42)
+#define TAKES_SIZE           (1ull << 43)
+#define TAKES_FILES          (1ull << 44)
+#define TAKES_THREADS        (1ull << 45)
+#define TAKES_MEMORY         (1ull << 46)
 #define TAKES_PICTURE_LIMITS (1ull << 47)
-#define TAKES_REPORT (1ull << 48)
-#define TAKES_TERM (1ull << 49)
-#define TAKES_TITLE (1ull << 50)
-#define TAKES_MANY (1ull << 51)
+#define TAKES_REPORT         (1ull << 48)
+#define TAKES_TERM           (1ull << 49)
+#define TAKES_TITLE          (1ull << 50)
+#define TAKES_MANY           (1ull << 51)
 // A command that writes no file of its own: of its groups it accepts all but the options that say where and how one is written.
 #define WRITES_NO_FILE (1ull << 63)
 

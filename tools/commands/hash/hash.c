@@ -143,10 +143,7 @@ static void tell_state(const struct hash_run *run, json_t *const *records, enum 
             const char *text = json_string_value(json_object_get(records[i], "pixels"));
             const struct hash_entry *then = hash_file_find(&run->then, name);
             bool drawn = text && xxh64_parse(text, &hash);
-            is = !drawn               ? STATE_FAILED
-                 : !then              ? STATE_NEW
-                 : then->hash == hash ? STATE_EQUAL
-                                      : STATE_CHANGED;
+            is = !drawn ? STATE_FAILED : !then ? STATE_NEW : then->hash == hash ? STATE_EQUAL : STATE_CHANGED;
         }
         if (is != state)
             continue;
@@ -208,7 +205,10 @@ static void say_summary(const struct hash_run *run, const struct result *r)
     const char *text = "";
     for (int i = 0; i < STATE_COUNT; i++)
         if (r->counts[i] || (i == STATE_EQUAL && run->checks)) {
-            printf("%s%zu %s", text, r->counts[i], run->checks || i == STATE_FAILED ? state_names[i] : "hashes");
+            printf("%s%zu %s", text, r->counts[i],
+                   run->checks || i == STATE_FAILED ? state_names[i]
+                   : r->counts[i] == 1              ? "hash"
+                                                    : "hashes");
             text = ", ";
         }
     putchar('\n');

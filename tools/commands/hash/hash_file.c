@@ -128,8 +128,10 @@ static bool read_lines(struct hash_file *file, FILE *in, const char *path, lam_e
     if (ok && ferror(in))
         ok = complain(error, LAM_CANNOT_READ, "%.400s: cannot read: %s", path, strerror(errno));
     if (ok && (!file->version || !file->options))
-        ok = complain(error, number < 4 ? LAM_CANNOT_READ : LAM_LIMIT, "%.300s: the file ends after line %d, expected "
-                      "the lines 'version' and 'options'", path, number - 1);
+        ok = complain(error, number < 4 ? LAM_CANNOT_READ : LAM_LIMIT,
+                      "%.300s: the file ends after line %d, expected "
+                      "the lines 'version' and 'options'",
+                      path, number - 1);
     free(line);
     return ok;
 }

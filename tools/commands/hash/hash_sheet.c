@@ -23,7 +23,7 @@ char *hash_sheet_path(const char *file)
     const char *slash = strrchr(file, '/'), *dot = strrchr(slash ? slash : file, '.');
     char *path = NULL;
     return asprintf(&path, "%.*s-changes.png", (int)(dot ? (size_t)(dot - file) : strlen(file)), file) < 0 ? NULL
-                                                                                                          : path;
+                                                                                                           : path;
 }
 
 char *hash_picture_path(const char *folder, const char *name)
@@ -62,8 +62,7 @@ void hash_sheet_keep(const struct hash_run *run, const char *name, uint64_t reco
     const char *folder = run->options->hash.pictures;
     char *path = folder ? hash_picture_path(folder, name) : NULL;
     // A picture of another run is not the one whose hash the file has.
-    if (path && lam_image_load(&old, path, NULL, &error) && old.format == LAM_RGBA8 &&
-        hash_of_pixels(&old) == recorded)
+    if (path && lam_image_load(&old, path, NULL, &error) && old.format == LAM_RGBA8 && hash_of_pixels(&old) == recorded)
         keep(found, "old_picture", &old);
     keep(found, "new_picture", picture);
     lam_image_free(&old);

@@ -360,7 +360,7 @@ static void draw(struct reading *r)
         bool ok = may_read(item, &error);
         const struct batch_use *use = item->use;
         r->found = use ? json_object() : NULL;
-        ok = ok && (use                             ? use->draw(use->user, item->index, &job, &progress, r->found, &error)
+        ok = ok && (use ? use->draw(use->user, item->index, &job, &progress, r->found, &error)
                     : animation_wanted(job.options) ? animation_run(&job, &progress, &error)
                     : page_wanted(&job)             ? page_run(&job, &progress, &error)
                                                     : job_run(&job, &progress, &error));

@@ -130,6 +130,12 @@ const struct topic topics[] = {
      "Pictures are the same on every machine, so a repository can keep this file in place of the pictures: `lambent "
      "hash "
      "models/ --check pictures.hash` names the models whose pictures are others. More: `docs/pull-requests.md`."},
+    {"convert", "Models in another format", BIT(CONVERT), TOPIC_NO_TABLE,
+     "`lambent convert MODEL OUT.glb` writes any model or scene file as GLB, OBJ (with MTL and PNG beside it), STL, "
+     "PLY or "
+     "3MF: geometry, materials with their pictures, lights and cameras as far as the format holds them. What it does "
+     "not "
+     "hold is said in one sentence each. More: `docs/convert.md`."},
     {"formulas", "Surfaces given by formulas", BIT(SHAPE), TOPIC_NO_TABLE,
      "`lambent shape --parametric 'x=...; y=...; z=...'` draws a surface over u and v, `--implicit 'x^2+y^2+z^2-1'` "
      "one "

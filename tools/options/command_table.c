@@ -8,8 +8,8 @@
 #define ALL                                                                                                            \
     (((1ull << GROUP_COUNT) - 1) &                                                                                     \
      ~(1ull << GROUP_DIFF | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | 1ull << GROUP_SHEET | 1ull << GROUP_CHECK |  \
-       1ull << GROUP_SHADER | 1ull << GROUP_SHAPE | 1ull << GROUP_VIEWER | 1ull << GROUP_HASH | 1ull << GROUP_BATCH |  \
-       1ull << GROUP_ANIMATION))
+       1ull << GROUP_SHADER | 1ull << GROUP_SHAPE | 1ull << GROUP_VIEWER | 1ull << GROUP_HASH |                        \
+       1ull << GROUP_CONVERT | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION))
 
 static const struct own_default compare_defaults[] = {
     {"output", "MODEL-SHEET.png"}, {"size", "480x400 each"}, {"background", SHEET_BACKGROUND}, {NULL, NULL}};
@@ -82,6 +82,12 @@ const struct command command_table[] = {
                       "Write hashes of the models' pictures to a text file (-o), or compare them with one (--check).",
                       (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_HASH | TAKES_JSON | TAKES_QUIET | TAKES_MANY,
                       .min_operands = 0, .max_operands = -1, .defaults = hash_defaults},
+    [COMMAND_convert] =
+        {"convert", "MODEL OUT.glb|obj|stl|ply|3mf",
+         "Write a model or a scene as GLB, OBJ, STL, PLY or 3MF, and say what that format does not hold.",
+         ABOUT | 1ull << GROUP_CONVERT | 1ull << GROUP_MODEL | 1ull << GROUP_LIMITS | TAKES_UP | TAKES_THREADS |
+             TAKES_JSON | TAKES_QUIET,
+         .min_operands = 2, .max_operands = 2, .one_more = "it writes one model: lambent convert MODEL OUT.glb"},
     [COMMAND_plot] = {"plot", "attenuation|spot|highlight [CURVE...]",
                       "Plot a law of light as curves (PNG or SVG), and print its numbers.",
                       ABOUT | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
@@ -174,6 +180,7 @@ const struct example examples[] = {
     {"lambent compare koala.obj --sheet terms", "the terms of the sum side by side, with captions", false},
     {"lambent compare bunny.ply --across 'light=point;directional:direction=-1/-2/-1'",
      "a custom row: one picture for each value of an option", false},
+    {"lambent convert scene.json scene.glb", "a scene file or a model in another format", false},
     {"lambent plot attenuation 1/0.54/0.2 1/0/1", "how two lights fade with distance", false},
     {"lambent plot spot cutoff=30,exponent=8 inner=20,outer=35 -o spot.svg", "the cones of two spot lights", false},
     {"lambent plot highlight 10 50 1000", "the width of highlights", false},

@@ -197,6 +197,11 @@ struct hash_options {
     bool update;
 };
 
+// Models in another format (convert).
+struct convert_options {
+    bool thumbnail;
+};
+
 // Captions (compare, plot, materials, check, explain).
 struct captions_options {
     const char *font; // NULL: the system's

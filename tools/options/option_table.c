@@ -24,6 +24,7 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_REPORT] = "Reports",
     [GROUP_DIFF] = "Comparing pictures (diff, check)",
     [GROUP_HASH] = "Hashes of pictures (hash)",
+    [GROUP_CONVERT] = "Models in another format (convert)",
     [GROUP_PLOT] = "Plots (plot)",
     [GROUP_CAPTIONS] = "Captions (compare, plot, materials, check, explain)",
     [GROUP_ABOUT] = "About",
@@ -406,7 +407,7 @@ struct option option_table[OPTIONS_MAX] = {
      "the plane of x and y. Capitals and a plus (`+Z`) are "
      "accepted.",
      up_words, .brief = "what is up in the file: y, z, -z ...", .store = store_up,
-     .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up)},
+     .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up), .single = TAKES_UP},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Turn the model about its centre, such as y:30; repeatable.",
      "The axis is x, y or z of the scene; turns are applied in the order given. Lights stay where they are "
      "(except those in the model's frame), and radii refer to the model before the turn. One camera serves every "
@@ -896,6 +897,12 @@ struct option option_table[OPTIONS_MAX] = {
      "by "
      "`--update`. It need not be in the repository: a cache of the continuous integration will do.",
      .kind = VALUE_FILE, .store = store_text, .others = "keep cache-dir baseline", FIELD(hash.pictures)},
+
+    {"thumbnail", 0, GROUP_CONVERT, NULL, NULL, "Put a picture of the model into the GLB file.",
+     "512x512 pixels, as `lambent MODEL` draws it, in `asset.thumbnail`: an index into `images`, from the draft of "
+     "glTF 2.1. "
+     "Programs that do not know it ignore it.",
+     .store = store_switch, .others = "preview icon", FIELD(convert.thumbnail)},
 
     {"sheet", 0, GROUP_SHEET, "NAME", "summary",
      "The sheet: summary, terms, stages, light, ambient, frames or surfaces.", NULL, sheet_words, .store = store_word,

@@ -28,6 +28,7 @@ struct options {
     struct viewer_options viewer;
     struct diff_options diff;
     struct hash_options hash;
+    struct convert_options convert;
     struct captions_options captions;
     struct sheet_options sheet;
     struct plot_options plot;
@@ -53,6 +54,7 @@ struct options {
 #define TAKES_TERM           (1ull << 49)
 #define TAKES_TITLE          (1ull << 50)
 #define TAKES_MANY           (1ull << 51)
+#define TAKES_UP             (1ull << 52)
 // A command that writes no file of its own: of its groups it accepts all but the options that say where and how one is written.
 #define WRITES_NO_FILE (1ull << 63)
 
@@ -80,6 +82,7 @@ enum option_group {
     GROUP_SHAPE,
     GROUP_VIEWER,
     GROUP_HASH,
+    GROUP_CONVERT,
     GROUP_ABOUT, // accepted by every command
     GROUP_COUNT,
 };

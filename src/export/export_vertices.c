@@ -84,27 +84,6 @@ void export_color(const lam_mesh *mesh, size_t element, float color[4])
     }
 }
 
-// The number that OBJ and MTL have for a channel of light: sRGB-encoded below 1. Their reader rounds it to a float and decodes it; of all floats
-// between 0 and 1 this is the first whose light is not below, so that a colour which came from such a file gets its own number.
-double export_encoded(float light)
-{
-    uint32_t low = 0, high = 0x3f800000; // the bits of 0 and 1
-    if (!(light > 0) || light >= 1)
-        return light > 0 ? (double)light : 0;
-    while (low < high) {
-        uint32_t middle = low + (high - low) / 2;
-        float number;
-        memcpy(&number, &middle, sizeof number);
-        if ((float)srgb_linear((double)number) < light)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    float number;
-    memcpy(&number, &low, sizeof number);
-    return (double)number;
-}
-
 // The byte whose light is nearest: it is found by halving, since the curve grows.
 static uint8_t encoded(float light)
 {
@@ -117,6 +96,28 @@ static uint8_t encoded(float light)
             high = middle;
     }
     return (uint8_t)low;
+}
+
+// The number that OBJ and MTL have for a channel of light: sRGB-encoded below 1. Their reader rounds it to a float and decodes it; of all floats
+// between 0 and 1 this is the first whose light is not below, so that a colour which came from such a file gets its own number. Most are bytes.
+double export_encoded(float light)
+{
+    uint32_t low = 0, high = 0x3f800000; // the bits of 0 and 1
+    if (!(light > 0) || light >= 1)
+        return light > 0 ? (double)light : 0;
+    float number = (float)(encoded(light) / 255.0);
+    if ((float)srgb_linear((double)number) == light)
+        return (double)number;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        memcpy(&number, &middle, sizeof number);
+        if ((float)srgb_linear((double)number) < light)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    memcpy(&number, &low, sizeof number);
+    return (double)number;
 }
 
 void export_color_bytes(const lam_mesh *mesh, size_t element, uint8_t bytes[4])

@@ -71,6 +71,7 @@ static void put_positions(struct flat *f, const lam_mesh *m, const lam_mat4 *tra
         memcpy(to, m->positions, 3 * (size_t)m->vertex_count * sizeof *to);
         return;
     }
+    export_lose(f->e, "transforms of objects are applied to their coordinates, which are rounded to floats");
     for (size_t i = 0; i < m->vertex_count; i++) {
         const float *p = m->positions + 3 * i;
         lam_vec3 world = mat4_point(

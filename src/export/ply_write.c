@@ -20,6 +20,8 @@ static void put_vertex(struct exporting *e, const lam_mesh *m, size_t c)
 
 static void lose(struct exporting *e, bool points)
 {
+    if (e->scene->objects.count > 1)
+        export_lose(e, "objects become one mesh (%d): PLY has none", e->scene->objects.count);
     if (e->scene->materials.count)
         export_lose(e, "materials are left out (%d): PLY has none", e->scene->materials.count);
     if (e->flat[EXPORT_LINES].line_count)

@@ -31,6 +31,8 @@ static bool write(struct exporting *e)
     if (!e->scene)
         return true;
     export_lose(e, "normals are left out: STL has one for each triangle, and readers make smooth ones again");
+    if (e->scene->objects.count > 1)
+        export_lose(e, "objects become one mesh (%d): STL has none", e->scene->objects.count);
     if (m->colors)
         export_lose(e, "colours are left out: STL has none that programs agree on");
     if (m->texcoords)

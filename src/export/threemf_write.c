@@ -205,6 +205,8 @@ static void lose(struct exporting *e)
 {
     const lam_mesh *m = &e->flat[EXPORT_TRIANGLES];
     export_lose(e, "normals are left out: 3MF has none, and readers make smooth ones again");
+    if (e->scene->objects.count > 1)
+        export_lose(e, "objects become one object (%d)", e->scene->objects.count);
     if (m->texcoords)
         export_lose(e, "texture coordinates are left out: this writer of 3MF has colours alone");
     if (m->colors)

@@ -24,6 +24,7 @@
 #include "caption.h"
 #include "device.h"
 #include "environment.h"
+#include "export.h"
 #include "explain.h"
 #include "fields.h"
 #include "gl.h"

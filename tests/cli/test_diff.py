@@ -1,9 +1,13 @@
 # test_diff.py: the command `diff`: numbers with known answers, the picture, exit codes.
+import base64
 import json
+import os
+import re
+import shutil
 import struct
 import zlib
 
-from harness import Case, pixel, read_png
+from harness import Case, covered, pixel, read_png
 
 
 def ppm(width, height, pixels):
@@ -114,3 +118,124 @@ class Diff(Case):
         self.bad(5, "diff", a, b, "-o", "nowhere/d.png", says="nowhere")
         done = self.run_program("diff", a, c, "--json")
         self.assertEqual((done.returncode, json.loads(done.stdout)["error"]["exit"]), (1, 1))
+
+
+class Models(Case):
+    """Models, and folders of models: old on the left, new on the right, one camera."""
+
+    def setUp(self):
+        super().setUp()
+        for side in ("old", "new"):
+            (self.folder / side / "sub").mkdir(parents=True)
+            shutil.copy(self.folder / "cube.obj", self.folder / side / "sub")
+            shutil.copy(self.folder / "cube.mtl", self.folder / side / "sub")
+            self.box(f"{side}/part.obj", 1)
+        self.given.update(("old", "new"))
+
+    def box(self, name, width, colour=""):
+        """A box around the origin, 2 high and deep."""
+        corners = [(x * width, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+        faces = ("1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6")
+        (self.folder / name).write_text("".join("v %g %g %g\n" % c for c in corners) + "".join(f"f {f}\n" for f in faces))
+
+    def diff(self, *words, code):
+        done = self.run_program("diff", *words, "--json")
+        self.assertEqual(done.returncode, code, done.stderr)
+        return json.loads(done.stdout)
+
+    def pictures(self, page="report.html"):
+        """The pictures of the page, in order, with their captions."""
+        text = (self.folder / page).read_text()
+        self.assertNotIn("<script", text)
+        self.assertEqual(re.findall(r'(?:src|href)="(?!data:)', text), [])
+        return [(caption, read_png(base64.b64decode(data))) for data, caption in
+                re.findall(r'src="data:image/png;base64,([^"]+)"><figcaption>([^<]+)', text)]
+
+    def test_equal(self):
+        found = self.diff("old", "new", "-o", "report.html", code=0)
+        self.assertEqual([found[key] for key in ("equal", "changed", "added", "removed", "failed")], [2, 0, 0, 0, 0])
+        self.assertEqual(self.pictures(), [])
+        self.assertEqual(self.diff("old/part.obj", "new/part.obj", code=0)["equal"], 1)
+        self.assertEqual(self.good("diff", "old", "new", "-q").stdout, b"")
+
+    def test_each_kind(self):
+        self.box("new/part.obj", 2)
+        shutil.copy(self.folder / "cube.stl", self.folder / "new" / "more.stl")
+        shutil.copy(self.folder / "cube.ply", self.folder / "old" / "gone.ply")
+        (self.folder / "new" / "bad.obj").write_text("nonsense")
+        (self.folder / "old" / "bad.obj").write_text("nonsense")
+        self.box("new/half.obj", 1)
+        (self.folder / "old" / "half.obj").write_text("nonsense")
+        for more in ([], ["--isolate"], ["-j", 1]):
+            found = self.diff("old", "new", "-o", "report.html", *more, code=7)
+            self.assertEqual({row["name"]: row["change"] for row in found["models"]},
+                             {"bad.obj": "failed", "gone.ply": "removed", "half.obj": "failed", "more.stl": "added", "part.obj": "changed", "sub/cube.obj": "equal"})
+            rows = {row["name"]: row for row in found["models"]}
+            self.assertIn("new/bad.obj", rows["bad.obj"]["error"])
+            self.assertIn("old/half.obj", rows["half.obj"]["error"])
+            self.assertEqual((rows["part.obj"]["counts_before"], rows["more.stl"]["counts_after"]), ("12 triangles", "12 triangles"))
+            self.assertEqual([caption for caption, _ in self.pictures()], ["before", "after", "difference", "after", "before"])
+        self.assertEqual(self.diff("old", "new", "--failures-ok", code=6)["failed"], 2)
+        text = self.run_program("diff", "old", "new").stdout.decode()
+        for line in ("changed  part.obj", "removed  gone.ply", "added    more.stl", "failed   bad.obj", "1 changed, 2 failed, 1 added, 1 removed, 1 equal"):
+            self.assertIn(line, text)
+
+    def test_one_camera(self):
+        """A box that becomes twice as wide: in front view both are as high, the new one twice as wide, and both lie within the picture."""
+        self.box("new/part.obj", 2)
+        found = self.diff("old", "new", "-o", "report.html", "--view", "front", "--projection", "orthographic", "-s", 200, code=6)
+        self.assertEqual(found["changed"], 1)
+        (_, before), (_, after), (_, where) = self.pictures()
+        boxes = [covered(p) for p in (before, after)]
+        (l0, t0, r0, b0), (l1, t1, r1, b1) = boxes
+        self.assertEqual((t0, b0), (t1, b1))
+        self.assertAlmostEqual((r1 - l1) / (r0 - l0), 2, delta=0.05)
+        self.assertTrue(l1 > 0 and r1 < 200)
+        self.assertEqual(pixel(where, 100, 100), (0, 0, 0, 255))
+        self.assertNotEqual(pixel(where, l1 + 2, 100), (0, 0, 0, 255))
+        over = lambda a, b: any(abs(m - n) > 1 for m, n in zip(a, b))
+        share = sum(over(pixel(before, x, y), pixel(after, x, y)) for x in range(200) for y in range(200)) / 200**2
+        self.assertAlmostEqual(found["models"][0]["share_over_1"], share, 9)
+
+    def test_turned(self):
+        """Both models turn about one axis: a part that has not changed does not move."""
+        self.box("new/part.obj", 1)
+        with open(self.folder / "new" / "part.obj", "a") as file:  # a second box beside the first
+            file.write("".join("v %g %g %g\n" % (x + 5, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)))
+            file.write("".join(f"f {f}\n" for f in ("9 11 12 10", "13 14 16 15", "9 10 14 13", "11 15 16 12", "9 13 15 11", "10 12 16 14")))
+        self.diff("old", "new", "-o", "report.html", "--view", "front", "--rotate", "x:30", "--rig", "headlight", "-s", 200, code=6)
+        (_, before), (_, after), (_, where) = self.pictures()
+        left, top, right, bottom = covered(before)
+        x, y = (left + right) // 2, (top + bottom) // 2
+        self.assertEqual(pixel(where, x, y), (0, 0, 0, 255))
+        self.assertEqual(covered(after)[0], left)
+
+    def test_own_camera_and_shapes(self):
+        self.diff("teapot", "sphere", "--camera", "eye=0/0/9", "-s", 64, "-o", "a.html", code=6)
+        (_, before), _, _ = self.pictures("a.html")
+        self.assertEqual(before, self.png("teapot", "--camera", "eye=0/0/9", "-s", 64))
+        self.assertEqual(self.diff("teapot", "teapot", "--exposure", "auto", "-s", 64, code=0)["equal"], 1)
+
+    def test_page(self):
+        """Names are text, not markup; the page goes to standard output; a title takes the folders' place."""
+        self.box("new/a<b>&\"c.obj", 1)
+        page = self.run_program("diff", "old", "new", "-o", "-", "--title", "x<y", "-s", 32).stdout.decode()
+        self.assertIn("a&lt;b&gt;&amp;", page)
+        self.assertIn("<h1>x&lt;y</h1>", page)
+        self.assertTrue(page.endswith("</html>\n"))
+
+    def test_errors(self):
+        os.mkdir(self.folder / "empty")
+        os.mkdir(self.folder / "empty2")
+        self.given.update(("empty", "empty2", "a.png"))
+        self.good("cube.obj", "-s", 8, "-o", "a.png", "-q")
+        self.assertEqual(self.diff("empty", "new", "-s", 32, code=6)["added"], 2)
+        self.bad(2, "diff", "empty", "empty2", says="no model")
+        self.bad(1, "diff", "old", "new/part.obj", says=("old is a folder", "two folders"))
+        self.bad(3, "diff", "old", "new", "-o", "x.png", says=".html")
+        self.bad(5, "diff", "old", "new", "-o", "no/where/x.html", says="no/where")
+        self.bad(1, "diff", "a.png", "a.png", "--samples", 4, says="does not apply to pictures")
+        self.bad(1, "diff", "old", "new", "--resume", says="does not apply")
+        self.bad(1, "diff", "old", "new", "--files-from", "x", says="--files-from")
+        (self.folder / "new" / "part.obj").write_text("nonsense")
+        self.bad(2, "diff", "old/part.obj", "new/part.obj", says="new/part.obj")

@@ -118,7 +118,7 @@ class Docs(Case):
         self.assertEqual(page[:2], (480 + 2 * 25, 400 + 2 * 25))
         self.assertEqual(pixel(page, 28, 28), (255, 255, 255, 255))
         self.assertEqual([default(c, "output FILE") for c in ("render", "compare", "plot", "shader", "diff", "materials", "check")],
-                         ["MODEL.png", "MODEL-SHEET.png", "KIND.png", "standard output", "no picture", "no sheet", "no sheet"])
+                         ["MODEL.png", "MODEL-SHEET.png", "KIND.png", "standard output", "no picture, no page", "no sheet", "no sheet"])
         self.assertEqual([default(c, "background COLOR") for c in ("render", "compare")], ["transparent", "white"])
         self.assertEqual([default(c, "tolerance STEPS") for c in ("diff", "check")], ["0", "2"])
         # What they do without -o.

@@ -34,7 +34,7 @@ class Sentences(Case):
             "cub.obj": (2, "did you mean 'cube.obj'?"), "cube.OBJ": (2, "did you mean 'cube.obj'?"),
             r"C:\models\cube.obj": (2, "folders are separated by /"), "640": (2, SIZE), "open": (2, "did you mean 'view'?"),
             "-i cube.obj": (1, "a model needs none: lambent MODEL"), "--input cube.obj": (1, "a model needs none"),
-            "diff cube.obj cube.stl": (2, "draw the models first"),
+            "diff cube.obj cube.png": (2, "diff compares two pictures, or two models"),
         })
 
     def test_pictures(self):

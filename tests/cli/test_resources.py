@@ -35,6 +35,14 @@ class Resources(Case):
             check --list
             shader cube.obj
             diff a/cubeobj-front-16.png a/cubeply-front-16.png --tolerance 255
+            diff cube.obj cube.obj -s 16 -o diff.html
+            hash cube.obj cube.stl -s 16 -o p.hash --pictures kept
+            hash --check p.hash -s 16 --update
+            convert cube.obj c.glb --thumbnail
+            convert cube.obj c.obj
+            convert cube.obj c.ply
+            convert cube.obj c.stl
+            convert cube.obj c.3mf
             plot attenuation -o plot.png
             lights cube.obj
             shape --parametric x=u;y=v;z=0 -o shape.obj

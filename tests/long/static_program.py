@@ -107,6 +107,18 @@ def try_machine(machine, root):
     for words in REFUSED:
         code, text = run(*before, *words, "-q", cwd=root)
         report("%s: %s: refused" % (machine, " ".join(words)), code == 3 and text.count("\n") == 1 and not (root / "x.png").exists(), "exit code %d: %s" % (code, text))
+    if machine == platform.machine():
+        try_container(folder)
+
+
+def try_container(folder):
+    """The container file, made from the native program."""
+    if not shutil.which("buildah") or os.geteuid() != 0 or folder != ROOT / "build-static":
+        print("# the container is not built: buildah, the rights of root or build-static is missing")
+        return
+    code, text = run("buildah", "--storage-driver", "vfs", "build", "--no-cache", "--isolation", "chroot", "-f", "packaging/ci/Containerfile", "-t", "lambent-test", ".", cwd=ROOT)
+    report("the container file builds, and draws", code == 0 and "/tmp/cube.png  64x64" in text, text)
+    run("buildah", "--storage-driver", "vfs", "rmi", "lambent-test")
 
 
 def main():

@@ -10,9 +10,12 @@ const struct exit_code exit_codes[] = {
     {5, LAM_CANNOT_WRITE, "cannot-write",
      "the output cannot be written, or would overwrite a file that lambent did not write"},
     {EXIT_DIFFERS, -1, NULL,
-     "`diff`: the pictures differ by more than the tolerance; `check`: the shader does not pass"},
+     "`diff`: the pictures differ by more than the tolerance; `hash --check`: pictures are others than those of the "
+     "file; "
+     "`check`: the shader does not pass"},
     {EXIT_SOME_FAILED, -1, NULL,
-     "`batch`: some pictures failed (0 with `--failures-ok`); the messages and the journal name them; `journal`: or "
+     "`batch`, `diff` of folders, `hash`: some pictures failed (0 with `--failures-ok`); the messages and the journal "
+     "name them; `journal`: or "
      "are missing"},
     {EXIT_CRASHED, -1, "crashed", "`--isolate`: the process that drew the model ended without an answer"},
     {130, LAM_CANCELLED, "cancelled", "interrupted (Ctrl-C); no partial files remain"},

@@ -80,7 +80,7 @@ void print_brief_help(const struct command *command)
         printf("Usage: lambent %s%s%s\n", command->name, command->operands ? " " : "",
                command->operands ? command->operands : "");
         help_text(command->summary, 0, BRIEF_WIDTH);
-        printf(command->groups == 1u << GROUP_ABOUT ? "" : "\n");
+        printf(command->groups == 1ull << GROUP_ABOUT ? "" : "\n");
         snprintf(begin, sizeof begin, "lambent %s ", command->name);
     }
     bool examples_shown = false;

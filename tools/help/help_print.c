@@ -88,13 +88,14 @@ void help_option(const struct option *option, const struct command *command, boo
 
 // Groups whose options `lambent --help` describes: other commands list them by name alone.
 #define SHARED                                                                                                         \
-    (1u << GROUP_PICTURE | 1u << GROUP_MODEL | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_MATERIALS |         \
-     1u << GROUP_SHADING | 1u << GROUP_ANIMATION | 1u << GROUP_WORK | 1u << GROUP_LIMITS | 1u << GROUP_REPORT)
+    (1ull << GROUP_PICTURE | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW | 1ull << GROUP_LIGHTS |                         \
+     1ull << GROUP_MATERIALS | 1ull << GROUP_SHADING | 1ull << GROUP_ANIMATION | 1ull << GROUP_WORK |                  \
+     1ull << GROUP_LIMITS | 1ull << GROUP_REPORT)
 
 // A command describes its own options, those of which it accepts no other of the group, and those whose default is its own.
 static bool is_shared(const struct option *o, const struct command *command)
 {
-    return command != command_table && SHARED & command->groups & 1u << o->group &&
+    return command != command_table && SHARED & command->groups & 1ull << o->group &&
            default_of(command, o) == o->standard;
 }
 
@@ -135,12 +136,12 @@ static void shared_options(const struct command *command)
 void help_options(const struct command *command)
 {
     bool whole = command == command_table;
-    const unsigned later = SHARED | 1u << GROUP_ABOUT;
+    const uint64_t later = SHARED | 1ull << GROUP_ABOUT;
     for (int group = 0; group < GROUP_COUNT; group++)
-        if (whole || !(later & 1u << group))
+        if (whole || !(later & 1ull << group))
             group_options(group, command);
     for (int group = 0; group < GROUP_COUNT && !whole; group++)
-        if (later & 1u << group)
+        if (later & 1ull << group)
             group_options(group, command);
     shared_options(command);
 }

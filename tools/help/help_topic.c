@@ -50,10 +50,10 @@ static const struct option *find_option(const char *word)
     return option && option->now ? option_find(option->now) : option;
 }
 
-static void print_options(unsigned groups, const struct command *command)
+static void print_options(uint64_t groups, const struct command *command)
 {
     for (const struct option *o = option_table; o->name; o++)
-        if (groups & 1u << o->group && !o->now) {
+        if (groups & 1ull << o->group && !o->now) {
             printf("\n");
             help_option(o, command, true);
         }
@@ -88,7 +88,7 @@ static void topic_summary(const struct topic *topic, char *text, size_t size)
     int used = snprintf(text, size, "%s", topic->title);
     bool first = true;
     for (const struct option *o = option_table; o->name; o++)
-        if (topic->groups & 1u << o->group && !o->now && used < (int)size) {
+        if (topic->groups & 1ull << o->group && !o->now && used < (int)size) {
             used += snprintf(text + used, size - (size_t)used, "%s%s", first ? ": " : ", ", o->name);
             first = false;
         }
@@ -154,7 +154,7 @@ int run_help(int operand_count, char **operands, const struct options *options)
         print_list();
     } else if (topic) {
         print_topic(topic);
-        if (option && !command && !(topic->groups & 1u << option->group)) {
+        if (option && !command && !(topic->groups & 1ull << option->group)) {
             printf("\n");
             help_option(option, command_table, true);
         }
@@ -166,7 +166,7 @@ int run_help(int operand_count, char **operands, const struct options *options)
     } else if (option) {
         help_option(option, command_table, true);
         for (const struct topic *t = topics; t->word; t++)
-            if (t->groups & 1u << option->group)
+            if (t->groups & 1ull << option->group)
                 printf("\nMore: lambent help %s\n", t->word);
     } else if (word && strcmp(word, "all") == 0) {
         print_help(command_table);

@@ -3,7 +3,7 @@
 
 #include "options.h"
 
-#define BIT(group) (1u << GROUP_##group)
+#define BIT(group) (1ull << GROUP_##group)
 
 const struct topic topics[] = {
     {"models", "Models", BIT(MODEL), TOPIC_NO_TABLE,
@@ -134,7 +134,25 @@ const struct topic topics[] = {
      "A `.pfm` stores the differences as floats without clamping. With `--json` the figures are one line: `a`, "
      "`b`, `width`, `height`, `maximum`, `mean`, `rmse`, `psnr_db`, `share_over_1`, `share_over_2`, `tolerance`, "
      "`differ` (0 or 1: beyond the tolerance) and `picture`. The exit code is 6 if the largest difference exceeds "
-     "the tolerance, 1 if the sizes or kinds differ."},
+     "the tolerance, 1 if the sizes or kinds differ. `lambent diff OLD NEW` of two models or two folders draws the "
+     "models of "
+     "both sides with one camera: `-o report.html` is a page with what was added, removed or changed, and pictures "
+     "before and after. More: `docs/pull-requests.md`."},
+    {"hash", "Hashes of pictures", BIT(HASH), TOPIC_NO_TABLE,
+     "`lambent hash models/ -o pictures.hash` writes a line for each model: the XXH64 of its picture's pixels (rows "
+     "from "
+     "the "
+     "top, red, green, blue, alpha) and its name, relative to the file. The head of the file names the version and the "
+     "options. "
+     "Pictures are the same on every machine, so a repository can keep this file in place of the pictures: `lambent "
+     "hash "
+     "models/ --check pictures.hash` names the models whose pictures are others. More: `docs/pull-requests.md`."},
+    {"convert", "Models in another format", BIT(CONVERT), TOPIC_NO_TABLE,
+     "`lambent convert MODEL OUT.glb` writes any model or scene file as GLB, OBJ (with MTL and PNG beside it), STL, "
+     "PLY or "
+     "3MF: geometry, materials with their pictures, lights and cameras as far as the format holds them. What it does "
+     "not "
+     "hold is said in one sentence each. More: `docs/convert.md`."},
     {"formulas", "Surfaces given by formulas", BIT(SHAPE), TOPIC_NO_TABLE,
      "`lambent shape --parametric 'x=...; y=...; z=...'` draws a surface over u and v, `--implicit 'x^2+y^2+z^2-1'` "
      "one "

@@ -2,12 +2,14 @@
 #ifndef TOPICS_H
 #define TOPICS_H
 
+#include <stdint.h>
+
 enum topic_table { TOPIC_NO_TABLE, TOPIC_LIGHT_FIELDS, TOPIC_MATERIAL_FIELDS, TOPIC_EXIT_CODES };
 
 struct topic {
     const char *word; // of `lambent help WORD`
     const char *title;
-    unsigned groups;        // bit g: the options of group g belong to it
+    uint64_t groups;        // bit g: the options of group g belong to it
     enum topic_table table; // shown below the options
     const char *text;       // paragraphs with `code` in back quotes, a section of the man page; NULL: none
 };

@@ -431,6 +431,8 @@ bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
     if (job->options->picture.save_scene && job->options->limits.files_inside && !scene_settings_are_beside(job))
         lam_scene_add_warning(job->scene, "the saved scene file names files outside of its folder");
     animation_sphere(job, &job->sphere);
+    if (job->shared)
+        job->sphere = job->shared->sphere;
     return job_place_camera(job, error) &&
            (job->lights ? job_light_again(job, error) : job_light(job, &job->sphere, error)) &&
            animation_arrange(job, error) && (!job->options->shading.show_lights || light_markers_add(job, error));

@@ -37,6 +37,13 @@ struct job_view {
     int width, height; // pixels
 };
 
+// What two jobs share whose pictures are compared.
+struct job_shared {
+    struct model_sphere sphere; // around both models
+    lam_camera camera;          // if the flag below is set, in place of any other
+    bool has_camera;
+};
+
 // The frames of --turntable and --sweep.
 struct job_frames {
     int count;                // 0: one picture
@@ -71,6 +78,7 @@ struct job {
     lam_rgba background; // behind the model
     lam_device *device;
     struct environment_cache *environments; // that other jobs share; NULL: none are
+    const struct job_shared *shared;        // with another job; NULL: nothing is
     const struct job_view *views;           // the pictures to draw; NULL: one, as the options have it
     int view_count;
     lam_camera *cameras; // of the views; from malloc, by job_arrange

@@ -86,11 +86,19 @@ bool job_light_again(struct job *job, lam_error *error)
     return job_light(job, &job->sphere, error);
 }
 
+static bool shared_camera(const struct job *job, lam_camera *camera)
+{
+    if (!job->shared || !job->shared->has_camera)
+        return false;
+    *camera = job->shared->camera;
+    return true;
+}
+
 // Fits the camera before the model is turned: one fit serves every angle. A camera in words aims at the turned model.
 static void fit_camera(struct job *job, const struct model_sphere *sphere, bool side_is_given)
 {
     const struct options *o = job->options;
-    if (animation_camera(job, &job->camera))
+    if (animation_camera(job, &job->camera) || shared_camera(job, &job->camera))
         return;
     if (scene_settings_has_camera(job) && !side_is_given)
         job->camera = job->settings.camera;
@@ -118,7 +126,7 @@ bool job_place_camera(struct job *job, lam_error *error)
     job->times.camera += clock_ms() - start;
     if (!job_turn(job, sphere, error))
         return false;
-    if (animation_camera(job, &same))
+    if (animation_camera(job, &same) || shared_camera(job, &same))
         return true;
     if (o->view.camera && !strchr(o->view.camera, '=') && !find_camera(job, error))
         return false;

@@ -1,7 +1,6 @@
 // batch_page.c: --report: one HTML file without scripts, failures first, with thumbnails in a folder beside it.
 #include "batch_page.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +10,7 @@
 #include "html.h"
 #include "journal.h"
 #include "output.h"
+#include "shrink.h"
 #include "writer.h"
 #include "xxh64.h"
 
@@ -41,48 +41,13 @@ bool batch_page_is_thumbnail(const char *page, const char *path)
     return is;
 }
 
-static unsigned char encode(double linear)
-{
-    double x = linear <= 0 ? 0 : linear >= 1 ? 1 : linear;
-    return (unsigned char)((x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055) * 255 + 0.5);
-}
-
-// Averages the pixels under each pixel of the smaller picture: linear light, premultiplied by alpha.
-static void shrink(const lam_image *from, const lam_image *to)
-{
-    for (int y = 0; y < to->height; y++)
-        for (int x = 0; x < to->width; x++) {
-            int left = (int)((int64_t)x * from->width / to->width),
-                right = (int)((int64_t)(x + 1) * from->width / to->width);
-            int top = (int)((int64_t)y * from->height / to->height),
-                bottom = (int)((int64_t)(y + 1) * from->height / to->height);
-            double sum[4] = {0};
-            for (int v = top; v < bottom; v++)
-                for (int u = left; u < right; u++)
-                    for (int c = 0; c < 4; c++)
-                        sum[c] +=
-                            (double)((const float *)
-                                         from->pixels)[4 * ((size_t)v * (size_t)from->width + (size_t)u) + (size_t)c];
-            unsigned char *pixel = (unsigned char *)to->pixels + 4 * ((size_t)y * (size_t)to->width + (size_t)x);
-            double alpha = sum[3] / ((double)(right - left) * (bottom - top));
-            for (int c = 0; c < 3; c++)
-                pixel[c] = encode(sum[3] > 0 ? sum[c] / sum[3] : 0);
-            pixel[3] = (unsigned char)((alpha < 1 ? alpha : 1) * 255 + 0.5);
-        }
-}
-
 static bool make_thumbnail(const char *output, const char *thumbnail)
 {
     lam_image picture = {0}, small = {0};
     lam_error error;
     if (!lam_image_load_linear(&picture, output, LAM_COLOR_SRGB, NULL, &error))
         return false;
-    int longer = picture.width > picture.height ? picture.width : picture.height,
-        most = longer < THUMBNAIL ? longer : THUMBNAIL;
-    int width = (int)((int64_t)picture.width * most / longer), height = (int)((int64_t)picture.height * most / longer);
-    bool ok = lam_image_make(&small, width ? width : 1, height ? height : 1, LAM_RGBA8, &error);
-    if (ok)
-        shrink(&picture, &small);
+    bool ok = shrink_linear(&picture, THUMBNAIL, &small, &error);
     lam_save_params params = {.threads = 1};
     lam_bytes png = {0};
     ok = ok && lam_image_encode(&small, "png", &params, &png, &error) && writer_save(thumbnail, &png, false, &error);

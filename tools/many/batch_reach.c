@@ -20,7 +20,8 @@ enum { SINGLE = 64 };
 // Whether the pictures' folder as a whole may be read: the journal and the page need pictures again.
 static bool takes_folder(const struct batch *b)
 {
-    return !b->options->batch.jobs && (b->options_text || b->plan->count * (size_t)b->plan->view_count > SINGLE);
+    return !b->options->batch.jobs && !b->use &&
+           (b->options_text || b->plan->count * (size_t)b->plan->view_count > SINGLE);
 }
 
 // The folder of a path, from malloc: "." where it names none.
@@ -124,6 +125,8 @@ static enum writer_right right_of(void *user, const char *path)
     const struct options *o = b->options;
     lam_error error;
     lam_pixel_format format;
+    if (b->use)
+        return b->use->right ? b->use->right(b->use->user, path) : WRITER_NONE;
     if (w->whole && b->journal && strcmp(path, journal_running_path(b->journal)) == 0)
         return WRITER_REMOVES;
     if ((w->whole && o->batch.report_page && strcmp(path, o->batch.report_page) == 0) ||
@@ -144,7 +147,7 @@ static enum writer_right right_of(void *user, const char *path)
 bool batch_reach_write(const struct batch *b, const struct batch_task *task, lam_error *error)
 {
     struct writes writes = {b, task->plan, task->model, 1, task->model, false};
-    bool writes_none = task->job && task->job->in_answer;
+    bool writes_none = b->use ? !b->use->right : task->job && task->job->in_answer;
     return writes_none || !sandbox_is_wanted(b->options) || writer_start(right_of, &writes, 1, error);
 }
 
@@ -159,7 +162,9 @@ bool batch_reach_enter(const struct batch *b, size_t first, size_t count, lam_er
         const char *before = i > first && !models[i - 1].leads_out ? models[i - 1].path : NULL;
         if (!models[i].leads_out && !is_within_reach(models[i].path, before))
             sandbox_add_input(&paths, models[i].path);
-        for (int k = 0; !takes_folder(b) && k < b->plan->view_count; k++) {
+        if (b->use && b->use->reach)
+            b->use->reach(b->use->user, i, &paths);
+        for (int k = 0; !b->use && !takes_folder(b) && k < b->plan->view_count; k++) {
             char *output = batch_plan_output(b->plan, i, k);
             paths.failed |= !output;
             if (output)

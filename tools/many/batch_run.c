@@ -230,7 +230,7 @@ static bool run_passes(struct batch *b, lam_error *error)
         else
             batch_isolate(b);
     }
-    if (!b->journal && !b->options->batch.report_page)
+    if (!b->journal && !b->options->batch.report_page && !b->use)
         writer_finish();
     if (workers)
         free_workers(b, workers);
@@ -292,8 +292,9 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     b->pictures = calloc(pictures + 1, sizeof *b->pictures);
     b->taken = calloc(models + 1, sizeof *b->taken);
     b->texts = (struct batch_texts){.list = calloc(models + 1, sizeof *b->texts.list), .count = models};
-    b->records = o->batch.report_page ? calloc(pictures + 1, sizeof *b->records) : NULL;
-    if (!b->pictures || !b->taken || !b->texts.list || (o->batch.report_page && !b->records))
+    bool keeps = o->batch.report_page || b->use;
+    b->records = keeps ? calloc(pictures + 1, sizeof *b->records) : NULL;
+    if (!b->pictures || !b->taken || !b->texts.list || (keeps && !b->records))
         return complain(error, LAM_LIMIT, "out of memory");
     b->tally = (struct batch_tally){.shard = b->plan->shard,
                                     .total = pictures,
@@ -352,6 +353,11 @@ static void finish(struct batch *b)
 {
     batch_print_rest(&b->texts, &b->tally);
     lam_error error;
+    if (b->use) {
+        if (!interrupted() && !b->failed)
+            b->code = b->use->finish(b->use->user, b->records, b->tally.failed);
+        return;
+    }
     struct batch_page page = {.path = b->options->batch.report_page,
                               .tally = &b->tally,
                               .record = record_of,
@@ -394,9 +400,9 @@ static void keep_memory(void)
 #endif
 }
 
-static int run(const struct batch_plan *plan, const char *journal, bool is_batch)
+static int run(const struct batch_plan *plan, const char *journal, bool is_batch, const struct batch_use *use)
 {
-    struct batch b = {.plan = plan, .options = plan->options, .is_batch = is_batch};
+    struct batch b = {.plan = plan, .options = plan->options, .is_batch = is_batch, .use = use};
     lam_error error = {0};
     pthread_condattr_t monotonic;
     pthread_condattr_init(&monotonic);
@@ -414,7 +420,7 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
         finish(&b);
     journal_close(b.journal, ok && !interrupted() && !b.failed, interrupted());
     int code = ok ? b.code : report_failure(&error, plan->options);
-    bool some_failed = ok && !b.failed && b.tally.failed + b.tally.failed_before;
+    bool some_failed = ok && !use && !b.failed && b.tally.failed + b.tally.failed_before;
     if (some_failed && b.options->batch.failures_ok && has_every_outcome(&b))
         code = 0;
     else if (some_failed && is_batch)
@@ -438,7 +444,7 @@ int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch)
 {
     const struct batch_shard *shard = &plan->shard;
     if (!shard->count)
-        return run(plan, journal, is_batch);
+        return run(plan, journal, is_batch, NULL);
     // The files that a batch has besides its pictures are each shard's own.
     struct options options = *plan->options;
     struct batch_plan part = *plan;
@@ -450,8 +456,10 @@ int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch)
     ok = ok && (!journal || batch_shard_check_folder(journal, shard, &error));
     options.batch.report_page = own_page;
     part.options = &options;
-    int code = ok ? run(&part, own_journal, is_batch) : report_failure(&error, plan->options);
+    int code = ok ? run(&part, own_journal, is_batch, NULL) : report_failure(&error, plan->options);
     free(own_journal);
     free(own_page);
     return code;
 }
+
+int batch_use_run(const struct batch_plan *plan, const struct batch_use *use) { return run(plan, NULL, true, use); }

@@ -3,9 +3,14 @@
 #define BATCH_RUN_H
 
 #include "batch_plan.h"
+#include "batch_use.h"
 
 // Draws the planned models and writes the journal and the page. `journal`: its path; NULL: none. `is_batch`: messages are
 // those of `batch` (errors and a summary), not those of `render`. Returns the program's exit code.
 int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch);
+
+// Draws the planned models for another use than files. Errors are printed in the order of the models. Returns what `use->finish` returns,
+// or the exit code of an error that ended the run.
+int batch_use_run(const struct batch_plan *plan, const struct batch_use *use);
 
 #endif

@@ -3,12 +3,13 @@
 
 #include <string.h>
 
-#define ABOUT (1u << GROUP_ABOUT)
+#define ABOUT (1ull << GROUP_ABOUT)
 // The options of a picture of a model. `render` alone makes several of one model.
 #define ALL                                                                                                            \
-    (((1u << GROUP_COUNT) - 1) &                                                                                       \
-     ~(1u << GROUP_DIFF | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | 1u << GROUP_SHEET | 1u << GROUP_CHECK |            \
-       1u << GROUP_SHADER | 1u << GROUP_SHAPE | 1u << GROUP_VIEWER | 1u << GROUP_BATCH | 1u << GROUP_ANIMATION))
+    (((1ull << GROUP_COUNT) - 1) &                                                                                     \
+     ~(1ull << GROUP_DIFF | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | 1ull << GROUP_SHEET | 1ull << GROUP_CHECK |  \
+       1ull << GROUP_SHADER | 1ull << GROUP_SHAPE | 1ull << GROUP_VIEWER | 1ull << GROUP_HASH |                        \
+       1ull << GROUP_CONVERT | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION))
 
 static const struct own_default compare_defaults[] = {
     {"output", "MODEL-SHEET.png"}, {"size", "480x400 each"}, {"background", SHEET_BACKGROUND}, {NULL, NULL}};
@@ -20,7 +21,9 @@ static const struct own_default check_defaults[] = {
 static const struct own_default shader_defaults[] = {{"output", "standard output"}, {NULL, NULL}};
 static const struct own_default shape_defaults[] = {{"output", "NAME.png, parametric.png or implicit.png"},
                                                     {NULL, NULL}};
-static const struct own_default diff_defaults[] = {{"output", "no picture"}, {NULL, NULL}};
+static const struct own_default diff_defaults[] = {
+    {"output", "no picture, no page"}, {"size", "384x384"}, {NULL, NULL}};
+static const struct own_default hash_defaults[] = {{"output", "none: --check compares"}, {NULL, NULL}};
 static const struct own_default plot_defaults[] = {{"output", "KIND.png"}, {"size", "1600x1000"}, {NULL, NULL}};
 static const struct own_default materials_defaults[] = {
     {"output", "no sheet"}, {"size", "1024x593"}, {"background", SHEET_BACKGROUND}, {NULL, NULL}};
@@ -28,10 +31,10 @@ static const struct own_default materials_defaults[] = {
 const struct command command_table[] = {
     [COMMAND_render] = {"render", "MODEL...",
                         "Light models and write a picture of each. The word itself may be left out.",
-                        ALL | 1u << GROUP_BATCH | 1u << GROUP_ANIMATION, .min_operands = 1, .max_operands = -1},
+                        ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION, .min_operands = 1, .max_operands = -1},
     [COMMAND_batch] = {"batch", "[MODEL|FOLDER|@LIST|-]...",
                        "Draw many models: of folders and all below them, of lists, of standard input; with a journal.",
-                       ALL | 1u << GROUP_BATCH | 1u << GROUP_ANIMATION, .min_operands = 0, .max_operands = -1,
+                       ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION, .min_operands = 0, .max_operands = -1,
                        .defaults = batch_defaults},
     [COMMAND_journal] =
         {"journal", "JOURNAL|FOLDER...",
@@ -40,7 +43,7 @@ const struct command command_table[] = {
          .defaults = journal_defaults},
     [COMMAND_compare] = {"compare", "MODEL",
                          "Draw one labelled sheet of pictures: methods, lights or terms side by side.",
-                         (ALL & ~(1u << GROUP_REPORT)) | 1u << GROUP_SHEET | 1u << GROUP_CAPTIONS | TAKES_QUIET |
+                         (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_SHEET | 1ull << GROUP_CAPTIONS | TAKES_QUIET |
                              TAKES_JSON,
                          .min_operands = 1, .max_operands = 1,
                          .one_more = "it shows one model in several ways; lambent diff compares pictures",
@@ -50,47 +53,61 @@ const struct command command_table[] = {
          "Print the calculation of one pixel: vectors, angles and terms of each light, the sum, the byte; -o FILE "
          "(SVG, "
          "PNG) draws it: the arrows over the picture, the point's coordinates, the terms. --save-scene has no effect.",
-         ALL | 1u << GROUP_CAPTIONS | TAKES_TITLE, .min_operands = 2, .max_operands = 2,
+         ALL | 1ull << GROUP_CAPTIONS | TAKES_TITLE, .min_operands = 2, .max_operands = 2,
          .one_more = "the pixel is one word, such as 512,400", .defaults = explain_defaults},
     [COMMAND_info] = {"info", "MODEL...",
                       "Print what is in models: size, triangles, materials, pictures, lights, cameras, animations, "
                       "extensions.",
-                      ABOUT | 1u << GROUP_MODEL | 1u << GROUP_WORK | 1u << GROUP_LIMITS | TAKES_JSON | TAKES_QUIET,
+                      ABOUT | 1ull << GROUP_MODEL | 1ull << GROUP_WORK | 1ull << GROUP_LIMITS | TAKES_JSON |
+                          TAKES_QUIET,
                       .min_operands = 1, .max_operands = -1},
     [COMMAND_check] =
         {"check", "SHADER.frag...",
          "Compare GLSL shaders with reference scenes, and name the known mistakes that explain the differences.",
-         ABOUT | 1u << GROUP_CHECK | 1u << GROUP_DIFF | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
-             TAKES_QUIET | TAKES_THREADS | TAKES_MEMORY,
+         ABOUT | 1ull << GROUP_CHECK | 1ull << GROUP_DIFF | 1ull << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE |
+             TAKES_JSON | TAKES_QUIET | TAKES_THREADS | TAKES_MEMORY,
          .min_operands = 0, .max_operands = -1, .defaults = check_defaults},
     [COMMAND_shader] = {"shader", "[MODEL]",
                         "Print the shaders that light a model, for use in another program, and their inputs.",
-                        ALL | 1u << GROUP_SHADER, .min_operands = 0, .max_operands = 1, .defaults = shader_defaults},
-    [COMMAND_diff] = {"diff", "A B", "Measure the difference of two pictures, and draw it.",
-                      ABOUT | 1u << GROUP_DIFF | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET | TAKES_MEMORY |
-                          TAKES_PICTURE_LIMITS,
-                      .min_operands = 2, .max_operands = 2, .one_more = "it compares two pictures",
-                      .defaults = diff_defaults},
+                        ALL | 1ull << GROUP_SHADER, .min_operands = 0, .max_operands = 1, .defaults = shader_defaults},
+    [COMMAND_diff] = {"diff", "OLD NEW",
+                      "Compare two pictures, two models or the models of two folders; -o writes a picture, or a page "
+                      "of "
+                      "models before and after.",
+                      (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_DIFF | TAKES_JSON | TAKES_QUIET | TAKES_MANY |
+                          TAKES_TITLE,
+                      .min_operands = 2, .max_operands = 2,
+                      .one_more = "it compares two pictures, models or folders of models", .defaults = diff_defaults},
+    [COMMAND_hash] = {"hash", "[MODEL|FOLDER|@LIST|-]...",
+                      "Write hashes of the models' pictures to a text file (-o), or compare them with one (--check).",
+                      (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_HASH | TAKES_JSON | TAKES_QUIET | TAKES_MANY,
+                      .min_operands = 0, .max_operands = -1, .defaults = hash_defaults},
+    [COMMAND_convert] =
+        {"convert", "MODEL OUT.glb|obj|stl|ply|3mf",
+         "Write a model or a scene as GLB, OBJ, STL, PLY or 3MF, and say what that format does not hold.",
+         ABOUT | 1ull << GROUP_CONVERT | 1ull << GROUP_MODEL | 1ull << GROUP_LIMITS | TAKES_UP | TAKES_THREADS |
+             TAKES_JSON | TAKES_QUIET,
+         .min_operands = 2, .max_operands = 2, .one_more = "it writes one model: lambent convert MODEL OUT.glb"},
     [COMMAND_plot] = {"plot", "attenuation|spot|highlight [CURVE...]",
                       "Plot a law of light as curves (PNG or SVG), and print its numbers.",
-                      ABOUT | 1u << GROUP_PLOT | 1u << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
+                      ABOUT | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
                           TAKES_QUIET | TAKES_FILES | TAKES_TERM | TAKES_TITLE,
                       .min_operands = 1, .max_operands = -1, .defaults = plot_defaults},
     [COMMAND_lights] = {"lights", "MODEL",
                         "Print the lights of a model, or of the rig if it has none, in scene file form.",
-                        ABOUT | 1u << GROUP_MODEL | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_SHADING |
-                            1u << GROUP_WORK | 1u << GROUP_LIMITS,
+                        ABOUT | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW | 1ull << GROUP_LIGHTS |
+                            1ull << GROUP_SHADING | 1ull << GROUP_WORK | 1ull << GROUP_LIMITS,
                         .min_operands = 1, .max_operands = 1, .one_more = "it prints the lights of one model"},
     [COMMAND_shape] = {"shape", "[NAME]",
                        "Draw a built-in shape or a surface given by formulas (--parametric, --implicit), or save it as "
                        "OBJ, STL or PLY.",
-                       ALL | 1u << GROUP_SHAPE | 1u << GROUP_ANIMATION, .min_operands = 0, .max_operands = 1,
+                       ALL | 1ull << GROUP_SHAPE | 1ull << GROUP_ANIMATION, .min_operands = 0, .max_operands = 1,
                        .defaults = shape_defaults},
     [COMMAND_view] = {"view", "MODEL|FOLDER",
                       "Show a model in the browser, and again whenever its file changes; or the gallery of a folder.",
-                      ABOUT | 1u << GROUP_VIEWER | 1u << GROUP_PICTURE | 1u << GROUP_MODEL | 1u << GROUP_VIEW |
-                          1u << GROUP_LIGHTS | 1u << GROUP_MATERIALS | 1u << GROUP_SHADING | 1u << GROUP_LIMITS |
-                          TAKES_THREADS | TAKES_QUIET | WRITES_NO_FILE,
+                      ABOUT | 1ull << GROUP_VIEWER | 1ull << GROUP_PICTURE | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW |
+                          1ull << GROUP_LIGHTS | 1ull << GROUP_MATERIALS | 1ull << GROUP_SHADING |
+                          1ull << GROUP_LIMITS | TAKES_THREADS | TAKES_QUIET | WRITES_NO_FILE,
                       .min_operands = 1, .max_operands = 1,
                       .one_more = "it shows one model, or the models of one folder"},
     [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, .min_operands = 0, .max_operands = 0,
@@ -101,7 +118,7 @@ const struct command command_table[] = {
                        .min_operands = 0, .max_operands = 1},
     [COMMAND_materials] = {"materials", NULL,
                            "List the named materials with their numbers; -o FILE also draws a sheet of them.",
-                           ABOUT | 1u << GROUP_PICTURE | 1u << GROUP_CAPTIONS | TAKES_JSON, .min_operands = 0,
+                           ABOUT | 1ull << GROUP_PICTURE | 1ull << GROUP_CAPTIONS | TAKES_JSON, .min_operands = 0,
                            .max_operands = 0,
                            .one_more = "it lists all materials; lambent teapot --material gold shows one",
                            .defaults = materials_defaults},
@@ -136,7 +153,7 @@ const char *default_of(const struct command *command, const struct option *optio
     return option->standard;
 }
 
-unsigned find_groups(const char *name)
+uint64_t find_groups(const char *name)
 {
     const struct command *command = find_command(name);
     return command ? command->groups : 0;
@@ -163,6 +180,7 @@ const struct example examples[] = {
     {"lambent compare koala.obj --sheet terms", "the terms of the sum side by side, with captions", false},
     {"lambent compare bunny.ply --across 'light=point;directional:direction=-1/-2/-1'",
      "a custom row: one picture for each value of an option", false},
+    {"lambent convert scene.json scene.glb", "a scene file or a model in another format", false},
     {"lambent plot attenuation 1/0.54/0.2 1/0/1", "how two lights fade with distance", false},
     {"lambent plot spot cutoff=30,exponent=8 inner=20,outer=35 -o spot.svg", "the cones of two spot lights", false},
     {"lambent plot highlight 10 50 1000", "the width of highlights", false},
@@ -178,5 +196,8 @@ const struct example examples[] = {
      "a surface given by formulas, as a model or a picture", false},
     {"lambent shape --implicit 'x^2+y^2+z^2-1'", "the points where an expression is zero: here a sphere", false},
     {"lambent diff old.png new.png -o where.png", "the difference of two pictures, as numbers and as a picture", false},
+    {"lambent diff old/ new/ -o report.html", "models before and after, on one page", false},
+    {"lambent hash models/ -o pictures.hash", "hashes of all pictures, for a repository", false},
+    {"lambent hash --check pictures.hash", "which pictures are others now", false},
     {NULL, NULL, false},
 };

@@ -6,9 +6,9 @@
 
 // In the order of the help. The first one runs when the command line names none.
 #define COMMANDS(row)                                                                                                  \
-    row(render) row(batch) row(journal) row(compare) row(explain) row(info) row(check) row(shader) row(diff) row(plot) \
-        row(lights) row(shape) row(view) row(shapes) row(formats) row(looks) row(materials) row(devices) row(help)     \
-            row(complete) row(generate)
+    row(render) row(batch) row(journal) row(compare) row(explain) row(info) row(check) row(shader) row(diff) row(hash) \
+        row(convert) row(plot) row(lights) row(shape) row(view) row(shapes) row(formats) row(looks) row(materials)     \
+            row(devices) row(help) row(complete) row(generate)
 
 #define COMMAND_INDEX(name) COMMAND_##name,
 enum command_index { COMMANDS(COMMAND_INDEX) COMMAND_COUNT };
@@ -22,7 +22,7 @@ struct command {
     const char *name;
     const char *operands;               // as the help shows them; NULL: none
     const char *summary;                // one sentence
-    unsigned groups;                    // bit g: accepts the options of group g; TAKES_…: single options
+    uint64_t groups;                    // bit g: accepts the options of group g; TAKES_…: single options
     int min_operands, max_operands;     // max −1: no limit
     const struct own_default *defaults; // NULL: none of its own
     const char *one_more; // what to write instead, for the error about more operands; NULL: nothing is known
@@ -32,7 +32,7 @@ struct command {
 extern const struct command command_table[]; // in the order of COMMANDS; ends with a NULL name
 
 const struct command *find_command(const char *name); // NULL: no such command
-unsigned find_groups(const char *name);               // of a command; 0: no such command
+uint64_t find_groups(const char *name);               // of a command; 0: no such command
 
 // The default of an option in words, for a command: its own, else the option's. NULL: none is shown.
 const char *default_of(const struct command *command, const struct option *option);

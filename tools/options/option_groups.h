@@ -190,6 +190,18 @@ struct diff_options {
     double tolerance, gain;
 };
 
+// Hashes of pictures (hash).
+struct hash_options {
+    const char *check;    // the file to compare with; NULL: none
+    const char *pictures; // the folder where pictures are kept; NULL: nowhere
+    bool update;
+};
+
+// Models in another format (convert).
+struct convert_options {
+    bool thumbnail;
+};
+
 // Captions (compare, plot, materials, check, explain).
 struct captions_options {
     const char *font; // NULL: the system's

@@ -23,6 +23,8 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_BATCH] = "Many models (render, batch)",
     [GROUP_REPORT] = "Reports",
     [GROUP_DIFF] = "Comparing pictures (diff, check)",
+    [GROUP_HASH] = "Hashes of pictures (hash)",
+    [GROUP_CONVERT] = "Models in another format (convert)",
     [GROUP_PLOT] = "Plots (plot)",
     [GROUP_CAPTIONS] = "Captions (compare, plot, materials, check, explain)",
     [GROUP_ABOUT] = "About",
@@ -407,7 +409,7 @@ struct option option_table[OPTIONS_MAX] = {
      "the plane of x and y. Capitals and a plus (`+Z`) are "
      "accepted.",
      up_words, .brief = "what is up in the file: y, z, -z ...", .store = store_up,
-     .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up)},
+     .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up), .single = TAKES_UP},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Turn the model about its centre, such as y:30; repeatable.",
      "The axis is x, y or z of the scene; turns are applied in the order given. Lights stay where they are "
      "(except those in the model's frame), and radii refer to the model before the turn. One camera serves every "
@@ -780,7 +782,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"files-from", 0, GROUP_BATCH, "FILE", NULL, "Draw the models that FILE names, one on each line; repeatable.",
      "`-` is standard input. Names are those of the current folder, as on the command line; empty lines count for "
      "nothing. `batch` takes `@FILE` for the same.",
-     .kind = VALUE_FILE, .store = store_list, .others = "input-list filelist models-from", FIELD(batch.lists)},
+     .kind = VALUE_FILE, .store = store_list, .others = "input-list filelist models-from", FIELD(batch.lists),
+     .single = TAKES_MANY},
     {"journal", 0, GROUP_BATCH, "FILE", "none; `batch`: lambent.jsonl in the pictures' folder",
      "Write a line of JSON for each picture that is done or has failed.",
      "A line has the model, the picture, the outcome (`class`, `exit`, `error`), the milliseconds of each step, the "
@@ -801,7 +804,8 @@ struct option option_table[OPTIONS_MAX] = {
      "Open MPI stops all ranks if one exits with another code, and other engines repeat its task. The failures are in "
      "the journal and in the messages. A run that did not reach every model still exits with its code: a wrong "
      "option, a journal that cannot be written, an interrupt.",
-     .store = store_switch, .others = "keep-going ignore-failures ignore-errors", FIELD(batch.failures_ok)},
+     .store = store_switch, .others = "keep-going ignore-failures ignore-errors", FIELD(batch.failures_ok),
+     .single = TAKES_MANY},
     {"skip-same", 0, GROUP_BATCH, NULL, NULL, "Draw only what has changed since the journal was written.",
      "A picture is left as it is if it still has the journal's hash, and its key is the journal's: a hash of all files "
      "that reading the model looked for (textures and material libraries too), the options with their defaults, and "
@@ -810,7 +814,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"isolate", 0, GROUP_BATCH, NULL, NULL, "Draw each model in a process of its own.",
      "A model that crashes or uses up the memory costs one line of the journal, of the class `crashed`, and the others "
      "go on.",
-     .store = store_switch, .others = "process fork sandbox-process", FIELD(batch.isolate)},
+     .store = store_switch, .others = "process fork sandbox-process", FIELD(batch.isolate), .single = TAKES_MANY},
     {"shard", 0, GROUP_BATCH, "K/N", "1/1",
      "Draw the K-th of N parts of the models (from 1), beside other machines that draw the others.",
      "Which part a model belongs to follows from its path alone: one that is added moves no other. `auto` takes K and "
@@ -874,6 +878,33 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_number, .others = "threshold epsilon", FIELD(diff.tolerance), .min = 0, .max = 1e9},
     {"gain", 0, GROUP_DIFF, "FACTOR", "16", "The factor that amplifies the picture of the difference.", NULL,
      .store = store_number, .others = "amplify", FIELD(diff.gain), .min = 0.001, .max = 1e6},
+
+    {"check", 0, GROUP_HASH, "FILE", NULL, "Compare with the hashes in FILE; the exit code is 6 if they differ.",
+     "Names each model that has changed, that is missing (it is in the file, and not among the models) or that is new. "
+     "Without "
+     "models on the command line it draws those of the file. If the version or the options of the file are others, it "
+     "says so first.",
+     .kind = VALUE_FILE, .store = store_text, .others = "verify compare-with against", FIELD(hash.check)},
+    {"update", 0, GROUP_HASH, NULL, NULL,
+     "With `--check`: write the new hashes to the file, with a sheet of what changed.",
+     "The sheet lies beside the file: `pictures-changes.png` for `pictures.hash`, with the old picture, the new one "
+     "and "
+     "their difference for the first 40 models that changed. A hash cannot be turned back into a picture: the old one "
+     "is "
+     "shown if `--pictures` kept it.",
+     .store = store_switch, .others = "renew accept bless", FIELD(hash.update)},
+    {"pictures", 0, GROUP_HASH, "DIR", NULL, "Keep the pictures in this folder, for the sheet of the next `--update`.",
+     "Each is a PNG with the name of its model: `DIR/models/koala.obj.png`. Written with `-o` and with `--update`, "
+     "read "
+     "by "
+     "`--update`. It need not be in the repository: a cache of the continuous integration will do.",
+     .kind = VALUE_FILE, .store = store_text, .others = "keep cache-dir baseline", FIELD(hash.pictures)},
+
+    {"thumbnail", 0, GROUP_CONVERT, NULL, NULL, "Put a picture of the model into the GLB file.",
+     "512x512 pixels, as `lambent MODEL` draws it, in `asset.thumbnail`: an index into `images`, from the draft of "
+     "glTF 2.1. "
+     "Programs that do not know it ignore it.",
+     .store = store_switch, .others = "preview icon", FIELD(convert.thumbnail)},
 
     {"sheet", 0, GROUP_SHEET, "NAME", "summary",
      "The sheet: summary, terms, stages, light, ambient, frames or surfaces.", NULL, sheet_words, .store = store_word,

@@ -67,9 +67,9 @@ bool options_copy(struct options *to, const struct options *from)
     return ok;
 }
 
-bool option_is_taken(const struct option *option, unsigned groups)
+bool option_is_taken(const struct option *option, uint64_t groups)
 {
-    return groups & (1u << option->group | option->single) && !(option->of_file && groups & WRITES_NO_FILE);
+    return groups & (1ull << option->group | option->single) && !(option->of_file && groups & WRITES_NO_FILE);
 }
 
 static bool is_name(const char *word, const char *name, size_t length)
@@ -111,7 +111,7 @@ static bool is_one_of(const char *word, const char *const *words)
     return *words;
 }
 
-static bool unknown_long(const char *name, size_t length, unsigned groups, lam_error *error)
+static bool unknown_long(const char *name, size_t length, uint64_t groups, lam_error *error)
 {
     char typed[64];
     snprintf(typed, sizeof typed, "%.*s", (int)(length < 60 ? length : 60), name);
@@ -129,7 +129,7 @@ static bool unknown_long(const char *name, size_t length, unsigned groups, lam_e
 }
 
 // A letter is suggested only by its own row: those that are near by spelling mean nothing.
-static bool unknown_letter(const char *word, char letter, unsigned groups, lam_error *error)
+static bool unknown_letter(const char *word, char letter, uint64_t groups, lam_error *error)
 {
     const char typed[2] = {letter, 0};
     if (letter >= '0' && letter <= '9')
@@ -273,7 +273,7 @@ static bool does_not_apply(const struct option *option, const struct option *typ
                     option->name, takers);
 }
 
-static bool apply(const struct option *typed, const char *value, unsigned groups, struct options *options,
+static bool apply(const struct option *typed, const char *value, uint64_t groups, struct options *options,
                   lam_error *error)
 {
     const struct option *option = option_is_taken(typed, groups) || !typed->several ? meant_by(typed, value) : typed;
@@ -321,7 +321,7 @@ static const char *next_value(const struct option *option, int count, char **wor
 }
 
 // "--name", "--name=value" or "--name value".
-static bool read_long(int count, char **words, int *at, unsigned groups, struct options *options, lam_error *error)
+static bool read_long(int count, char **words, int *at, uint64_t groups, struct options *options, lam_error *error)
 {
     const char *name = words[*at] + 2;
     size_t length = strcspn(name, "=");
@@ -340,7 +340,7 @@ static bool read_long(int count, char **words, int *at, unsigned groups, struct 
 }
 
 // "-q", "-qv", "-ofile" or "-o file".
-static bool read_letters(int count, char **words, int *at, unsigned groups, struct options *options, lam_error *error)
+static bool read_letters(int count, char **words, int *at, uint64_t groups, struct options *options, lam_error *error)
 {
     size_t length = strcspn(words[*at] + 1, "="); // -v is a letter, also where an option has the name --v
     const struct option *whole = length > 1 ? find_long(words[*at] + 1, length) : NULL;
@@ -405,7 +405,7 @@ static bool has_long_dash(const char *word)
     return strncmp(word, "–", 3) == 0 || strncmp(word, "—", 3) == 0 || strncmp(word, "−", 3) == 0;
 }
 
-int options_parse(int count, char **words, unsigned groups, struct options *options, lam_error *error)
+int options_parse(int count, char **words, uint64_t groups, struct options *options, lam_error *error)
 {
     int operands = 0;
     for (int at = 0; at < count; at++) {

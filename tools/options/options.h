@@ -27,6 +27,8 @@ struct options {
     struct batch_options batch;
     struct viewer_options viewer;
     struct diff_options diff;
+    struct hash_options hash;
+    struct convert_options convert;
     struct captions_options captions;
     struct sheet_options sheet;
     struct plot_options plot;
@@ -40,21 +42,21 @@ struct options {
 };
 
 // Options that a command accepts without the rest of their group: bits above those of the groups.
-enum {
-    TAKES_OUTPUT = 1u << 24,
-    TAKES_JSON = 1u << 25,
-    TAKES_QUIET = 1u << 26,
-    TAKES_SIZE = 1u << 27,
-    TAKES_FILES = 1u << 28,
-    TAKES_THREADS = 1u << 29,
-    TAKES_MEMORY = 1u << 30,
-    TAKES_PICTURE_LIMITS = 1u << 23,
-    TAKES_REPORT = 1u << 22,
-    TAKES_TERM = 1u << 21,
-    TAKES_TITLE = 1u << 20,
-};
+#define TAKES_OUTPUT         (1ull << 40)
+#define TAKES_JSON           (1ull << 41)
+#define TAKES_QUIET          (1ull << 42)
+#define TAKES_SIZE           (1ull << 43)
+#define TAKES_FILES          (1ull << 44)
+#define TAKES_THREADS        (1ull << 45)
+#define TAKES_MEMORY         (1ull << 46)
+#define TAKES_PICTURE_LIMITS (1ull << 47)
+#define TAKES_REPORT         (1ull << 48)
+#define TAKES_TERM           (1ull << 49)
+#define TAKES_TITLE          (1ull << 50)
+#define TAKES_MANY           (1ull << 51)
+#define TAKES_UP             (1ull << 52)
 // A command that writes no file of its own: of its groups it accepts all but the options that say where and how one is written.
-#define WRITES_NO_FILE (1u << 31)
+#define WRITES_NO_FILE (1ull << 63)
 
 // The background of the sheets of `compare` and `materials`, unless the command line names another.
 #define SHEET_BACKGROUND "white"
@@ -79,6 +81,8 @@ enum option_group {
     GROUP_SHADER,
     GROUP_SHAPE,
     GROUP_VIEWER,
+    GROUP_HASH,
+    GROUP_CONVERT,
     GROUP_ABOUT, // accepted by every command
     GROUP_COUNT,
 };
@@ -119,7 +123,7 @@ struct option {
     bool (*store)(const struct option *option, const char *value, struct options *options, lam_error *error);
     size_t field, has_field;    // has_field: a bool to set as well (words and numbers); 0: none
     double min, max;            // for numbers without a setting, which has its own
-    unsigned single;            // TAKES_…, if commands may accept it without its group
+    uint64_t single;            // TAKES_…, if commands may accept it without its group
     const char *brief;          // for -h: a few words; NULL: not shown there
     size_t letter_field;        // a bool to set as well where the option is given by its letter; 0: none
     const char *alias;          // another long name that is the same; NULL: none
@@ -164,11 +168,11 @@ const char *option_words_list(const struct option *option, char text[OPTION_WORD
 bool option_given(const struct options *options, const char *name);
 
 // True if a command accepts an option: `groups` has bit g set for each group accepted as a whole, and TAKES_… bits.
-bool option_is_taken(const struct option *option, unsigned groups);
+bool option_is_taken(const struct option *option, uint64_t groups);
 
 // Parses the words of a command line (without the program's and the command's name). `groups` as above. Moves the
 // operands to the front of `words` and returns their number; −1: LAM_BAD_ARGUMENT.
-int options_parse(int count, char **words, unsigned groups, struct options *options, lam_error *error);
+int options_parse(int count, char **words, uint64_t groups, struct options *options, lam_error *error);
 
 // Parsers of values, for the table's `store`; the comments name the type of the field.
 bool store_switch(const struct option *, const char *, struct options *, lam_error *);       // bool

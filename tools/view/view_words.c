@@ -112,7 +112,7 @@ bool view_words_parse(struct view_words *w, const char *text, size_t size, const
         return complain(error, LAM_BAD_ARGUMENT, "no model given, expected its path");
     w->page_model = w->words[0];
     int operands =
-        options_parse(count - 1, w->words + 1, command_table[COMMAND_render].groups | 1u << GROUP_SHAPE, out, error);
+        options_parse(count - 1, w->words + 1, command_table[COMMAND_render].groups | 1ull << GROUP_SHAPE, out, error);
     if (operands > 0)
         return complain(error, LAM_BAD_ARGUMENT, "unexpected argument '%.100s', expected one model", w->words[1]);
     if (operands < 0 || !check(out, error) || !job_check_formula(w->page_model, out, error) ||

@@ -64,7 +64,7 @@ static bool start(int count, struct options *options, struct job *job, lam_error
         at += strlen(at) + 1;
     }
     const struct command *render = &command_table[COMMAND_render];
-    int operands = words ? options_parse(count, words, render->groups | 1u << GROUP_SHAPE, options, error) : -1;
+    int operands = words ? options_parse(count, words, render->groups | 1ull << GROUP_SHAPE, options, error) : -1;
     if (!words)
         complain(error, LAM_LIMIT, "out of memory");
     else if (operands >= 0 && operands != 1)

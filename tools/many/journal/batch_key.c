@@ -141,6 +141,54 @@ char *batch_options_text(const struct options *o, lam_error *error)
     return NULL;
 }
 
+// A word as a shell takes it.
+static void put_word(FILE *out, const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,./:@%";
+    bool quotes = !*word || word[strspn(word, plain)];
+    if (!quotes) {
+        fputs(word, out);
+        return;
+    }
+    putc('\'', out);
+    for (; *word; word++)
+        if (*word == '\'')
+            fputs("'\\''", out);
+        else
+            putc(*word == '\n' || *word == '\r' ? ' ' : *word, out);
+    putc('\'', out);
+}
+
+static void put_given(FILE *out, const struct option *option, const struct options *o)
+{
+    const struct texts *texts = is_texts(option) ? (const struct texts *)((const char *)o + option->field) : NULL;
+    const char *value = o->values[option - option_table];
+    int count = texts ? texts->count : 1;
+    for (int i = 0; i < count; i++) {
+        fprintf(out, "%s--%s", ftell(out) ? " " : "", option->name);
+        if (texts || value) {
+            putc(' ', out);
+            put_word(out, texts ? texts->items[i] : value);
+        }
+    }
+}
+
+char *batch_options_given(const struct options *o)
+{
+    static const char *const own[] = {"size", "view", "look", NULL};
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    for (const struct option *option = option_table; out && option->name; option++)
+        if (o->given[option - option_table] && !o->by_look[option - option_table] &&
+            (changes_picture(option) || is_in(own, option->name)))
+            put_given(out, option, o);
+    if (out && fclose(out) == 0)
+        return text;
+    free(text);
+    return NULL;
+}
+
 // A line as an option is typed.
 static int typed(const char *line, char *text, size_t size)
 {

@@ -8,6 +8,10 @@
 // files that they name stand with their hash. From malloc; NULL: see `error` (LAM_CANNOT_READ: such a file).
 char *batch_options_text(const struct options *options, lam_error *error);
 
+// The options of the command line that change the picture, as they are typed: "--size 256 --light 'eye=1/2/3'". Relative paths stay as
+// they are. From malloc; NULL: out of memory.
+char *batch_options_given(const struct options *options);
+
 // The options of both texts that differ first, as "--size 512 … --size 256": for a sentence. The texts differ.
 void batch_options_difference(const char *then, const char *now, char text[300]);
 

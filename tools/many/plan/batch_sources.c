@@ -172,6 +172,11 @@ bool batch_add_folder(struct batch_plan *plan, const char *folder, lam_error *er
             complain(error, LAM_CANNOT_READ, "%s: found no model in the folder or below it", folder));
 }
 
+bool batch_add_folder_if_any(struct batch_plan *plan, const char *folder, lam_error *error)
+{
+    return add_folder(plan, folder, folder, error);
+}
+
 bool batch_add_operand(struct batch_plan *plan, const char *operand, lam_error *error)
 {
     struct stat found;

@@ -11,6 +11,9 @@ bool batch_add_operand(struct batch_plan *plan, const char *operand, lam_error *
 // Adds the models of a folder and of all below it. Errors: LAM_CANNOT_READ (also where it has none), LAM_LIMIT.
 bool batch_add_folder(struct batch_plan *plan, const char *folder, lam_error *error);
 
+// The same, and a folder without models is no error.
+bool batch_add_folder_if_any(struct batch_plan *plan, const char *folder, lam_error *error);
+
 // Adds the models of a list, one on each line; "-": standard input.
 bool batch_add_list(struct batch_plan *plan, const char *path, lam_error *error);
 

@@ -255,6 +255,7 @@ struct reading {
     struct timespec start; // of the clock that file systems use
     struct files files;
     bool hashed;
+    json_t *found; // by the use of the picture; NULL: it is written
 };
 
 // Prints and records what became of a picture.
@@ -298,6 +299,8 @@ static void finish_picture(struct reading *r, struct job *job, int view, bool ok
         r->files.changed |= !hash_files(job, &r->start, &r->files);
     }
     r->result->records[view] = record_of(r->item, view, job, error, &r->files);
+    if (r->found)
+        json_object_update(r->result->records[view], r->found);
 }
 
 static bool may_read(const struct batch_item *item, lam_error *error)
@@ -355,13 +358,17 @@ static void draw(struct reading *r)
         lam_error error = {0};
         job.output = item->outputs[0];
         bool ok = may_read(item, &error);
-        ok = ok && (animation_wanted(job.options) ? animation_run(&job, &progress, &error)
-                    : page_wanted(&job)           ? page_run(&job, &progress, &error)
-                                                  : job_run(&job, &progress, &error));
+        const struct batch_use *use = item->use;
+        r->found = use ? json_object() : NULL;
+        ok = ok && (use ? use->draw(use->user, item->index, &job, &progress, r->found, &error)
+                    : animation_wanted(job.options) ? animation_run(&job, &progress, &error)
+                    : page_wanted(&job)             ? page_run(&job, &progress, &error)
+                                                    : job_run(&job, &progress, &error));
         progress_end(&progress);
         finish_picture(r, &job, 0, ok, &error);
     }
     job_free(&job);
+    json_decref(r->found);
     free(r->files.hashes);
     free(r->files.texts);
 }

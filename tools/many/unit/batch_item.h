@@ -5,7 +5,7 @@
 #include <jansson.h>
 #include <stdio.h>
 
-#include "job.h"
+#include "batch_use.h"
 
 // A model to draw.
 struct batch_item {
@@ -20,9 +20,11 @@ struct batch_item {
     lam_bytes *contents;          // receive the pictures' files in place of the paths; NULL: they are written
     const int *attempts;          // which try each of them is, from 1
     int view_count;
-    bool several;             // of the command line: views or sizes, which are not the options' own
-    bool makes_folders;       // of pictures that the options name, too
-    const lam_cancel *cancel; // stops it; NULL: Ctrl-C does
+    bool several;                // of the command line: views or sizes, which are not the options' own
+    bool makes_folders;          // of pictures that the options name, too
+    const lam_cancel *cancel;    // stops it; NULL: Ctrl-C does
+    const struct batch_use *use; // takes the picture; NULL: it is written
+    size_t index;                // of the model in the plan, for `use`
 };
 
 // Who draws it.

@@ -40,8 +40,9 @@ struct batch {
     const struct batch_plan *plan; // without models where jobs come
     const struct options *options;
     bool is_batch;
-    char *options_text;      // NULL: no keys
-    struct batch_jobs *jobs; // --jobs (batch_jobs.h); NULL: the plan has all models
+    char *options_text;          // NULL: no keys
+    struct batch_jobs *jobs;     // --jobs (batch_jobs.h); NULL: the plan has all models
+    const struct batch_use *use; // of the pictures; NULL: they are written
     enum journal_way way;
     struct journal *journal;
     int workers, threads;                   // threads of each worker

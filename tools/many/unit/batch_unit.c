@@ -191,7 +191,7 @@ static struct batch_item item_of(const struct batch_unit *u, const struct batch 
     }
     return (struct batch_item){.options = o,
                                .options_text = task->options_text,
-                               .has_records = b->options_text || task->job,
+                               .has_records = b->options_text || task->job || b->use,
                                .model = task->plan->models[task->model].path,
                                .leads_out = task->plan->models[task->model].leads_out,
                                .model_bytes = task->job && task->job->bytes.data ? &task->job->bytes : NULL,
@@ -201,6 +201,8 @@ static struct batch_item item_of(const struct batch_unit *u, const struct batch 
                                .makes_folders = task->job != NULL,
                                .attempts = attempts,
                                .view_count = count,
+                               .use = b->use,
+                               .index = task->model,
                                .several = o->batch.view_count || o->batch.size_count};
 }
 

@@ -1,5 +1,5 @@
-// diff.c: the command `diff`: the difference of two pictures, as numbers and as a picture.
-#include "command.h"
+// diff_pictures.c: `lambent diff` of two pictures: the difference of two pictures, as numbers and as a picture.
+#include "diff.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,8 +29,7 @@ static bool load_pair(struct pair *pair, const struct options *o, lam_error *err
         if (!lam_image_load(&pair->image[i], pair->name[i], &control, error)) {
             size_t used = strlen(error->text);
             if (is_model_name(pair->name[i]))
-                snprintf(error->text + used, sizeof error->text - used,
-                         "; diff compares pictures: draw the models first");
+                snprintf(error->text + used, sizeof error->text - used, "; diff compares two pictures, or two models");
             return false;
         }
     const lam_image *a = &pair->image[0], *b = &pair->image[1];
@@ -117,9 +116,8 @@ static void print_text(FILE *file, const struct pair *pair, const struct options
                                 : "different");
 }
 
-int run_diff(int operand_count, char **operands, const struct options *options)
+int diff_pictures(char **operands, const struct options *options)
 {
-    (void)operand_count;
     struct pair pair = {.name = {operands[0], operands[1]}};
     bool to_stdout = options->picture.output && strcmp(options->picture.output, "-") == 0;
     lam_error error = {0};

@@ -1,0 +1,95 @@
+// export.c: the front of all writers of model formats.
+#include "export.h"
+
+#include "fail.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define EXPORTER_ADDRESS(name) &exporter_##name,
+static const struct exporter *const exporters[] = {EXPORTERS(EXPORTER_ADDRESS)};
+enum { COUNT = (int)(sizeof exporters / sizeof *exporters) };
+
+const char *lam_export_format(int index) { return index >= 0 && index < COUNT ? exporters[index]->ending : NULL; }
+
+const struct exporter *exporter_find(const char *ending, const char *path, lam_error *error)
+{
+    char list[8 * COUNT + 8] = "";
+    for (int i = 0; i < COUNT; i++) {
+        if (strcmp(ending, exporters[i]->ending) == 0)
+            return exporters[i];
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s.%s",
+                 i == 0           ? ""
+                 : i + 1 == COUNT ? " or "
+                                  : ", ",
+                 exporters[i]->ending);
+    }
+    fail(error, LAM_UNSUPPORTED, "%s: found the ending '%.20s', expected %s", path, ending, list);
+    return NULL;
+}
+
+// --- the call
+
+// Turns the text into the first file.
+static bool finish(struct exporting *e, const char *ending)
+{
+    struct lam_export *out = e->out;
+    lam_bytes bytes = {e->text.bytes, e->text.length};
+    if (e->text.failed) {
+        if (e->error)
+            *e->error = e->text.error;
+        return false;
+    }
+    e->text.bytes = NULL;
+    char dotted[16];
+    snprintf(dotted, sizeof dotted, ".%s", ending);
+    if (!export_add_file(e, dotted, bytes))
+        return false;
+    struct export_file *files = out->files.items, model = files[out->files.count - 1];
+    memmove(files + 1, files, (size_t)(out->files.count - 1) * sizeof *files);
+    files[0] = model;
+    return true;
+}
+
+lam_export *lam_scene_export(const lam_scene *scene, const char *format, const lam_export_params *params,
+                             lam_error *error)
+{
+    static const lam_export_params none;
+    params = params ? params : &none;
+    if (!scene || !format) {
+        fail(error, LAM_BAD_ARGUMENT, "lam_scene_export: %s is NULL", scene ? "format" : "scene");
+        return NULL;
+    }
+    if (!check_reserved("lam_export_params", params, error))
+        return NULL;
+    const struct exporter *exporter = exporter_find(format, format, error);
+    if (!exporter)
+        return NULL;
+    if (params->thumbnail && exporter != &exporter_glb) {
+        fail(error, LAM_BAD_ARGUMENT, "lam_scene_export: found a thumbnail, and .%s has none; expected .glb", format);
+        return NULL;
+    }
+    struct arena arena;
+    arena_start(&arena, NULL);
+    struct lam_export *out = arena_alloc_zeroed(&arena, sizeof *out);
+    if (!out) {
+        fail_memory(error, sizeof *out);
+        return NULL;
+    }
+    out->arena = arena;
+    struct exporting e = {.scene = scene,
+                          .params = params,
+                          .name = params->name ? params->name : "model",
+                          .arena = &out->arena,
+                          .out = out,
+                          .from = lam_scene_up(scene),
+                          .to = exporter->up,
+                          .error = error};
+    bool ok = (!exporter->flat || export_flatten(&e)) && exporter->write(&e) && finish(&e, format);
+    free(e.text.bytes);
+    if (ok)
+        return out;
+    lam_export_free(out);
+    return NULL;
+}

@@ -1,0 +1,121 @@
+// export_result.c: the result of an export: its files, and sentences about what they do not hold.
+#include "export.h"
+
+#include "fail.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+bool export_no_memory(struct exporting *e, size_t bytes) { return fail_memory(e->error, bytes); }
+
+// --- losses
+
+static bool append(struct lam_export *out, struct scene_list *list, const void *item, size_t size)
+{
+    if (list->count == list->capacity) {
+        int capacity = list->capacity ? 2 * list->capacity : 8;
+        void *more = arena_array(&out->arena, (size_t)capacity, size);
+        if (!more)
+            return false;
+        if (list->count)
+            memcpy(more, list->items, (size_t)list->count * size);
+        list->items = more;
+        list->capacity = capacity;
+    }
+    memcpy((char *)list->items + (size_t)list->count++ * size, item, size);
+    return true;
+}
+
+void export_lose(struct exporting *e, const char *format, ...)
+{
+    if (!e->out)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    const char *text = arena_vformat(&e->out->arena, format, arguments);
+    va_end(arguments);
+    for (int i = 0; text && i < e->out->losses.count; i++)
+        if (strcmp(((const char *const *)e->out->losses.items)[i], text) == 0)
+            return;
+    if (text)
+        append(e->out, &e->out->losses, &text, sizeof text);
+}
+
+void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras)
+{
+    const struct lam_scene *s = e->scene;
+    if (!s)
+        return;
+    if (!has_lights_and_cameras && s->lights.count)
+        export_lose(e, "lights are left out (%d): the format has none", s->lights.count);
+    if (!has_lights_and_cameras && (s->cameras.count || e->params->camera))
+        export_lose(e, "cameras are left out (%d): the format has none",
+                    s->cameras.count + (e->params->camera != NULL));
+    if (s->environment)
+        export_lose(e, "the environment is left out: the format has none");
+    if (s->ambient.r > 0 || s->ambient.g > 0 || s->ambient.b > 0)
+        export_lose(e, "the ambient light is left out: the format has none");
+    if (s->file.animation_count)
+        export_lose(e, "animations are left out (%d): the file has the pose that was read", s->file.animation_count);
+    if (s->file.variant_count)
+        export_lose(e, "variants of materials are left out (%d): the file has those that were read",
+                    s->file.variant_count);
+}
+
+// --- files
+
+const char *export_add_file(struct exporting *e, const char *ending, lam_bytes bytes)
+{
+    const char *dot = strrchr(e->name, '.');
+    size_t stem = dot ? (size_t)(dot - e->name) : strlen(e->name), length = stem + strlen(ending) + 1;
+    struct export_file file = {arena_alloc(e->arena, length), bytes};
+    if (file.name)
+        snprintf(file.name, length, "%.*s%s", (int)stem, e->name, ending);
+    if (file.name && append(e->out, &e->out->files, &file, sizeof file))
+        return file.name;
+    lam_bytes_free(&bytes);
+    export_no_memory(e, length);
+    return NULL;
+}
+
+static const struct export_file *file_at(const struct lam_export *result, int index)
+{
+    return result && index >= 0 && index < result->files.count ? (const struct export_file *)result->files.items + index
+                                                               : NULL;
+}
+
+const char *lam_export_file_name(const lam_export *result, int index)
+{
+    const struct export_file *file = file_at(result, index);
+    return file ? file->name : NULL;
+}
+
+lam_bytes lam_export_file(const lam_export *result, int index)
+{
+    const struct export_file *file = file_at(result, index);
+    return file ? file->bytes : (lam_bytes){0};
+}
+
+const char *lam_export_loss(const lam_export *result, int index)
+{
+    return result && index >= 0 && index < result->losses.count ? ((const char *const *)result->losses.items)[index]
+                                                                : NULL;
+}
+
+void lam_export_free(lam_export *result)
+{
+    if (!result)
+        return;
+    for (int i = 0; i < result->files.count; i++)
+        lam_bytes_free(&((struct export_file *)result->files.items)[i].bytes);
+    struct arena arena = result->arena; // which holds the result itself
+    arena_free(&arena);
+}
+
+const lam_material *export_material(const struct exporting *e, int index)
+{
+    const struct lam_scene *s = e->scene;
+    return index >= 0 && index < s->materials.count ? (const lam_material *)s->materials.items + index
+                                                    : &s->default_material;
+}

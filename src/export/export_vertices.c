@@ -1,0 +1,154 @@
+// export_vertices.c: formats with one number for all attributes of a corner: corners that have the same ones share a vertex. And the
+// colours and pictures of what is written.
+#include "export.h"
+
+#include "srgb.h"
+#include "texture_levels.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { ATTRIBUTES = 6 };
+
+// The elements of a corner's attributes.
+struct corner {
+    uint32_t elements[ATTRIBUTES];
+};
+
+uint32_t export_color_element(const lam_mesh *m, size_t corner)
+{
+    return m->colors_rate == LAM_PER_TRIANGLE ? (uint32_t)(corner / 3) : export_element(m->color_indices, m, corner);
+}
+
+static struct corner corner_of(const lam_mesh *m, size_t c)
+{
+    return (struct corner){{export_element(NULL, m, c), m->normals ? export_element(m->normal_indices, m, c) : 0,
+                            m->texcoords ? export_element(m->texcoord_indices, m, c) : 0,
+                            m->second_texcoords ? export_element(m->second_texcoord_indices, m, c) : 0,
+                            m->tangents ? export_element(m->tangent_indices, m, c) : 0,
+                            m->colors ? export_color_element(m, c) : 0}};
+}
+
+static size_t slot_of(const struct corner *corner, size_t slots)
+{
+    uint64_t hash = 0;
+    for (int i = 0; i < ATTRIBUTES; i++)
+        hash = (hash ^ corner->elements[i]) * UINT64_C(0x9e3779b97f4a7c15) + (hash >> 29);
+    return (size_t)(hash >> 20) & (slots - 1);
+}
+
+bool export_share_vertices(struct exporting *e, const lam_mesh *mesh, struct export_vertices *out)
+{
+    size_t corners = mesh_corners(mesh), slots = 64;
+    while (slots < 2 * corners)
+        slots *= 2;
+    uint32_t *firsts = arena_array(e->arena, corners + 1, sizeof *firsts), *table = malloc(slots * sizeof *table),
+             *numbers = arena_array(e->arena, corners + 1, sizeof *numbers), count = 0;
+    if (!firsts || !table || !numbers) {
+        free(table);
+        return export_no_memory(e, corners * 8 + slots * 4);
+    }
+    memset(table, 0xff, slots * sizeof *table);
+    for (size_t c = 0; c < corners; c++) {
+        struct corner corner = corner_of(mesh, c);
+        size_t slot = slot_of(&corner, slots);
+        for (; table[slot] != UINT32_MAX; slot = (slot + 1) & (slots - 1)) {
+            struct corner other = corner_of(mesh, firsts[table[slot]]);
+            if (memcmp(&other, &corner, sizeof corner) == 0)
+                break;
+        }
+        if (table[slot] == UINT32_MAX) {
+            table[slot] = count;
+            firsts[count++] = (uint32_t)c;
+        }
+        numbers[c] = table[slot];
+    }
+    free(table);
+    *out = (struct export_vertices){count, firsts, numbers};
+    return true;
+}
+
+// --- colours
+
+void export_color(const lam_mesh *mesh, size_t element, float color[4])
+{
+    size_t at = 4 * element;
+    if (mesh->colors_format == LAM_COLORS_LINEAR_F32) {
+        memcpy(color, (const float *)mesh->colors + at, 4 * sizeof *color);
+        return;
+    }
+    const uint8_t *bytes = (const uint8_t *)mesh->colors + at;
+    for (int i = 0; i < 4; i++) {
+        double share = bytes[i] / 255.0;
+        color[i] = (float)(i < 3 && mesh->colors_format == LAM_COLORS_SRGB8 ? srgb_linear(share) : share);
+    }
+}
+
+// The byte whose light is nearest: it is found by halving, since the curve grows.
+static uint8_t encoded(float light)
+{
+    int low = 0, high = 255;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (srgb_linear((middle + 0.5) / 255) < (double)light)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return (uint8_t)low;
+}
+
+// The number that OBJ and MTL have for a channel of light: sRGB-encoded below 1. Their reader rounds it to a float and decodes it; of all floats
+// between 0 and 1 this is the first whose light is not below, so that a colour which came from such a file gets its own number. Most are bytes.
+double export_encoded(float light)
+{
+    uint32_t low = 0, high = 0x3f800000; // the bits of 0 and 1
+    if (!(light > 0) || light >= 1)
+        return light > 0 ? (double)light : 0;
+    float number = (float)(encoded(light) / 255.0);
+    if ((float)srgb_linear((double)number) == light)
+        return (double)number;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        memcpy(&number, &middle, sizeof number);
+        if ((float)srgb_linear((double)number) < light)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    memcpy(&number, &low, sizeof number);
+    return (double)number;
+}
+
+void export_color_bytes(const lam_mesh *mesh, size_t element, uint8_t bytes[4])
+{
+    float color[4];
+    if (mesh->colors_format == LAM_COLORS_SRGB8) {
+        memcpy(bytes, (const uint8_t *)mesh->colors + 4 * element, 4);
+        return;
+    }
+    export_color(mesh, element, color);
+    for (int i = 0; i < 3; i++)
+        bytes[i] = encoded(color[i]);
+    float alpha = color[3] > 0 ? color[3] < 1 ? color[3] : 1 : 0;
+    bytes[3] = (uint8_t)(alpha * 255 + 0.5f);
+}
+
+// --- pictures
+
+bool export_texture(struct exporting *e, const lam_texture *texture, lam_bytes *png)
+{
+    const struct texture_level *level = &texture->levels[0];
+    *png = (lam_bytes){0};
+    if (!texture->bytes) {
+        export_lose(e, "the picture %s is left out: it has more than 8 bits a channel, which PNG in a model has not",
+                    texture->name ? texture->name : "of a material");
+        return false;
+    }
+    lam_image image = {.width = level->width,
+                       .height = level->height,
+                       .pixels = (void *)(uintptr_t)texture->bytes,
+                       .format = texture->channels == 3 ? LAM_RGB8 : LAM_RGBA8};
+    lam_save_params params = {.raw = texture->values == LAM_TEXTURE_NUMBERS};
+    return lam_image_encode(&image, "png", &params, png, e->error);
+}

@@ -1,0 +1,190 @@
+// glb_materials.c: materials as metallic-roughness ones of glTF, with the extensions of their layers.
+#include "glb.h"
+
+#include "khr_layers.h"
+#include "texture_levels.h"
+
+#include <string.h>
+
+static float scale_of(const lam_texture_map *map) { return map->scale == 0 ? 1 : map->scale; }
+
+// A map that its slot in glTF has in one form alone: a channel, and neither scale nor offset.
+static const lam_texture_map *usual(struct glb *glb, const lam_material *m, lam_map slot, int channel)
+{
+    const lam_texture_map *map = m->maps[slot];
+    if (!map || (scale_of(map) == 1 && map->offset == 0 && (channel < 0 || map->channel == channel)))
+        return map;
+    export_lose(glb->e, "%s maps with another channel, scale or offset than glTF's are left out", lam_map_name(slot));
+    return NULL;
+}
+
+static void set_texture(struct glb *glb, json_t *object, const char *key, const lam_texture_map *map)
+{
+    json_t *info = glb_texture(glb, map);
+    if (info)
+        glb_set(glb, object, key, info);
+}
+
+static bool same_place(const lam_texture_map *a, const lam_texture_map *b)
+{
+    return a->texture == b->texture && a->texcoords == b->texcoords && a->wrap_s == b->wrap_s &&
+           a->wrap_t == b->wrap_t && memcmp(a->transform, b->transform, sizeof a->transform) == 0;
+}
+
+// One picture has the roughness in its green and the metalness in its blue.
+static const lam_texture_map *metallic_roughness(struct glb *glb, const lam_material *m)
+{
+    const lam_texture_map *metallic = usual(glb, m, LAM_MAP_METALLIC, 2),
+                          *roughness = usual(glb, m, LAM_MAP_ROUGHNESS, 1);
+    if ((metallic && roughness && same_place(metallic, roughness)) || (roughness && !metallic && m->metallic == 0))
+        return roughness;
+    if (metallic || roughness)
+        export_lose(glb->e,
+                    "metalness and roughness maps that are not one picture are left out: glTF has one for both");
+    return NULL;
+}
+
+static void put_metallic(struct glb *glb, json_t *object, const lam_material *m)
+{
+    json_t *pbr = json_object();
+    const float base[4] = {m->diffuse.r, m->diffuse.g, m->diffuse.b, m->diffuse.a};
+    glb_set(glb, pbr, "baseColorFactor", glb_floats(glb, base, 4));
+    glb_set(glb, pbr, "metallicFactor", json_real((double)m->metallic));
+    glb_set(glb, pbr, "roughnessFactor", json_real((double)m->roughness));
+    set_texture(glb, pbr, "baseColorTexture", usual(glb, m, LAM_MAP_DIFFUSE, -1));
+    set_texture(glb, pbr, "metallicRoughnessTexture", metallic_roughness(glb, m));
+    glb_set(glb, object, "pbrMetallicRoughness", pbr);
+}
+
+// KHR_materials_pbrSpecularGlossiness: the importer made f0 of its specular colour, and roughness of 1 − glossiness.
+static void put_glossy(struct glb *glb, json_t *object, const lam_material *m)
+{
+    json_t *glossy = glb_extension(glb, object, "KHR_materials_pbrSpecularGlossiness");
+    const float base[4] = {m->diffuse.r, m->diffuse.g, m->diffuse.b, m->diffuse.a};
+    const lam_texture_map *roughness = m->maps[LAM_MAP_ROUGHNESS];
+    double glossiness = roughness ? -(double)roughness->scale : 1 - (double)m->roughness;
+    glb_set(glb, glossy, "diffuseFactor", glb_floats(glb, base, 4));
+    glb_set(glb, glossy, "specularFactor", glb_floats(glb, &m->f0_color.r, 3));
+    glb_set(glb, glossy, "glossinessFactor", json_real(glossiness));
+    set_texture(glb, glossy, "diffuseTexture", usual(glb, m, LAM_MAP_DIFFUSE, -1));
+    set_texture(glb, glossy, "specularGlossinessTexture", usual(glb, m, LAM_MAP_F0_COLOR, -1));
+}
+
+static void put_layers(struct glb *glb, json_t *object, const lam_material *m)
+{
+    const lam_material standard = lam_material_default();
+    for (int i = 0; i < KHR_NUMBERS; i++) {
+        const struct khr_number *row = &khr_numbers[i];
+        const float *own = (const float *)(const void *)((const char *)m + row->offset),
+                    *usual_value = (const float *)(const void *)((const char *)&standard + row->offset);
+        if (memcmp(own, usual_value, (size_t)row->count * sizeof *own) == 0)
+            continue;
+        glb_set(glb, glb_extension(glb, object, row->extension), row->key,
+                row->count == 1 ? json_real((double)*own) : glb_floats(glb, own, row->count));
+    }
+    for (int i = 0; i < KHR_MAPS; i++) {
+        const struct khr_map *row = &khr_maps[i];
+        bool normal = row->slot == LAM_MAP_CLEARCOAT_NORMAL;
+        const lam_texture_map *map =
+            normal ? m->maps[row->slot]
+                   : usual(glb, m, row->slot, row->values == LAM_TEXTURE_NUMBERS ? row->channel : -1);
+        json_t *info = glb_texture(glb, map);
+        if (!info)
+            continue;
+        if (normal && scale_of(map) != 1)
+            glb_set(glb, info, "scale", json_real((double)map->scale));
+        glb_set(glb, glb_extension(glb, object, row->extension), row->key, info);
+    }
+}
+
+static void put_other_maps(struct glb *glb, json_t *object, const lam_material *m)
+{
+    const lam_texture_map *normal = m->maps[LAM_MAP_NORMAL], *occlusion = m->maps[LAM_MAP_OCCLUSION];
+    json_t *info = glb_texture(glb, normal);
+    if (info && scale_of(normal) != 1)
+        glb_set(glb, info, "scale", json_real((double)normal->scale));
+    if (info)
+        glb_set(glb, object, "normalTexture", info);
+    if (occlusion && occlusion->channel != 0) {
+        export_lose(glb->e, "occlusion maps of another channel than red are left out: glTF has red alone");
+    } else if ((info = glb_texture(glb, occlusion))) {
+        if (scale_of(occlusion) != 1)
+            glb_set(glb, info, "strength", json_real((double)occlusion->scale));
+        glb_set(glb, object, "occlusionTexture", info);
+    }
+    set_texture(glb, object, "emissiveTexture", usual(glb, m, LAM_MAP_EMISSION, -1));
+    static const lam_map others[] = {LAM_MAP_AMBIENT, LAM_MAP_SPECULAR, LAM_MAP_SHININESS, LAM_MAP_OPACITY,
+                                     LAM_MAP_BUMP};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (m->maps[others[i]])
+            export_lose(glb->e, "%s maps are left out: glTF has none", lam_map_name(others[i]));
+}
+
+// Emission above 1 is a factor and a strength (KHR_materials_emissive_strength).
+static void put_emission(struct glb *glb, json_t *object, const lam_material *m)
+{
+    const float *e = &m->emission.r;
+    double strength = 1;
+    json_t *list = json_array();
+    for (int i = 0; i < 3; i++)
+        strength = (double)e[i] > strength ? (double)e[i] : strength;
+    for (int i = 0; i < 3; i++)
+        glb_add(glb, list, json_real((double)e[i] / strength));
+    if (e[0] > 0 || e[1] > 0 || e[2] > 0)
+        glb_set(glb, object, "emissiveFactor", json_incref(list));
+    json_decref(list);
+    if (strength > 1)
+        glb_set(glb, glb_extension(glb, object, "KHR_materials_emissive_strength"), "emissiveStrength",
+                json_real(strength));
+}
+
+static bool is_opaque(const lam_material *m)
+{
+    const lam_texture_map *map = m->maps[LAM_MAP_DIFFUSE];
+    return m->diffuse.a >= 1 && (!map || map->texture->opaque);
+}
+
+static void put_alpha(struct glb *glb, json_t *object, const lam_material *m, bool classic)
+{
+    // A classic material blends whatever its opacity is; glTF's viewers sort such surfaces, so it says so only if it must.
+    bool blends = m->alpha_mode == LAM_ALPHA_BLEND && !(classic && is_opaque(m));
+    if (blends || m->alpha_mode == LAM_ALPHA_MASK)
+        glb_set(glb, object, "alphaMode", json_string(blends ? "BLEND" : "MASK"));
+    if (m->alpha_mode == LAM_ALPHA_MASK)
+        glb_set(glb, object, "alphaCutoff", json_real((double)m->alpha_cutoff));
+}
+
+static json_t *material(struct glb *glb, const lam_material *source, bool double_sided)
+{
+    json_t *object = json_object();
+    lam_material m = lam_material_as_physical(source);
+    if (!source->physical && !source->unlit)
+        export_lose(glb->e, "classic materials become metallic-roughness ones: their highlights differ");
+    if (m.reflectivity.r > 0 || m.reflectivity.g > 0 || m.reflectivity.b > 0 || m.fibre ||
+        m.roughness_angle_rad != lam_material_default().roughness_angle_rad)
+        export_lose(glb->e, "reflectivity, Oren-Nayar's roughness and fibres of materials are left out: glTF has none");
+    glb_set_name(glb, object, m.name);
+    if (m.specular_glossiness > 0) {
+        put_glossy(glb, object, &m);
+    } else {
+        put_metallic(glb, object, &m);
+        put_layers(glb, object, &m);
+    }
+    put_other_maps(glb, object, &m);
+    put_emission(glb, object, &m);
+    put_alpha(glb, object, &m, !source->physical);
+    if (m.unlit)
+        glb_extension(glb, object, "KHR_materials_unlit");
+    if (double_sided)
+        glb_set(glb, object, "doubleSided", json_true());
+    return object;
+}
+
+int glb_material(struct glb *glb, int index, bool double_sided)
+{
+    int count = glb->e->scene->materials.count,
+        *number = &glb->material_index[double_sided][index >= 0 && index < count ? index : count];
+    if (*number < 0)
+        *number = glb_add(glb, glb->materials, material(glb, export_material(glb->e, index), double_sided));
+    return *number;
+}

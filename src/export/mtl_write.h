@@ -1,0 +1,24 @@
+// mtl_write.h: the materials of an OBJ file.
+#ifndef MTL_WRITE_H
+#define MTL_WRITE_H
+
+#include "export.h"
+
+struct mtl_names {
+    const char *file;         // of the materials; NULL: there is none
+    const char *const *names; // of each material of the scene, then of the default one; NULL: it is not used
+    int count;
+    // The texture coordinates are those of glTF, with t downwards: t is written as 1 − t.
+    bool flips;
+};
+
+// Writes the materials that e->flat uses to a file beside the model, with their pictures.
+bool mtl_write(struct exporting *e, struct mtl_names *out);
+
+// The name of a material; NULL: none.
+static inline const char *mtl_name(const struct mtl_names *names, int material)
+{
+    return names->file ? names->names[material >= 0 && material < names->count ? material : names->count] : NULL;
+}
+
+#endif

@@ -1,0 +1,153 @@
+// obj_write.c: triangles, lines and points as OBJ; its materials are mtl_write.c.
+#include "export.h"
+
+#include "fail.h"
+#include "mtl_write.h"
+
+#include <string.h>
+
+// The numbers of the next vertex, texture coordinate and normal, from 1: those of a kind follow those of the kind before.
+struct firsts {
+    unsigned long position, texcoord, normal;
+};
+
+static void put_vector(struct text *text, const char *word, lam_vec3 p)
+{
+    export_line(text, word, (double[3]){p.x, p.y, p.z}, 3);
+}
+
+// The colour of each vertex, NULL: there are none. OBJ has one for a position: a vertex whose corners have several keeps none.
+static bool find_colors(struct exporting *e, const lam_mesh *m, uint32_t **out)
+{
+    *out = NULL;
+    if (!m->colors)
+        return true;
+    uint32_t *elements = arena_array(e->arena, m->vertex_count, sizeof *elements);
+    if (!elements)
+        return export_no_memory(e, (size_t)m->vertex_count * sizeof *elements);
+    memset(elements, 0xff, (size_t)m->vertex_count * sizeof *elements);
+    for (size_t c = 0; c < mesh_corners(m); c++) {
+        uint32_t *own = &elements[export_element(NULL, m, c)], element = export_color_element(m, c);
+        const float *colors = m->colors, *other = colors + 4 * (size_t)*own;
+        if (*own == UINT32_MAX)
+            *own = element;
+        else if (memcmp(other, colors + 4 * (size_t)element, 3 * sizeof *colors) != 0) {
+            export_lose(e, "colours are left out: triangles that share a vertex have different ones, and OBJ has one");
+            return true;
+        }
+        if (colors[4 * (size_t)element + 3] < 1)
+            export_lose(e, "the opacity of vertices is left out: OBJ has none");
+    }
+    *out = elements;
+    return true;
+}
+
+static void put_position(struct exporting *e, const lam_mesh *m, uint32_t vertex, const uint32_t *colors)
+{
+    lam_vec3 p = export_position(e, m, vertex);
+    double numbers[6] = {p.x, p.y, p.z, 1, 1, 1};
+    for (int k = 0; colors && colors[vertex] != UINT32_MAX && k < 3; k++)
+        numbers[3 + k] = export_encoded(((const float *)m->colors)[4 * (size_t)colors[vertex] + (size_t)k]);
+    export_line(&e->text, "v", numbers, colors ? 6 : 3);
+}
+
+static void put_arrays(struct exporting *e, const lam_mesh *m, const uint32_t *colors, bool flips)
+{
+    struct text *text = &e->text;
+    for (uint32_t i = 0; i < m->vertex_count; i++)
+        put_position(e, m, i, colors);
+    for (uint32_t i = 0; m->texcoords && i < m->texcoord_count; i++) {
+        double s = (double)m->texcoords[2 * (size_t)i], t = (double)m->texcoords[2 * (size_t)i + 1];
+        export_line(text, "vt", (double[2]){s, flips ? 1 - t : t}, 2);
+    }
+    for (uint32_t i = 0; m->normals && i < m->normal_count; i++)
+        put_vector(text, "vn", export_normal(e, m, i));
+}
+
+static void put_corner(struct text *text, const lam_mesh *m, size_t c, struct firsts first)
+{
+    text_print(text, " %lu", export_element(NULL, m, c) + first.position);
+    if (m->texcoords)
+        text_print(text, "/%lu", export_element(m->texcoord_indices, m, c) + first.texcoord);
+    if (m->normals)
+        text_print(text, m->texcoords ? "/%lu" : "//%lu", export_element(m->normal_indices, m, c) + first.normal);
+}
+
+static void put_items(struct exporting *e, const lam_mesh *m, const lam_part *part, int size, struct firsts first)
+{
+    static const char *const words[] = {"p", "l", "f"};
+    size_t begin = (size_t)part->first_triangle * (size_t)size,
+           end = begin + (size_t)part->triangle_count * (size_t)size;
+    for (size_t c = begin; c < end; c++) {
+        if (c % (size_t)size == 0)
+            text_add(&e->text, words[size - 1]);
+        if (size == 3)
+            put_corner(&e->text, m, c, first);
+        else
+            text_print(&e->text, " %lu", export_element(NULL, m, c) + first.position);
+        if (c % (size_t)size == (size_t)size - 1)
+            text_add(&e->text, "\n");
+    }
+}
+
+// A name on a line of its own.
+static void put_name(struct text *text, const char *word, const char *name)
+{
+    char clean[200];
+    size_t length = 0;
+    for (; *name && length + 1 < sizeof clean; name++)
+        clean[length++] = (unsigned char)*name < 32 ? ' ' : *name;
+    clean[length] = 0;
+    text_print(text, "%s %s\n", word, clean);
+}
+
+static bool put_kind(struct exporting *e, const struct mtl_names *materials, const lam_mesh *m, int size,
+                     struct firsts *first)
+{
+    lam_part whole = {.triangle_count = mesh_items(m)};
+    uint32_t *colors;
+    const char *name = NULL, *material = NULL;
+    if (!find_colors(e, m, &colors))
+        return false;
+    if (m->name)
+        put_name(&e->text, "o", m->name);
+    put_arrays(e, m, colors, materials->flips);
+    for (uint32_t i = 0; i < (m->parts ? m->part_count : 1); i++) {
+        const lam_part *part = m->parts ? &m->parts[i] : &whole;
+        const char *own = m->parts ? mtl_name(materials, part->material) : NULL;
+        if (part->name && part->name != name)
+            put_name(&e->text, "g", part->name);
+        if (own && own != material)
+            put_name(&e->text, "usemtl", own);
+        name = part->name;
+        material = own;
+        put_items(e, m, part, size, *first);
+    }
+    first->position += m->vertex_count;
+    first->texcoord += m->texcoords ? m->texcoord_count : 0;
+    first->normal += m->normals ? m->normal_count : 0;
+    return true;
+}
+
+static bool write(struct exporting *e)
+{
+    static const int sizes[EXPORT_KINDS] = {3, 2, 1};
+    struct mtl_names materials = {0};
+    struct firsts first = {1, 1, 1};
+    size_t items = 0;
+    for (int i = 0; i < EXPORT_KINDS; i++)
+        items += mesh_items(&e->flat[i]);
+    if (!items)
+        return fail(e->error, LAM_BAD_ARGUMENT, "%s: found no triangles, lines or points", e->name);
+    if (e->scene && !mtl_write(e, &materials))
+        return false;
+    if (materials.file)
+        put_name(&e->text, "mtllib", materials.file);
+    for (int i = 0; i < EXPORT_KINDS; i++)
+        if (mesh_items(&e->flat[i]) && !put_kind(e, &materials, &e->flat[i], sizes[i], &first))
+            return false;
+    export_lose_surroundings(e, false);
+    return true;
+}
+
+const struct exporter exporter_obj = {"obj", LAM_UP_Y, true, write};

@@ -1,0 +1,48 @@
+// stl_write.c: triangles as binary STL.
+#include "export.h"
+
+#include "fail.h"
+#include "linear.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static bool write(struct exporting *e)
+{
+    const lam_mesh *m = &e->flat[EXPORT_TRIANGLES];
+    struct text *text = &e->text;
+    char head[81];
+    if (!m->triangle_count)
+        return fail(e->error, LAM_BAD_ARGUMENT, "%s: found no triangles, and STL has nothing else", e->name);
+    const char *name = m->name ? m->name : "mesh";
+    snprintf(head, sizeof head, "%-80.80s",
+             strncmp(name, "solid", 5) == 0 ? "mesh" : name); // "solid" begins text files
+    text_add_part(text, head, 80);
+    export_word(text, m->triangle_count);
+    for (size_t t = 0; t < m->triangle_count; t++) {
+        lam_vec3 p[3];
+        for (size_t k = 0; k < 3; k++)
+            p[k] = export_position(e, m, export_element(NULL, m, 3 * t + k));
+        export_floats(text, v3_unit(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0]))));
+        for (int k = 0; k < 3; k++)
+            export_floats(text, p[k]);
+        text_add_part(text, "\0", 2);
+    }
+    if (!e->scene)
+        return true;
+    export_lose(e, "normals are left out: STL has one for each triangle, and readers make smooth ones again");
+    if (e->scene->objects.count > 1)
+        export_lose(e, "objects become one mesh (%d): STL has none", e->scene->objects.count);
+    if (m->colors)
+        export_lose(e, "colours are left out: STL has none that programs agree on");
+    if (m->texcoords)
+        export_lose(e, "texture coordinates are left out: STL has none");
+    if (e->scene->materials.count)
+        export_lose(e, "materials are left out (%d): STL has none", e->scene->materials.count);
+    if (e->flat[EXPORT_LINES].line_count || e->flat[EXPORT_POINTS].point_count)
+        export_lose(e, "lines and points are left out: STL has none");
+    export_lose_surroundings(e, false);
+    return true;
+}
+
+const struct exporter exporter_stl = {"stl", LAM_UP_Z, true, write};

@@ -1,0 +1,244 @@
+// threemf_write.c: triangles as 3MF: one object, with a base material for each material that is used. libzip packs it, and is opened when it
+// is used.
+#include "export.h"
+
+#include "fail.h"
+
+#ifdef HAVE_LIBZIP
+
+#include "dynamic_library.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zip.h>
+
+#define LIBRARY "libzip.so.4"
+
+#define FUNCTIONS(each)                                                                                                \
+    each(zip_source_buffer_create) each(zip_source_buffer) each(zip_source_free) each(zip_source_keep)                 \
+        each(zip_source_open) each(zip_source_read) each(zip_source_close) each(zip_open_from_source)                  \
+            each(zip_file_add) each(zip_file_set_dostime) each(zip_close) each(zip_discard) each(zip_error_init)       \
+                each(zip_error_fini)
+
+struct library {
+    void *handle;
+#define MEMBER(name) __typeof__(&name) name;
+    FUNCTIONS(MEMBER)
+};
+
+static bool open_library(struct exporting *e, struct library *zip)
+{
+    zip->handle = library_open(LIBRARY, true, NULL);
+    bool all = zip->handle != NULL;
+#define LOOK_UP(name) all = all && library_find(zip->handle, #name, &zip->name);
+    FUNCTIONS(LOOK_UP)
+    if (all)
+        return true;
+    fail(e->error, LAM_UNSUPPORTED, "%s: writing 3MF needs " LIBRARY ", which %s (Debian's package libzip4)", e->name,
+         zip->handle ? "lacks functions of libzip 1.6" : "is not installed");
+    library_close(zip->handle);
+    zip->handle = NULL;
+    return false;
+}
+
+// --- the model
+
+static void add_xml(struct text *text, const char *name)
+{
+    for (; *name; name++) {
+        const char *escape = *name == '&' ? "&amp;" : *name == '<' ? "&lt;" : *name == '"' ? "&quot;" : NULL;
+        if (escape)
+            text_add(text, escape);
+        else if ((unsigned char)*name >= 32)
+            text_add_part(text, name, 1);
+    }
+}
+
+static const char *unit_of(const struct exporting *e)
+{
+    static const struct {
+        const char *name;
+        double meters;
+    } units[] = {{"micron", 1e-6}, {"centimeter", 1e-2}, {"inch", 0.0254}, {"foot", 0.3048}, {"meter", 1}};
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+        if (e->scene->file.unit_m == units[i].meters)
+            return units[i].name;
+    return "millimeter";
+}
+
+// The materials of the parts in the order of their first use; `numbers` receives each one's place.
+static bool add_materials(struct exporting *e, struct text *text, const lam_mesh *m, int *numbers)
+{
+    int count = 0, materials = e->scene->materials.count;
+    for (int i = 0; i <= materials; i++)
+        numbers[i] = -1;
+    text_add(text, "<basematerials id=\"1\">\n");
+    for (uint32_t i = 0; i < m->part_count; i++) {
+        int index = m->parts[i].material;
+        index = index >= 0 && index < materials ? index : materials;
+        if (numbers[index] >= 0)
+            continue;
+        numbers[index] = count++;
+        const lam_material *material = export_material(e, index);
+        const float color[4] = {material->diffuse.r, material->diffuse.g, material->diffuse.b, material->diffuse.a};
+        lam_mesh one = {.colors = color, .color_count = 1, .colors_format = LAM_COLORS_LINEAR_F32};
+        uint8_t bytes[4];
+        export_color_bytes(&one, 0, bytes);
+        text_add(text, "<base name=\"");
+        add_xml(text, material->name ? material->name : "material");
+        text_print(text, "\" displaycolor=\"#%02X%02X%02X%02X\"/>\n", bytes[0], bytes[1], bytes[2], bytes[3]);
+        for (int k = 0; k < LAM_MAP_COUNT; k++)
+            if (material->maps[k])
+                export_lose(e, "pictures of materials are left out: this writer of 3MF has colours alone");
+        export_lose(e, "of materials the diffuse colour is kept: base materials of 3MF have no more");
+    }
+    text_add(text, "</basematerials>\n");
+    return true;
+}
+
+static void add_mesh(struct exporting *e, struct text *text, const lam_mesh *m, const int *numbers)
+{
+    static const char *const axes[] = {"<vertex x=\"", "\" y=\"", "\" z=\""};
+    text_add(text, "<object id=\"2\" type=\"model\"><mesh><vertices>\n");
+    for (uint32_t i = 0; i < m->vertex_count; i++) {
+        lam_vec3 p = export_position(e, m, i);
+        const double numbers_of[3] = {p.x, p.y, p.z};
+        for (int k = 0; k < 3; k++) {
+            text_add(text, axes[k]);
+            export_number(text, numbers_of[k]);
+        }
+        text_add(text, "\"/>\n");
+    }
+    text_add(text, "</vertices><triangles>\n");
+    for (uint32_t i = 0; i < m->part_count; i++) {
+        const lam_part *part = &m->parts[i];
+        int index = part->material >= 0 && part->material < e->scene->materials.count ? part->material
+                                                                                      : e->scene->materials.count;
+        for (size_t t = part->first_triangle; t < (size_t)part->first_triangle + part->triangle_count; t++)
+            text_print(text, "<triangle v1=\"%lu\" v2=\"%lu\" v3=\"%lu\" pid=\"1\" p1=\"%d\"/>\n",
+                       export_element(NULL, m, 3 * t) + 0UL, export_element(NULL, m, 3 * t + 1) + 0UL,
+                       export_element(NULL, m, 3 * t + 2) + 0UL, numbers[index]);
+    }
+    text_add(text, "</triangles></mesh></object>\n");
+}
+
+static bool make_model(struct exporting *e, struct text *text)
+{
+    const lam_mesh *m = &e->flat[EXPORT_TRIANGLES];
+    int *numbers = arena_array(e->arena, (size_t)e->scene->materials.count + 1, sizeof *numbers);
+    if (!numbers)
+        return export_no_memory(e, (size_t)e->scene->materials.count * sizeof *numbers);
+    text_print(text,
+               "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"%s\" "
+               "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n"
+               "<metadata name=\"Application\">lambent %s</metadata>\n<resources>\n",
+               unit_of(e), lam_version());
+    add_materials(e, text, m, numbers);
+    add_mesh(e, text, m, numbers);
+    text_add(text, "</resources>\n<build><item objectid=\"2\"/></build>\n</model>\n");
+    if (text->failed && e->error)
+        *e->error = text->error;
+    return !text->failed;
+}
+
+// --- the archive
+
+static const char types[] =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Types "
+    "xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">"
+    "<Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>"
+    "<Default Extension=\"model\" ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/></Types>\n";
+static const char relations[] =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Relationships "
+    "xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">"
+    "<Relationship Target=\"/3D/3dmodel.model\" Id=\"rel0\" "
+    "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>\n";
+
+static bool add_entry(const struct library *zip, zip_t *archive, const char *name, const void *bytes, size_t size)
+{
+    enum { FIRST_DAY = 0x21 }; // of 1980, so that the same model gives the same bytes
+    zip_source_t *source = zip->zip_source_buffer(archive, bytes, size, 0);
+    zip_int64_t index = source ? zip->zip_file_add(archive, name, source, ZIP_FL_ENC_UTF_8) : -1;
+    if (source && index < 0)
+        zip->zip_source_free(source);
+    return index >= 0 && zip->zip_file_set_dostime(archive, (zip_uint64_t)index, 0, FIRST_DAY, 0) == 0;
+}
+
+static bool read_back(const struct library *zip, zip_source_t *source, struct text *text)
+{
+    char piece[16384];
+    if (zip->zip_source_open(source) != 0)
+        return false;
+    zip_int64_t got;
+    while ((got = zip->zip_source_read(source, piece, sizeof piece)) > 0)
+        text_add_part(text, piece, (size_t)got);
+    zip->zip_source_close(source);
+    return got == 0 && !text->failed;
+}
+
+static bool pack(struct exporting *e, const struct library *zip, const struct text *model)
+{
+    zip_error_t reason;
+    zip->zip_error_init(&reason);
+    zip_source_t *source = zip->zip_source_buffer_create(NULL, 0, 0, &reason);
+    zip_t *archive = source ? zip->zip_open_from_source(source, ZIP_CREATE | ZIP_TRUNCATE, &reason) : NULL;
+    if (source && !archive)
+        zip->zip_source_free(source);
+    bool ok = archive != NULL;
+    if (ok)
+        zip->zip_source_keep(source);
+    ok = ok && add_entry(zip, archive, "[Content_Types].xml", types, sizeof types - 1) &&
+         add_entry(zip, archive, "_rels/.rels", relations, sizeof relations - 1) &&
+         add_entry(zip, archive, "3D/3dmodel.model", model->bytes, model->length);
+    bool closed = ok && zip->zip_close(archive) == 0;
+    if (archive && !closed)
+        zip->zip_discard(archive);
+    ok = closed && read_back(zip, source, &e->text);
+    if (archive)
+        zip->zip_source_free(source);
+    zip->zip_error_fini(&reason);
+    return ok || fail(e->error, LAM_LIMIT, "%s: libzip cannot pack the model: out of memory", e->name);
+}
+
+static void lose(struct exporting *e)
+{
+    const lam_mesh *m = &e->flat[EXPORT_TRIANGLES];
+    export_lose(e, "normals are left out: 3MF has none, and readers make smooth ones again");
+    if (e->scene->objects.count > 1)
+        export_lose(e, "objects become one object (%d)", e->scene->objects.count);
+    if (m->texcoords)
+        export_lose(e, "texture coordinates are left out: this writer of 3MF has colours alone");
+    if (m->colors)
+        export_lose(e, "colours of vertices are left out: this writer of 3MF has those of materials alone");
+    if (e->flat[EXPORT_LINES].line_count || e->flat[EXPORT_POINTS].point_count)
+        export_lose(e, "lines and points are left out: 3MF has none");
+    export_lose_surroundings(e, false);
+}
+
+static bool write(struct exporting *e)
+{
+    struct library zip;
+    struct text model = {0};
+    if (!e->flat[EXPORT_TRIANGLES].triangle_count)
+        return fail(e->error, LAM_BAD_ARGUMENT, "%s: found no triangles, and 3MF has nothing else", e->name);
+    if (!open_library(e, &zip))
+        return false;
+    bool ok = make_model(e, &model) && pack(e, &zip, &model);
+    library_close(zip.handle);
+    free(model.bytes);
+    if (ok)
+        lose(e);
+    return ok;
+}
+
+#else
+
+static bool write(struct exporting *e)
+{
+    return fail(e->error, LAM_UNSUPPORTED, "%s: this build has no libzip, which writes 3MF", e->name);
+}
+
+#endif
+
+const struct exporter exporter_3mf = {"3mf", LAM_UP_Z, true, write};

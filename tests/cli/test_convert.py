@@ -1,0 +1,266 @@
+# test_convert.py: the command `convert`: round trips that draw the same bytes, what is said to be lost, files beside the model, hostile names.
+import json
+import os
+import shutil
+import struct
+import zipfile
+
+from harness import ROOT, Case, covered, read_png
+
+CORPUS = ROOT / "tests" / "fuzz" / "corpus"
+SPOT = ROOT / "examples" / "models" / "spot.glb"
+
+
+def glb(data):
+    """The JSON and the buffer of a GLB file."""
+    magic, version, length = struct.unpack("<4sII", data[:12])
+    assert (magic, version, length) == (b"glTF", 2, len(data))
+    size, kind = struct.unpack("<I4s", data[12:20])
+    assert kind == b"JSON" and size % 4 == 0
+    rest, kind = struct.unpack("<I4s", data[20 + size:28 + size])
+    assert kind == b"BIN\0" and rest % 4 == 0 and 28 + size + rest == len(data)
+    return json.loads(data[20:20 + size]), data[28 + size:]
+
+
+class Convert(Case):
+    def convert(self, model, output):
+        """Converts, and returns the report; its files are there, and no others."""
+        before = set(os.listdir(self.folder))
+        report = json.loads(self.good("convert", model, output, "--json").stdout)
+        names = [os.path.basename(file["path"]) for file in report["files"]]
+        self.assertEqual(names[0], os.path.basename(output))
+        self.assertEqual(set(os.listdir(self.folder)) - before, set(names) - before)
+        for file in report["files"]:
+            self.assertEqual((self.folder / file["path"]).stat().st_size, file["bytes"])
+        return report
+
+    def picture(self, model, *words):
+        return self.png(model, "-s", 96, *words)
+
+    def same(self, model, output, *words):
+        """A round trip in which nothing of the picture is lost."""
+        report = self.convert(model, output)
+        self.assertEqual(self.picture(model, *words), self.picture(output, *words), f"{model} to {output}: {report['losses']}")
+        return report
+
+    def check_glb(self, path):
+        """What every GLB file has: views within the buffer, accessors within views, indices in range."""
+        root, data = glb((self.folder / path).read_bytes())
+        self.assertEqual(root["buffers"][0]["byteLength"], len(data))
+        sizes = {5121: 1, 5125: 4, 5126: 4}
+        widths = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+        for view in root["bufferViews"]:
+            self.assertTrue(view["byteOffset"] % 4 == 0 and view["byteOffset"] + view["byteLength"] <= len(data))
+        for accessor in root["accessors"]:
+            bytes_ = accessor["count"] * sizes[accessor["componentType"]] * widths[accessor["type"]]
+            self.assertEqual(bytes_, root["bufferViews"][accessor["bufferView"]]["byteLength"])
+        for mesh in root["meshes"]:
+            for primitive in mesh["primitives"]:
+                count = root["accessors"][primitive["attributes"]["POSITION"]]["count"]
+                self.assertEqual({root["accessors"][a]["count"] for a in primitive["attributes"].values()}, {count})
+                view = root["bufferViews"][root["accessors"][primitive["indices"]]["bufferView"]]
+                indices = struct.unpack_from("<%dI" % (view["byteLength"] // 4), data, view["byteOffset"])
+                self.assertLess(max(indices), count)
+                self.assertLess(primitive["material"], len(root["materials"]))
+        return root, data
+
+    # --- round trips
+
+    def test_glb_to_glb(self):
+        """Every glTF file of the corpus that is drawn at all: the same bytes, or a sentence that says what is lost."""
+        self.assertEqual(self.same(SPOT, "spot.glb")["losses"], [])
+        self.check_glb("spot.glb")
+        count = 0
+        for path in sorted(CORPUS.glob("gltf/*")):
+            if path.suffix not in (".gltf", ".glb") or self.run_program("info", path, "-q").returncode or self.run_program(path, "-s", 8, "-o", "-").returncode:
+                continue
+            with self.subTest(path.name):
+                report = self.convert(path, f"{path.stem}.glb")
+                self.check_glb(f"{path.stem}.glb")
+                if not report["losses"]:
+                    count += 1
+                    self.assertEqual(self.picture(path), self.picture(f"{path.stem}.glb"))
+        self.assertGreater(count, 3)
+
+    def test_twice(self):
+        """A file of its own loses nothing, and is the same file again."""
+        for name in ("a.glb", "a.obj", "a.ply", "a.stl"):
+            self.convert("cube.obj", name)
+            ending = name.split(".")[1]
+            self.convert(name, f"b.{ending}")
+            self.convert(f"b.{ending}", f"c.{ending}")
+            b, c = ((self.folder / f"{n}.{ending}").read_bytes().replace(b"c.mtl", b"b.mtl") for n in "bc")
+            self.assertEqual(b, c, name)
+
+    def test_same_pictures(self):
+        """OBJ with its materials; PLY and OBJ of what has none; STL as it is read."""
+        self.assertEqual(self.same("cube.obj", "o.obj")["losses"], [])
+        self.assertIn(b"usemtl", (self.folder / "o.obj").read_bytes())
+        self.assertEqual(self.same("cube.ply", "p.ply")["losses"], [])
+        self.assertEqual(self.same("cube.ply", "p.obj")["losses"], [])
+        self.same("cube.stl", "s.stl")
+        self.same("cube.stl", "s.ply")
+        self.same("cube.stl", "s.obj")
+        self.same("teapot", "t.ply")
+        self.same("teapot", "t.obj", "--view", "back")
+
+    def test_textures(self):
+        """Pictures go beside an OBJ file, and into a GLB file."""
+        report = self.convert(SPOT, "spot.obj")
+        self.assertEqual([os.path.basename(f["path"]) for f in report["files"]], ["spot.obj", "spot-0.png", "spot.mtl"])
+        self.assertIn("map_Kd", (self.folder / "spot.mtl").read_text())
+        self.convert("spot.obj", "again.obj")
+        self.assertEqual(self.picture("spot.obj"), self.picture("again.obj"))
+        self.convert("spot.obj", "spot.glb")
+        root, _ = self.check_glb("spot.glb")
+        self.assertEqual(len(root["images"]), 1)
+        colors = lambda name: self.picture(name, "--show", "base-color")
+        self.assertEqual(colors("spot.obj"), colors("spot.glb"))
+
+    def test_colors(self):
+        """Colours of vertices, in PLY, OBJ and GLB."""
+        (self.folder / "c.ply").write_text("""ply
+format ascii 1.0
+element vertex 4
+property float x
+property float y
+property float z
+property uchar red
+property uchar green
+property uchar blue
+element face 2
+property list uchar int vertex_indices
+end_header
+0 0 0 255 0 0
+1 0 0 0 255 7
+1 1 0 9 20 255
+0 1 0 200 100 50
+3 0 1 2
+3 0 2 3
+""")
+        self.given.add("c.ply")
+        self.same("c.ply", "d.ply")
+        self.same("c.ply", "d.obj")
+        self.convert("c.ply", "d.glb")
+        colors = lambda name: self.picture(name, "--show", "base-color", "--view", "front", "--samples", 1)
+        a, b = colors("c.ply"), colors("d.glb")
+        self.assertLessEqual(max(abs(x - y) for x, y in zip(a[2], b[2])), 1)
+
+    def test_strokes(self):
+        """Lines and points: GLB and OBJ have both, PLY points, STL neither."""
+        (self.folder / "l.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\n")
+        (self.folder / "p.ply").write_text("ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n1 2 3\n")
+        self.given.update(("l.obj", "p.ply"))
+        self.same("l.obj", "k.obj")
+        self.convert("l.obj", "k.glb")
+        self.assertEqual(self.check_glb("k.glb")[0]["meshes"][0]["primitives"][0]["mode"], 1)
+        self.same("p.ply", "q.ply")
+        self.same("p.ply", "q.obj")
+        self.given |= self.new_files()
+        self.bad(1, "convert", "l.obj", "x.stl", says="STL")
+        self.bad(1, "convert", "l.obj", "x.ply", says="PLY")
+        self.bad(1, "convert", "p.ply", "x.3mf", says="3MF")
+
+    def test_up(self):
+        """What is up stays up: z in STL and 3MF, y elsewhere."""
+        for name in ("s.glb", "s.obj", "s.ply"):
+            self.convert("cube.stl", name)
+            a, b = self.picture("cube.stl", "--show", "coverage"), self.picture(name, "--show", "coverage")
+            self.assertEqual(covered(a), covered(b), name)
+        for up in ("x", "-x", "y", "-y", "z", "-z"):
+            self.good("shape", "teapot", "-o", "t.obj", "-q")
+            self.good("convert", "t.obj", "u.ply", "--up", up, "-q")
+            a, b = self.picture("t.obj", "--up", up, "--show", "coverage"), self.picture("u.ply", "--show", "coverage")
+            self.assertEqual(covered(a), covered(b), up)
+            os.remove(self.folder / "u.ply")
+
+    def test_lights_and_cameras(self):
+        """Lights of a scene file that glTF has; a camera; what it has not."""
+        scene = {"lambent": 1, "objects": [{"file": "cube.obj"}], "camera": {"eye": [3, 2, 5], "target": [0, 0, 0], "fovy": 40},
+                 "lights": [{"type": "point", "position": [2, 3, 4], "diffuse": [9, 8, 7], "specular": [9, 8, 7], "attenuation": [0, 0, 1]},
+                            {"type": "ambient", "ambient": [0.1, 0.1, 0.1]}]}
+        (self.folder / "s.json").write_text(json.dumps(scene))
+        self.given.add("s.json")
+        report = self.convert("s.json", "s.glb")
+        root, _ = self.check_glb("s.glb")
+        light = root["extensions"]["KHR_lights_punctual"]["lights"][0]
+        self.assertEqual(light["type"], "point")
+        self.assertAlmostEqual(light["intensity"] * light["color"][1], 8 * 3.14159265, 4)
+        self.assertEqual(len(root["cameras"]), 1)
+        self.assertAlmostEqual(root["cameras"][0]["perspective"]["yfov"], 0.6981317, 5)
+        self.assertIn("ambient and hemisphere lights are left out: glTF has none", report["losses"])
+        self.assertTrue(any("classic materials" in loss for loss in report["losses"]))
+        self.assertEqual(covered(self.picture("s.json", "--show", "coverage")), covered(self.picture("s.glb", "--camera", "0", "--show", "coverage")))
+        losses = self.convert("s.json", "s.stl")["losses"]
+        for word in ("lights", "cameras", "materials", "normals"):
+            self.assertTrue(any(loss.startswith(word) for loss in losses), (word, losses))
+        lights = [(CORPUS / "gltf" / name) for name in os.listdir(CORPUS / "gltf") if "light" in name and name.endswith((".gltf", ".glb"))]
+        for path in lights[:1]:
+            self.same(path, "l.glb")
+
+    def test_3mf(self):
+        report = self.convert("cube.obj", "c.3mf")
+        again = self.convert("cube.obj", "d.3mf")
+        self.assertEqual((self.folder / "c.3mf").read_bytes(), (self.folder / "d.3mf").read_bytes())
+        with zipfile.ZipFile(self.folder / "c.3mf") as archive:
+            self.assertIsNone(archive.testzip())
+            self.assertEqual(archive.namelist(), ["[Content_Types].xml", "_rels/.rels", "3D/3dmodel.model"])
+            self.assertIn(b'displaycolor="#', archive.read("3D/3dmodel.model"))
+        self.assertEqual(json.loads(self.good("info", "c.3mf", "--json").stdout)["counts"]["triangles"], 12)
+        a, b = self.picture("cube.obj", "--show", "base-color"), self.picture("c.3mf", "--show", "base-color")
+        self.assertLessEqual(max(abs(x - y) for x, y in zip(a[2], b[2])), 1)
+        self.assertTrue(any("normals" in loss for loss in report["losses"]) and again)
+
+    def test_thumbnail(self):
+        self.good("convert", "cube.obj", "c.glb", "--thumbnail", "-q")
+        root, data = self.check_glb("c.glb")
+        image = root["images"][root["asset"]["thumbnail"]]
+        view = root["bufferViews"][image["bufferView"]]
+        self.assertEqual(image["mimeType"], "image/png")
+        self.assertEqual(read_png(data[view["byteOffset"]:view["byteOffset"] + view["byteLength"]]), self.png("cube.obj", "-s", 512))
+        self.convert("c.glb", "d.glb")
+        self.assertEqual(self.picture("c.glb"), self.picture("d.glb"))
+        self.given |= self.new_files()
+        self.bad(1, "convert", "cube.obj", "x.obj", "--thumbnail", says=".glb")
+
+    # --- files
+
+    def test_files_beside(self):
+        """A file of somebody else's stays; converting again replaces one's own. Odd names do not lead out of the folder."""
+        (self.folder / "mine.mtl").write_text("precious")
+        self.given.add("mine.mtl")
+        self.bad(5, "convert", "cube.obj", "mine.obj", says=("mine.mtl would be overwritten", "mine.obj is not there"))
+        self.assertEqual((self.folder / "mine.mtl").read_text(), "precious")
+        self.good("convert", "cube.obj", "o.obj", "-q")
+        self.good("convert", "cube.obj", "o.obj", "-q")
+        os.mkdir(self.folder / "sub")
+        self.good("convert", SPOT, "sub/a b.c.obj", "-q")
+        self.assertEqual(sorted(os.listdir(self.folder / "sub")), ["a b.c-0.png", "a b.c.mtl", "a b.c.obj"])
+        self.assertEqual(self.picture("sub/a b.c.obj", "--show", "coverage"), self.picture(SPOT, "--show", "coverage"))
+
+    def test_errors(self):
+        for words, code, says in ((["cube.obj", "x.fbx"], 3, ".glb, .obj, .stl, .ply or .3mf"), (["cube.obj", "x"], 3, "write .glb"),
+                                  (["cube.obj", "-"], 1, "names its format"), (["cube.obj"], 1, "missing argument"),
+                                  (["cube.obj", "a.glb", "b.glb"], 1, "it writes one model"), (["cube.obj", "cube.obj"], 1, "one file"),
+                                  (["missing.obj", "x.glb"], 2, "missing.obj"), (["cube.obj", "no/where/x.glb"], 5, "no/where"),
+                                  (["cube.obj", "x.glb", "--samples", "4"], 1, "does not apply")):
+            self.bad(code, "convert", *words, says=says)
+        (self.folder / "bad.obj").write_text("nonsense")
+        self.given.add("bad.obj")
+        self.bad(2, "convert", "bad.obj", "x.glb", says="bad.obj")
+
+    def test_names(self):
+        """Names of materials and objects with every kind of character become names that are read again."""
+        (self.folder / "m.mtl").write_text("newmtl a b\nKd 1 0 0\nnewmtl <&\">\nKd 0 1 0\n")
+        (self.folder / "m.obj").write_text("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\ng x%s\\n\nusemtl a b\nf 1 2 3\nusemtl <&\">\nf 1 3 2\n")
+        self.given.update(("m.mtl", "m.obj"))
+        for name in ("n.obj", "n.glb", "n.3mf", "n.ply"):
+            self.convert("m.obj", name)
+            self.picture(name)
+        self.same("m.obj", "k.obj")
+
+    def test_text(self):
+        done = self.good("convert", "cube.obj", "c.stl")
+        self.assertIn(b"warning: materials are left out (", done.stderr)
+        self.assertTrue(done.stderr.endswith(b"c.stl  12 triangles  684 bytes\n"))
+        self.assertEqual(self.good("convert", "cube.obj", "c.stl", "-q").stderr, b"")

@@ -1,0 +1,233 @@
+// convert.c: the command `convert`: a model or a scene in another format.
+#include "command.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "console.h"
+#include "device_option.h"
+#include "interrupt.h"
+#include "job.h"
+#include "json.h"
+#include "output.h"
+#include "report.h"
+#include "sandbox_start.h"
+
+enum { THUMBNAIL = 512 };
+
+struct convert {
+    const struct options *options;
+    const char *model, *output;
+    bool replaces; // the output was there before: so may be the files beside it
+    struct job job;
+    lam_export *result;
+};
+
+static const char *file_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static const char *ending(const char *path)
+{
+    const char *dot = strrchr(file_name(path), '.');
+    return dot ? dot + 1 : "";
+}
+
+// The path of a file of the result, from malloc. NULL: out of memory.
+static char *path_of(const struct convert *c, const char *name)
+{
+    char *path = NULL;
+    int folder = (int)(file_name(c->output) - c->output);
+    return asprintf(&path, "%.*s%s", folder, c->output, name) < 0 ? NULL : path;
+}
+
+static bool check_ending(const char *path, lam_error *error)
+{
+    char list[100] = "";
+    for (int i = 0; lam_export_format(i); i++) {
+        if (strcmp(ending(path), lam_export_format(i)) == 0)
+            return true;
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s.%s",
+                 i == 0                      ? ""
+                 : !lam_export_format(i + 1) ? " or "
+                                             : ", ",
+                 lam_export_format(i));
+    }
+    return complain(error, LAM_UNSUPPORTED, "%.300s: lambent cannot write this format of models; write %s", path, list);
+}
+
+static bool check(struct convert *c, lam_error *error)
+{
+    struct stat in, out;
+    if (strcmp(c->output, "-") == 0)
+        return complain(error, LAM_BAD_ARGUMENT, "convert writes a file whose ending names its format, found '-'");
+    if (c->options->convert.thumbnail && strcmp(ending(c->output), "glb") != 0)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--thumbnail' goes with an output that ends in .glb, found %.200s", c->output);
+    if (c->options->convert.thumbnail && strcmp(c->model, "-") == 0)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--thumbnail' reads the model twice, so it cannot read '-'");
+    if (!check_ending(c->output, error) || !output_check(c->output, "", OUTPUT_NAMED, error))
+        return false;
+    c->replaces = stat(c->output, &out) == 0;
+    bool same = c->replaces && stat(c->model, &in) == 0 && in.st_dev == out.st_dev && in.st_ino == out.st_ino;
+    return !same || complain(error, LAM_BAD_ARGUMENT, "%.300s: the model and its output are one file", c->output);
+}
+
+// Files beside the model: "part.mtl", "part-0.png". One that somebody else wrote stays, unless the model was there too.
+static bool is_beside(const char *output, const char *path)
+{
+    size_t stem = strlen(output) - strlen(ending(output)) - 1;
+    const char *rest = path + stem;
+    return strlen(path) > stem && strncmp(path, output, stem) == 0 && !strchr(rest, '/') &&
+           (strcmp(rest, ".mtl") == 0 || (*rest == '-' && strcmp(ending(rest), "png") == 0));
+}
+
+static enum writer_right right_of(void *user, const char *path)
+{
+    const struct convert *c = user;
+    return strcmp(path, c->output) == 0 || is_beside(c->output, path) ? WRITER_ANY : WRITER_NONE;
+}
+
+static bool check_beside(const struct convert *c, const char *path, lam_error *error)
+{
+    struct stat found;
+    return c->replaces || lstat(path, &found) != 0 ||
+           complain(error, LAM_CANNOT_WRITE,
+                    "%.300s would be overwritten, and %.200s is not there yet; remove the file, or name another output",
+                    path, c->output);
+}
+
+// Writes the files beside the model first: it refers to them.
+static bool write_files(struct convert *c, lam_error *error)
+{
+    int count = 0;
+    bool ok = true;
+    while (lam_export_file_name(c->result, count))
+        count++;
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = count - 1; ok && i >= 0; i--) {
+            char *path = path_of(c, lam_export_file_name(c->result, i));
+            lam_bytes bytes = lam_export_file(c->result, i);
+            ok = path || complain(error, LAM_LIMIT, "out of memory");
+            if (pass == 0)
+                ok = ok && (i == 0 || check_beside(c, path, error));
+            else
+                ok = ok && writer_save(path, &bytes, false, error);
+            free(path);
+        }
+    return ok;
+}
+
+// Draws the model as `lambent MODEL` does, read once more: drawing changes the scene.
+static bool draw_thumbnail(const struct convert *c, struct progress *progress, lam_image *image, lam_error *error)
+{
+    struct options own = *c->options;
+    own.picture.width = own.picture.height = THUMBNAIL;
+    struct job job = {.options = &own, .model = c->model, .device = device_option_make(&own, error)};
+    job.times.start = c->job.times.start;
+    bool ok = job.device && job_draw(&job, LAM_RGBA8, progress, error);
+    if (ok) {
+        *image = job.image;
+        job.image = (lam_image){0};
+    }
+    lam_device_free(job.device);
+    job_free(&job);
+    return ok;
+}
+
+static bool convert(struct convert *c, struct progress *progress, lam_error *error)
+{
+    lam_picture_settings settings;
+    lam_export_params params = {.name = file_name(c->output)};
+    if (!job_load(&c->job, progress, error))
+        return false;
+    if (lam_scene_picture_settings(c->job.scene, &settings) && settings.present & LAM_SETTING_CAMERA)
+        params.camera = &settings.camera;
+    lam_image thumbnail = {0};
+    if (c->options->convert.thumbnail && !draw_thumbnail(c, progress, &thumbnail, error))
+        return false;
+    params.thumbnail = c->options->convert.thumbnail ? &thumbnail : NULL;
+    c->result = lam_scene_export(c->job.scene, ending(c->output), &params, error);
+    lam_image_free(&thumbnail);
+    return c->result && write_files(c, error);
+}
+
+static void print_json(const struct convert *c)
+{
+    struct json json = {.file = stdout};
+    json_open(&json, NULL, '{');
+    json_text(&json, "lambent", lam_version());
+    json_text(&json, "model", c->model);
+    json_text(&json, "output", c->output);
+    json_count(&json, "triangles", c->job.model_counts.triangles);
+    json_count(&json, "lines", c->job.model_counts.lines);
+    json_count(&json, "points", c->job.model_counts.points);
+    json_open(&json, "files", '[');
+    for (int i = 0; lam_export_file_name(c->result, i); i++) {
+        char *path = path_of(c, lam_export_file_name(c->result, i));
+        json_open(&json, NULL, '{');
+        json_text(&json, "path", path);
+        json_count(&json, "bytes", lam_export_file(c->result, i).size);
+        json_close(&json, '}');
+        free(path);
+    }
+    json_close(&json, ']');
+    json_open(&json, "losses", '[');
+    for (int i = 0; lam_export_loss(c->result, i); i++)
+        json_text(&json, NULL, lam_export_loss(c->result, i));
+    json_close(&json, ']');
+    json_open(&json, "warnings", '[');
+    for (int i = 0; lam_scene_warning(c->job.scene, i); i++)
+        json_text(&json, NULL, lam_scene_warning(c->job.scene, i));
+    json_close(&json, ']');
+    json_close(&json, '}');
+    putchar('\n');
+}
+
+static void print_text(const struct convert *c)
+{
+    char counts[MODEL_COUNTS_SIZE];
+    for (int i = 0; lam_scene_warning(c->job.scene, i); i++)
+        say_warning(lam_scene_warning(c->job.scene, i));
+    for (int i = 0; lam_export_loss(c->result, i); i++)
+        say_warning(lam_export_loss(c->result, i));
+    say_plain("%s  %s  %zu bytes\n", c->output, model_counts_text(&c->job.model_counts, counts),
+              lam_export_file(c->result, 0).size);
+    for (int i = 1; lam_export_file_name(c->result, i); i++) {
+        char *path = path_of(c, lam_export_file_name(c->result, i));
+        say_plain("%s  %zu bytes\n", path ? path : "", lam_export_file(c->result, i).size);
+        free(path);
+    }
+}
+
+int run_convert(int operand_count, char **operands, const struct options *options)
+{
+    (void)operand_count;
+    struct convert c = {.options = options, .model = operands[0], .output = operands[1]};
+    c.job = (struct job){.options = options, .model = operands[0], .keeps_scene = true, .times.start = clock_ms()};
+    struct progress progress;
+    lam_error error = {0};
+    interrupt_start();
+    progress_start(&progress, c.model, console_is_terminal() && !options->report.quiet);
+    struct sandbox_paths paths = {.may_write = right_of, .user = &c};
+    bool ok = check(&c, &error);
+    if (ok) {
+        sandbox_add_input(&paths, c.model);
+        ok = sandbox_start(options, &paths, &error) && convert(&c, &progress, &error);
+    }
+    progress_end(&progress);
+    if (ok && options->report.json)
+        print_json(&c);
+    else if (ok && !options->report.quiet)
+        print_text(&c);
+    lam_export_free(c.result);
+    job_free(&c.job);
+    if (interrupted())
+        interrupt_finish();
+    return ok ? 0 : report_failure(&error, options);
+}

@@ -1,0 +1,59 @@
+// diff.c: the command `diff`: two pictures, two models, or the models of two folders.
+#include "command.h"
+
+#include <string.h>
+#include <sys/stat.h>
+
+#include "console.h"
+#include "diff.h"
+#include "output.h"
+#include "report.h"
+
+static bool is_folder(const char *path)
+{
+    struct stat found;
+    return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
+}
+
+// A scene file is a model here: no picture has its ending.
+static bool is_model(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return is_model_name(path) || (dot && strcmp(dot, ".json") == 0) || lam_shape_find(path) >= 0;
+}
+
+// Of pictures, only the options of these groups and names say something.
+static bool check_pictures(const struct options *o, lam_error *error)
+{
+    static const char *const names[] = {"output", "json", "quiet", NULL};
+    for (int i = 0; option_table[i].name; i++) {
+        const struct option *option = &option_table[i];
+        bool takes = option->group == GROUP_DIFF || option->group == GROUP_ABOUT || option->single == TAKES_MEMORY ||
+                     option->single == TAKES_PICTURE_LIMITS;
+        for (int k = 0; !takes && names[k]; k++)
+            takes = strcmp(option->name, names[k]) == 0;
+        if (o->given[i] && !takes)
+            return complain(error, LAM_BAD_ARGUMENT,
+                            "option '--%s' does not apply to pictures; it draws the models that diff compares",
+                            option->name);
+    }
+    return true;
+}
+
+int run_diff(int operand_count, char **operands, const struct options *options)
+{
+    (void)operand_count;
+    lam_error error = {0};
+    bool folders = is_folder(operands[0]) && is_folder(operands[1]);
+    if (folders || (is_model(operands[0]) && is_model(operands[1])))
+        return diff_models(operands, folders, options);
+    if (is_folder(operands[0]) || is_folder(operands[1])) {
+        const char *folder = operands[!is_folder(operands[0])], *other = operands[is_folder(operands[0])];
+        complain(&error, LAM_BAD_ARGUMENT,
+                 "%.200s is a folder and %.200s is not; expected two folders, two models or "
+                 "two pictures",
+                 folder, other);
+        return report_failure(&error, options);
+    }
+    return check_pictures(options, &error) ? diff_pictures(operands, options) : report_failure(&error, options);
+}

@@ -1,0 +1,348 @@
+// hash.c: the command `hash`: hashes of pictures as text that a repository keeps, written, compared and updated.
+#include "command.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "batch_key.h"
+#include "batch_run.h"
+#include "batch_sources.h"
+#include "console.h"
+#include "exit_codes.h"
+#include "hash.h"
+#include "job_check.h"
+#include "json.h"
+#include "output.h"
+#include "report.h"
+#include "sandbox_start.h"
+#include "xxh64.h"
+
+// --- the command line
+
+static bool check(int operands, const struct options *o, lam_error *error)
+{
+    if (!o->hash.check == !o->picture.output)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "hash: expected either -o FILE, to write hashes, or --check FILE, to compare them");
+    if (o->hash.update && !o->hash.check)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--update' goes with --check FILE, whose hashes it renews");
+    if (o->hash.check && strcmp(o->hash.check, "-") == 0)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--check' reads a file, found '-'");
+    if (o->picture.output && !output_is_named(o->picture.output))
+        return complain(error, LAM_BAD_ARGUMENT, "option '--output': found the folder '%.200s', expected a file",
+                        o->picture.output);
+    if (!operands && !o->batch.lists.count && !o->hash.check)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "hash: no model given, expected files, folders, @FILE with a list of names, or - for names on "
+                        "standard input");
+    if (o->work.device != DEVICE_AUTO && o->work.device != DEVICE_CPU)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--device': hashes are of the pictures of the CPU device, which are the same on every "
+                        "machine");
+    if (o->picture.show && strcmp(o->picture.show, "all") == 0)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--show all' draws several pictures, and a hash is of one");
+    return job_check_options(o, error);
+}
+
+// --- the models
+
+static bool add_models(struct hash_run *run, int count, char **operands, lam_error *error)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < count; i++)
+        ok = batch_add_operand(&run->plan, operands[i], error);
+    for (int i = 0; ok && i < run->options->batch.lists.count; i++)
+        ok = batch_add_list(&run->plan, run->options->batch.lists.items[i], error);
+    bool all = !count && !run->options->batch.lists.count; // those of the file
+    for (size_t i = 0; ok && all && i < run->then.count; i++) {
+        char *model = hash_file_model(run->path, run->then.entries[i].name);
+        ok = model ? batch_plan_add(&run->plan, model, NULL, error) : complain(error, LAM_LIMIT, "out of memory");
+        free(model);
+    }
+    return ok;
+}
+
+// Names the models; one that is given twice counts once.
+static bool name_models(struct hash_run *run, lam_error *error)
+{
+    struct batch_plan *plan = &run->plan;
+    struct hash_file seen = {.entries = calloc(plan->count + 1, sizeof *seen.entries)};
+    run->names = calloc(plan->count + 1, sizeof *run->names);
+    bool ok = seen.entries && run->names;
+    for (size_t i = 0; ok && i < plan->count; i++) {
+        ok = (run->names[i] = hash_file_name(run->path, plan->models[i].path)) != NULL;
+        seen.entries[i] = (struct hash_entry){run->names[i], i};
+    }
+    ok = ok || complain(error, LAM_LIMIT, "out of memory");
+    seen.count = ok ? plan->count : 0;
+    hash_file_sort(&seen);
+    for (size_t i = 1; ok && i < seen.count; i++)
+        if (strcmp(seen.entries[i].name, seen.entries[i - 1].name) == 0)
+            ok = complain(error, LAM_BAD_ARGUMENT, "hash: '%.300s' is given twice", seen.entries[i].name);
+    free(seen.entries);
+    return ok;
+}
+
+// --- drawing
+
+static bool save_picture(const struct hash_run *run, const char *name, const struct job *job, lam_error *error)
+{
+    char *path = hash_picture_path(run->options->hash.pictures, name);
+    lam_save_params params = {.threads = job->options->work.threads};
+    lam_bytes png = {0};
+    bool ok = path ? lam_image_encode(&job->image, "png", &params, &png, error) && writer_save(path, &png, false, error)
+                   : complain(error, LAM_LIMIT, "out of memory");
+    lam_bytes_free(&png);
+    free(path);
+    return ok;
+}
+
+static bool draw(void *user, size_t model, struct job *job, struct progress *progress, json_t *found, lam_error *error)
+{
+    struct hash_run *run = user;
+    const struct options *o = run->options;
+    const char *name = run->names[model];
+    if (!job_draw(job, LAM_RGBA8, progress, error))
+        return false;
+    char text[XXH64_TEXT];
+    uint64_t hash = hash_of_pixels(&job->image);
+    const struct hash_entry *then = hash_file_find(&run->then, name);
+    xxh64_print(hash, text);
+    json_object_set_new(found, "pixels", json_string(text));
+    bool differs = !then || then->hash != hash;
+    if (o->hash.update && then && differs)
+        hash_sheet_keep(run, name, then->hash, &job->image, found);
+    return !o->hash.pictures || (run->checks && !o->hash.update) || save_picture(run, name, job, error);
+}
+
+// --- the result
+
+enum state { STATE_EQUAL, STATE_CHANGED, STATE_MISSING, STATE_NEW, STATE_FAILED, STATE_COUNT };
+static const char *const state_names[STATE_COUNT] = {"equal", "changed", "missing", "new", "failed"};
+
+struct result {
+    size_t counts[STATE_COUNT];
+};
+
+// A JSON list of the names in one state; or a line for each.
+static void tell_state(const struct hash_run *run, json_t *const *records, enum state state, struct json *json,
+                       struct result *result)
+{
+    if (json)
+        json_open(json, state_names[state], '[');
+    size_t count = state == STATE_MISSING ? run->then.count : run->plan.count;
+    for (size_t i = 0; i < count; i++) {
+        const char *name = state == STATE_MISSING ? run->then.entries[i].name : run->names[i];
+        enum state is;
+        if (state == STATE_MISSING) {
+            is = hash_file_find(&run->now, name) ? STATE_EQUAL : STATE_MISSING;
+        } else {
+            uint64_t hash;
+            const char *text = json_string_value(json_object_get(records[i], "pixels"));
+            const struct hash_entry *then = hash_file_find(&run->then, name);
+            bool drawn = text && xxh64_parse(text, &hash);
+            is = !drawn ? STATE_FAILED : !then ? STATE_NEW : then->hash == hash ? STATE_EQUAL : STATE_CHANGED;
+        }
+        if (is != state)
+            continue;
+        result->counts[state]++;
+        if (json)
+            json_text(json, NULL, name);
+        else if (state != STATE_EQUAL && run->checks && !run->options->report.quiet)
+            printf("%-8s %s\n", state_names[state], name);
+    }
+    if (json)
+        json_close(json, ']');
+}
+
+// Fills `now` with the models that were drawn, and those that failed with the hash 0: they are not missing.
+static bool take_hashes(struct hash_run *run, json_t *const *records, lam_error *error)
+{
+    run->now = (struct hash_file){.entries = calloc(run->plan.count + 1, sizeof *run->now.entries)};
+    if (!run->now.entries)
+        return complain(error, LAM_LIMIT, "out of memory");
+    for (size_t i = 0; i < run->plan.count; i++) {
+        const char *text = json_string_value(json_object_get(records[i], "pixels"));
+        struct hash_entry entry = {strdup(run->names[i]), 0};
+        if (!entry.name)
+            return complain(error, LAM_LIMIT, "out of memory");
+        run->now.entries[run->now.count++] = entry;
+        if (text)
+            xxh64_parse(text, &run->now.entries[run->now.count - 1].hash);
+    }
+    hash_file_sort(&run->now);
+    return true;
+}
+
+static bool write_file(struct hash_run *run, json_t *const *records, char *options_text, lam_error *error)
+{
+    struct hash_file out = {.version = (char *)(uintptr_t)lam_version(), // are only read
+                            .options = options_text,
+                            .entries = calloc(run->plan.count + 1, sizeof *out.entries)};
+    bool ok = out.entries || complain(error, LAM_LIMIT, "out of memory");
+    for (size_t i = 0; ok && i < run->plan.count; i++) {
+        const char *text = json_string_value(json_object_get(records[i], "pixels"));
+        struct hash_entry entry = {run->names[i], 0};
+        if (text && xxh64_parse(text, &entry.hash))
+            out.entries[out.count++] = entry;
+    }
+    hash_file_sort(&out);
+    char *text = ok ? hash_file_text(&out) : NULL;
+    ok = ok && (text || complain(error, LAM_LIMIT, "out of memory"));
+    if (ok && strcmp(run->path, "-") == 0)
+        fputs(text, stdout);
+    else
+        ok = ok && writer_save(run->path, &(lam_bytes){text, strlen(text)}, false, error);
+    free(text);
+    free(out.entries);
+    return ok;
+}
+
+static void say_summary(const struct hash_run *run, const struct result *r)
+{
+    const char *text = "";
+    for (int i = 0; i < STATE_COUNT; i++)
+        if (r->counts[i] || (i == STATE_EQUAL && run->checks)) {
+            printf("%s%zu %s", text, r->counts[i],
+                   run->checks || i == STATE_FAILED ? state_names[i]
+                   : r->counts[i] == 1              ? "hash"
+                                                    : "hashes");
+            text = ", ";
+        }
+    putchar('\n');
+}
+
+static void head_json(struct json *json, const struct hash_run *run, const char *options_text)
+{
+    json_open(json, NULL, '{');
+    json_text(json, "lambent", lam_version());
+    json_text(json, "file", run->path);
+    json_text(json, "options", options_text);
+    json_text(json, "file_version", run->then.version);
+    json_text(json, "file_options", run->then.options);
+}
+
+static int finish(void *user, json_t *const *records, size_t failed)
+{
+    struct hash_run *run = user;
+    const struct options *o = run->options;
+    lam_error error = {0};
+    struct result result = {0};
+    struct json json = {.file = strcmp(run->path, "-") == 0 ? stderr : stdout};
+    char *options_text = batch_options_given(o);
+    bool writes = !run->checks || o->hash.update, blocked = failed && !o->batch.failures_ok;
+    bool ok = (options_text || complain(&error, LAM_LIMIT, "out of memory")) && take_hashes(run, records, &error);
+    int rows = 0;
+    if (ok && writes && !blocked)
+        ok = (!o->hash.update || hash_sheet_write(run, records, &rows, &error)) &&
+             write_file(run, records, options_text, &error);
+    if (ok && o->report.json)
+        head_json(&json, run, options_text);
+    for (int i = 0; ok && i < STATE_COUNT; i++)
+        tell_state(run, records, (enum state)i, o->report.json ? &json : NULL, &result);
+    free(options_text);
+    bool written = writes && !blocked;
+    if (ok && o->report.json) {
+        json_flag(&json, "written", written);
+        json_text(&json, "sheet", rows ? run->sheet : NULL);
+        json_close(&json, '}');
+        putc('\n', json.file);
+    } else if (ok && !o->report.quiet && json.file == stdout) {
+        say_summary(run, &result);
+        if (written)
+            printf("written to %s%s%s\n", run->path, rows ? "; old and new pictures: " : "", rows ? run->sheet : "");
+    }
+    if (ok && writes && blocked)
+        say_plain("lambent: %s is not written, because %zu of the models failed; --failures-ok leaves them out\n",
+                  run->path, failed);
+    if (!ok)
+        return report_failure(&error, o);
+    bool differs = result.counts[STATE_CHANGED] + result.counts[STATE_MISSING] + result.counts[STATE_NEW];
+    bool lost = false; // a model of the file fails, which --failures-ok does not excuse
+    for (size_t i = 0; run->checks && i < run->plan.count; i++)
+        lost |= hash_file_find(&run->then, run->names[i]) && !json_object_get(records[i], "pixels");
+    return blocked ? EXIT_SOME_FAILED : run->checks && !o->hash.update && (differs || lost) ? EXIT_DIFFERS : 0;
+}
+
+// --- the run
+
+// Says first that the version or the options are others: then the pictures may well be.
+static bool say_head(const struct hash_run *run, lam_error *error)
+{
+    char *now = batch_options_given(run->options);
+    if (!now)
+        return complain(error, LAM_LIMIT, "out of memory");
+    bool says = !run->options->report.quiet;
+    if (says && strcmp(run->then.version, lam_version()) != 0)
+        say_plain("lambent: %s is of version %s, and this is %s: pictures may differ for that reason\n", run->path,
+                  run->then.version, lam_version());
+    if (says && strcmp(run->then.options, now) != 0)
+        say_plain("lambent: %s was made with the options '%s', and these are '%s': pictures differ for that reason\n",
+                  run->path, run->then.options, now);
+    free(now);
+    return true;
+}
+
+static enum writer_right right_of(void *user, const char *path)
+{
+    const struct hash_run *run = user;
+    const char *pictures = run->options->hash.pictures;
+    if (run->checks && !run->options->hash.update)
+        return WRITER_NONE;
+    if (strcmp(path, run->path) == 0)
+        return WRITER_ANY;
+    if (run->sheet && strcmp(path, run->sheet) == 0)
+        return WRITER_NEW_OR_OURS;
+    size_t length = pictures ? strlen(pictures) : 0, all = strlen(path);
+    bool kept = length && strncmp(path, pictures, length) == 0 && !strstr(path + length, "../") &&
+                (pictures[length - 1] == '/' || path[length] == '/') && all > 4 && strcmp(path + all - 4, ".png") == 0;
+    return kept ? WRITER_NEW_OR_OURS : WRITER_NONE;
+}
+
+static void reach(void *user, size_t model, struct sandbox_paths *paths)
+{
+    const struct hash_run *run = user;
+    if (run->options->hash.pictures && run->options->hash.update && model < run->plan.count)
+        sandbox_add(paths, run->options->hash.pictures, SANDBOX_READ);
+}
+
+static bool prepare(struct hash_run *run, int count, char **operands, lam_error *error)
+{
+    const struct options *o = run->options;
+    run->checks = o->hash.check != NULL;
+    run->path = run->checks ? o->hash.check : o->picture.output;
+    if (run->checks && (!hash_file_read(&run->then, run->path, error) || !say_head(run, error)))
+        return false;
+    if ((!run->checks || o->hash.update) && strcmp(run->path, "-") != 0 &&
+        !output_check(run->path, "", OUTPUT_NAMED, error))
+        return false;
+    if (o->hash.update && (!(run->sheet = hash_sheet_path(run->path)) || !(run->rows = shared_count_make())))
+        return complain(error, LAM_LIMIT, "out of memory");
+    return add_models(run, count, operands, error) && name_models(run, error);
+}
+
+int run_hash(int operand_count, char **operands, const struct options *options)
+{
+    lam_error error = {0};
+    // The loop prints no report of its own, and pictures have no files.
+    struct options drawn = *options;
+    drawn.report.json = false;
+    drawn.report.verbose = false;
+    drawn.picture.output = NULL;
+    struct hash_run run = {.options = options};
+    struct batch_use use = {draw, reach, right_of, finish, &run};
+    bool ok = check(operand_count, options, &error) && batch_plan_start(&run.plan, &drawn, &error) &&
+              prepare(&run, operand_count, operands, &error);
+    int code = ok ? batch_use_run(&run.plan, &use) : report_failure(&error, options);
+    for (size_t i = 0; run.names && i < run.plan.count; i++)
+        free(run.names[i]);
+    free(run.names);
+    free(run.sheet);
+    shared_count_free(run.rows);
+    hash_file_free(&run.then);
+    hash_file_free(&run.now);
+    batch_plan_free(&run.plan);
+    return code;
+}

@@ -1,0 +1,25 @@
+// shared_count.h: a number that processes count together: how many pictures of a page are taken.
+#ifndef SHARED_COUNT_H
+#define SHARED_COUNT_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <sys/mman.h>
+
+// Zero, in memory that this process shares with those that it starts. NULL: out of memory.
+static inline atomic_int *shared_count_make(void)
+{
+    void *memory = mmap(NULL, sizeof(atomic_int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    return memory == MAP_FAILED ? NULL : memory;
+}
+
+static inline void shared_count_free(atomic_int *count)
+{
+    if (count)
+        munmap(count, sizeof *count);
+}
+
+// Takes one of `most`. False: all are taken.
+static inline bool shared_count_take(atomic_int *count, int most) { return atomic_fetch_add(count, 1) < most; }
+
+#endif

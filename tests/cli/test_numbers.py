@@ -302,7 +302,7 @@ class Defaults(Case):
         """The default column of the tables in docs/scene-file.md is that of the schema."""
         schema = json.loads(generated("scene-schema"))
         own, checked = schema["properties"], 0
-        tables = {"At the top": own, "image": own["image"]["properties"], "camera": own["camera"]["properties"],
+        tables = {"Top-level keys": own, "image": own["image"]["properties"], "camera": own["camera"]["properties"],
                   "Objects": schema["$defs"]["shape"]["properties"], "Lights": schema["$defs"]["point"]["properties"]}
         page = (ROOT / "docs/scene-file.md").read_text()
         for title, properties in tables.items():

@@ -208,7 +208,7 @@ static void test_errors(void **unused)
 #define LIGHT(more, sentence)  WITH("\"lights\": [{" more "}]", "lights[0]" sentence)
 #define SPHERE                 "\"shape\": \"sphere\", "
         {"{\"lambent\": 1,\n \"objects\": [}", "s.json:2: column 14: found '}', expected a value"},
-        {"{\"lambent\": 1, \"lambent\": 1}", "s.json:1: column 16: the key is given twice"},
+        {"{\"lambent\": 1, \"lambent\": 1}", "s.json:1: column 16: the key 'lambent' is given twice"},
         {"{\"x\": \"\\\"lambent\\\"\", \"lambent\": 1}",
          "s.json: x: unknown key; expected lambent, image, camera, ambient, environment, up, materials, objects, "
          "lights, ..."},

@@ -99,6 +99,10 @@ bool store_ground(const struct option *option, const char *value, struct options
 bool store_words(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     int *field = field_of(options, option->field), all = 0;
+    if (option->setting && strcmp(value, "none") == 0) {
+        *field = 0;
+        return true;
+    }
     for (const char *from = value; from; from = strchr(from, ',') ? strchr(from, ',') + 1 : NULL) {
         char word[32];
         snprintf(word, sizeof word, "%.*s", (int)(strcspn(from, ",") < 31 ? strcspn(from, ",") : 31), from);

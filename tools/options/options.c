@@ -138,6 +138,9 @@ static bool unknown_letter(const char *word, char letter, unsigned groups, lam_e
                         word);
     if (is_one_of(typed, model_names))
         return complain(error, LAM_BAD_ARGUMENT, "unknown option '-%c'; a model needs none: lambent MODEL", letter);
+    if (strchr(word, '.') && access(word, F_OK) == 0)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "unknown option '-%c'; for the file '%s' write './%s', or '--' before it", letter, word, word);
     struct suggestion nearest = suggest_start(typed);
     for (const struct option *o = option_table; o->name; o++)
         if (option_is_taken(o, groups) && !o->now)
@@ -307,6 +310,14 @@ static bool follows(const struct option *option, const char *word, const struct 
     return option->store(option, word, &copy, &unused);
 }
 
+// Whether the word after an option that may stand without a value is a mistyped value: one plain word that names no file, shape
+// or command.
+static bool is_mistyped(const char *word)
+{
+    return isalpha((unsigned char)*word) && !word[strspn(word, "abcdefghijklmnopqrstuvwxyz-")] &&
+           access(word, F_OK) != 0 && lam_shape_find(word) < 0 && !find_command(word);
+}
+
 // The word after an option that takes a value; NULL with the error if it is missing.
 static const char *next_value(const struct option *option, int count, char **words, int *at, lam_error *error)
 {
@@ -332,6 +343,8 @@ static bool read_long(int count, char **words, int *at, unsigned groups, struct 
     if (!option->value && value)
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' takes no value; found '%s'", option->name, value);
     bool alone = option->alone && (*at + 1 == count || !follows(option, words[*at + 1], options));
+    if (!value && alone && *at + 1 < count && is_mistyped(words[*at + 1]))
+        return apply(option, words[*at + 1], groups, options, error); // which says what is expected
     if (option->value && !value && alone)
         value = option->alone;
     if (option->value && !value && !(value = next_value(option, count, words, at, error)))

@@ -66,6 +66,9 @@ struct check_result {
     int code;                // the exit code for this shader alone
 };
 
+// A scene's result in one or two words: same, differs, or black (equal to a black reference, which earns no points).
+const char *check_scene_word(const lam_check_scene *scene);
+
 // A scene's part of the points: its weight or 0; −1: it does not count, since the exercise asks for none of its terms.
 double check_scene_points(const lam_check_scene *scene);
 

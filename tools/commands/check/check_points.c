@@ -22,6 +22,13 @@ const char *check_verdict_text(lam_check_verdict verdict)
     return "";
 }
 
+const char *check_scene_word(const lam_check_scene *scene)
+{
+    if (!scene->passes && scene->maximum == 0 && !scene->not_numbers)
+        return "black, no points"; // equal, but a black picture proves nothing
+    return scene->passes ? "same" : "differs";
+}
+
 double check_scene_points(const lam_check_scene *scene)
 {
     return scene->terms ? (scene->passes ? scene->weight : 0) : -1;

@@ -58,7 +58,7 @@ static void put_words(struct drawing *d, const lam_check_scene *s, int top)
 {
     char line[96];
     draw_text(d, (struct point){GAP, top + 20}, 18, ALIGN_LEFT, INK, s->name);
-    draw_text(d, (struct point){GAP, top + 42}, 14, ALIGN_LEFT, s->passes ? GOOD : BAD, s->passes ? "same" : "differs");
+    draw_text(d, (struct point){GAP, top + 42}, 14, ALIGN_LEFT, s->passes ? GOOD : BAD, check_scene_word(s));
     snprintf(line, sizeof line, "largest %.3f", s->maximum);
     draw_text(d, (struct point){GAP, top + 62}, 13, ALIGN_LEFT, GREY, line);
     snprintf(line, sizeof line, "mean %.4f", s->mean);

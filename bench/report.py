@@ -194,7 +194,7 @@ def readme_section(result):
     if not lines:
         return []
     return table(("work", "Lambent", "F3D", "speed", "Lambent with smooth normals and 4 samples"), lines) + [
-        "", "Measured on %d processors (%s, %s): [docs/speed.md](docs/speed.md#the-rows), rows %s." % (
+        "", "Measured on %d processors (%s, %s): [docs/speed.md](docs/speed.md#results), rows %s." % (
             result["machine"]["processors"], result["machine"]["processor"], ISA_NAMES[isa], ", ".join(map(str, numbers)))]
 
 

@@ -75,8 +75,12 @@ and writes this page:
 
     python3 tests/check/public.py FOLDER --program build/lambent --page docs/check/public.md
 
-The command fails in these cases: a right shader differs, a wrong one passes, a shader that cannot be judged passes or differs, a name
-reported without a doubt is wrong, or fewer than 70 %% get a verdict.
+The command fails if one of these is true:
+
+- A right shader differs, or a wrong one passes.
+- A shader that cannot be judged passes or differs.
+- A name reported without a doubt is wrong.
+- Fewer than 70 %% get a verdict.
 
 | label | right verdict | wrong verdict | no verdict |
 |---|--:|--:|--:|

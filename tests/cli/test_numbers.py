@@ -131,7 +131,7 @@ ROWS = [
     ("tools/options/option_table.c", "the number of triangles over a pixel: c/(c + {})", OVERDRAW),
     ("include/lambent/device.h", "no channel below {}", LEAST_ID),
     ("docs/opengl.md", "drawn in parts of {}×{}", *2 * [constant("src/gl/gl_device.h", "PART_SIZE_MAX")]),
-    ("docs/opengl.md", "The teapot ({} triangles)", TEAPOT),
+    ("docs/opengl.md", "the teapot ({} triangles)", TEAPOT),
     ("docs/shaders.md", "RGBA32F, {} texels wide", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
     ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the lights", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
     ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the products", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),

@@ -191,11 +191,10 @@ static bool draw(struct run *r, unsigned scenes, lam_error *error)
     snprintf(r->report->driver, sizeof r->report->driver, "%s", r->drawn.driver);
     if (r->drawn.state == DRAWN_SLOW) {
         r->report->verdict = LAM_CHECK_ENDLESS;
-        diagnostics_add(
-            &r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-            "scene '%.30s' took %.2g s of processor time, where a correct shader takes milliseconds: is there "
-            "an endless loop? Some drivers leave it after many iterations, others hang",
-            r->drawn.log, r->drawn.seconds);
+        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
+                        "scene '%.30s' took %.2g s of processor time, but a correct shader takes milliseconds: is "
+                        "there an endless loop? Some drivers leave it after many iterations, others hang",
+                        r->drawn.log, r->drawn.seconds);
     } else if (r->drawn.state != DRAWN_PICTURES) {
         r->report->verdict = LAM_CHECK_REFUSED;
         diagnostics_add_refusal(&r->diagnostics, &r->drawn, &r->interface, p);
@@ -251,10 +250,10 @@ static bool fail_unknown(struct run *r, const char *reason, lam_error *error)
     if (r->drawn.types_count)
         snprintf(types, sizeof types, "%s%.120s", names[0] ? "; " : "", r->drawn.types[0]);
     const char *nearest = interface->contract && (names[0] || types[0]) ? interface->contract->name : NULL;
-    return fail(error, LAM_BAD_ARGUMENT,
-                "no verdict: %s%s%s%s%s%s%s; --contract FILE says what each input is (docs/check/contract-file.md)",
-                reason, nearest ? "; the contract " : "", nearest ? nearest : "", nearest ? " has no " : "", names,
-                types, "");
+    return fail(
+        error, LAM_BAD_ARGUMENT,
+        "no verdict: %s%s%s%s%s%s%s; --contract FILE states the role of each input (docs/check/contract-file.md)",
+        reason, nearest ? "; the contract " : "", nearest ? nearest : "", nearest ? " has no " : "", names, types, "");
 }
 
 static void forget_scenes(struct run *r)
@@ -311,9 +310,10 @@ static bool run_inferred(struct run *r, const struct contract *nearest, lam_erro
     lam_error unread = {0};
     bool ok = p->vertex != NULL, done = false;
     if (!ok)
-        return fail_unknown(
-            r, "the names are of no known contract, and a fragment shader alone does not tell what its inputs are",
-            error);
+        return fail_unknown(r,
+                            "the names fit no known contract, and a fragment shader without its vertex shader does not "
+                            "show the role of its inputs",
+                            error);
     ok = (engine ? prefix_add(engine, p->vertex, p->fragment, &texts, error)
                  : (texts = (struct complete_texts){.vertex = p->vertex, .fragment = p->fragment}, true)) &&
          prefix_read(&texts, true, &sides[0], error) && prefix_read(&texts, false, &sides[1], error);

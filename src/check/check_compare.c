@@ -170,9 +170,8 @@ static bool weigh_darkness(struct run *r, lam_error *error)
     }
     return lit || r->report->verdict == LAM_CHECK_NOT_NUMBER || r->interface.printed_model == LAM_REFLECTION_NONE ||
            fail(error, LAM_BAD_ARGUMENT,
-                "no verdict: the shader declares no colour, strength or light of the contract %s, so that nothing is "
-                "to be "
-                "lit; a contract says by `undeclared` what its numbers are (docs/check/contract-file.md)",
+                "no verdict: the shader declares no colour, strength or light of the contract %s, so nothing can be "
+                "lit; `undeclared` in a contract states the numbers (docs/check/contract-file.md)",
                 r->interface.contract->name);
 }
 

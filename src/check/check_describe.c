@@ -84,17 +84,16 @@ static const struct {
     {"only the diffuse term differs: scenes without it match", shows_diffuse},
     {"only the specular term differs: scenes without it match", shows_specular},
     {"right with one light, wrong with several", has_lights},
-    {"right with even scales, and different where the model is scaled unevenly: look at the normals and their matrix",
+    {"right with even scales, and different if the model is scaled unevenly: look at the normals and their matrix",
      is_uneven},
-    {"right at the vertices of small triangles, and different between those of large ones: each fragment has to "
-     "compute what "
-     "is interpolated here",
+    {"right at the vertices of small triangles, and different between the vertices of large ones: compute the "
+     "interpolated value in each fragment",
      is_coarse},
     {"only directional lights differ", has_direction},
     {"only point lights differ", has_point},
     {"only spots differ", has_spot},
-    {"different where the light is attenuated, and right where it is not", is_attenuated},
-    {"different where the light comes from behind, and right where it comes from the front", is_lit_from_behind},
+    {"different if the light is attenuated, and right if it is not", is_attenuated},
+    {"different if the light comes from behind, and right if it comes from the front", is_lit_from_behind},
     {"only scenes with a normal map differ that is not flat: look at tangent, bitangent and the texel", has_bumps},
     {"only flat shading differs", is_flat},
     {"only the scene of back faces differs", has_two_sides},

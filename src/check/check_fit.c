@@ -317,7 +317,7 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
     if (!find_inside(r, &missing, error))
         return false;
     if (missing > 0.02) {
-        snprintf(reason, capacity, "%.0f %% of the model is not drawn where the check expects it", missing * 100);
+        snprintf(reason, capacity, "%.0f %% of the expected model is not drawn", missing * 100);
         return true;
     }
     struct reading *readings = arena_array(r->arena, MAX_READINGS, sizeof *readings), best = {.mean = 1e9};
@@ -358,7 +358,7 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
     else if ((explained || plain) == (r->report->verdict == LAM_CHECK_PASSES))
         *outcome = FIT_UNKNOWN; // the full pictures say something else
     if (*outcome == FIT_UNKNOWN)
-        snprintf(reason, capacity, "its pictures are near to those of a right shader, and not the same");
+        snprintf(reason, capacity, "its pictures are close to a correct shader's, but not equal");
     else if (explained)
         report_faults(r, &best, before);
     if (*outcome == FIT_DIFFERS)

@@ -32,7 +32,7 @@ static const struct {
 
 static const char *const root_comment[] = {
     "Written by `lambent check --write-contract`; docs/check/contract-file.md explains every key and every role.",
-    "Correct `name` and `title` first, then `space`: eye or world, where the shaders light.",
+    "Correct `name` and `title` first, then `space`: eye or world, the space of the lighting.",
     "\"strengths\": \"any\" accepts every colour and strength. With \"given\", each name needs a role, and mistakes in "
     "colours are found.",
     "If the exercise demands them, add \"gate\": \"required\", \"unit_normals\": \"required\", \"bare_ambient\": "
@@ -166,7 +166,7 @@ static bool write_contract(const char *contract, const char *found, lam_bytes *o
     if (undeclared && !json_object_get(undeclared, "comment"))
         json_object_set_new(
             undeclared, "comment",
-            json_string("values of what a shader has no name for, because the exercise writes it as a number"));
+            json_string("values that a shader does not declare, because the exercise writes them as numbers"));
     size_t i = 0, count = json_object_size(root);
     put(&t, "{\n", 2);
     json_object_foreach(root, key, value)

@@ -92,10 +92,9 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
     device->report.depth_near = (double)device->frame.depth_near;
     device->report.depth_far = (double)device->frame.depth_far;
     if (ok && device->frame.makes_normals && !device->type->makes_normals)
-        ok =
-            fail(error, LAM_UNSUPPORTED,
-                 "lam_draw: meshes of the scene have no normals (normals_when_drawn), which this device does not make; "
-                 "lam_scene_make_normals does");
+        ok = fail(error, LAM_UNSUPPORTED,
+                  "lam_draw: meshes of the scene have no normals (normals_when_drawn), and this device cannot compute "
+                  "them; call lam_scene_make_normals");
     const struct frame_ground *ground = &device->frame.ground;
     if (ok && ground->kind && !params->no_surfaces) {
         device->report.ground = true;

@@ -269,8 +269,8 @@ static bool check_place(const lam_device *device, const lam_draw_params *params,
                     (int)format);
     if (x < 0 || y < 0 || x >= width || y >= height)
         return fail(error, LAM_BAD_ARGUMENT,
-                    "pixel %d,%d lies outside of the picture of %d×%d pixels, expected 0,0 to %d,%d", x, y, width,
-                    height, width - 1, height - 1);
+                    "pixel %d,%d is outside the picture of %d×%d pixels, expected 0,0 to %d,%d", x, y, width, height,
+                    width - 1, height - 1);
     return true;
 }
 

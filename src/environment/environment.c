@@ -49,9 +49,8 @@ static bool copy_face(struct lam_environment *cube, int face, const struct piece
                 (const float *)piece->image->pixels + ((size_t)y * (size_t)piece->image->width + (size_t)x) * 4;
             for (int channel = 0; channel < 3; channel++)
                 if (!(from[channel] >= 0 && from[channel] <= 3e38f))
-                    return fail(error, LAM_BAD_ARGUMENT,
-                                "%s: pixel %d, %d holds %g, expected light of at least 0, finite", name, x, y,
-                                (double)from[channel]);
+                    return fail(error, LAM_BAD_ARGUMENT, "%s: pixel %d, %d is %g, expected light of at least 0, finite",
+                                name, x, y, (double)from[channel]);
             memcpy(cube_texel(cube, face, s, t), from, 3 * sizeof(float));
         }
     }
@@ -180,9 +179,8 @@ static bool check_light(const lam_image *image, const char *name, struct call_co
         for (int x = 0; x < image->width; x++, at += 4)
             for (int channel = 0; channel < 3; channel++)
                 if (!(at[channel] >= 0 && at[channel] <= 3e38f))
-                    return fail(error, LAM_BAD_ARGUMENT,
-                                "%s: pixel %d, %d holds %g, expected light of at least 0, finite", name, x, y,
-                                (double)at[channel]);
+                    return fail(error, LAM_BAD_ARGUMENT, "%s: pixel %d, %d is %g, expected light of at least 0, finite",
+                                name, x, y, (double)at[channel]);
     }
     return true;
 }

@@ -119,7 +119,7 @@ static bool check_kind(const struct bmp *bmp, bool os2, lam_error *error)
 {
     const char *name = bmp->file->name;
     if (bmp->compression == BI_JPEG || bmp->compression == BI_PNG)
-        return fail(error, LAM_UNSUPPORTED, "%s: BMP that holds a %s, expected pixels or run lengths", name,
+        return fail(error, LAM_UNSUPPORTED, "%s: BMP that contains a %s, expected pixels or run lengths", name,
                     bmp->compression == BI_JPEG ? "JPEG" : "PNG");
     if (bmp->compression > BI_ALPHABITFIELDS || (os2 && bmp->compression > BI_RLE4))
         return fail(error, LAM_UNSUPPORTED, "%s: BMP with compression %u, expected %s", name, bmp->compression,

@@ -200,7 +200,7 @@ bool companion_open_of_scene(const struct import_source *source, const char *nam
         return open_by_caller(source, inside, arena, out, error);
     }
     return open_beside(source, name, !source->params->models_anywhere,
-                       ", where the files of a scene must lie (--files-inside)", arena, out, error);
+                       ", which must contain the files of a scene (--files-inside)", arena, out, error);
 }
 
 bool companions_of_model(const struct import_source *scene, const char *name, const struct companion *model,

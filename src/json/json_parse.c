@@ -233,7 +233,7 @@ static json_t *read_number(struct parser *p)
     else if (number_double(from, to, &number) == to && number - number == 0)
         value = json_real(number);
     else
-        fail_found(p, "a number that a double can hold");
+        fail_found(p, "a number within the range of a double");
     if (!value)
         return number - number == 0 ? no_memory(p, NULL) : NULL;
     p->at = at;

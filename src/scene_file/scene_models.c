@@ -96,7 +96,7 @@ static bool import_file(struct scene_reader *r, const struct model_wanted *wante
     uint64_t items = 0;
     for (int i = 0; i < inner->meshes.count; i++)
         items += mesh_items(scene_mesh(inner, i));
-    return (items || fail(r->error, LAM_CANNOT_READ, "%s: holds no triangles, lines or points", source.name)) &&
+    return (items || fail(r->error, LAM_CANNOT_READ, "%s: contains no triangles, lines or points", source.name)) &&
            scene_give_colors_white(inner, r->error);
 }
 

@@ -138,7 +138,7 @@ static bool put_path(struct scene_writer *w, json_t *object, const char *key, co
     json_t *text = relative_path(w->folder, real, relative, sizeof relative) ? json_string(relative) : NULL;
     if (!text)
         return fail(w->error, LAM_UNSUPPORTED,
-                    "%s: the path of '%.200s' is too long or not UTF-8, which JSON cannot hold", w->path, path);
+                    "%s: the path of '%.200s' is too long or not UTF-8, which JSON cannot store", w->path, path);
     if (key)
         put(w, object, key, text);
     else
@@ -425,8 +425,8 @@ static bool put_objects(struct scene_writer *w, json_t *root)
             several ? (struct change){0} : change_of(w, object, origin->object_count ? origin->objects : &plain);
         if (several && !common_change(w, origin, i, &change))
             return fail(w->error, LAM_UNSUPPORTED,
-                        "%s: some objects of '%.200s' were changed and others not, or not alike, so one entry of a "
-                        "scene file cannot stand for them",
+                        "%s: some objects of '%.200s' were changed and others not, or differently, so one entry of a "
+                        "scene file cannot describe them",
                         w->path, origin->path);
         i += several ? origin->object_count - 1 : 0;
         if (!put_object(w, list, object, origin, &change))
@@ -652,7 +652,7 @@ bool lam_scene_encode(const lam_scene *scene, const lam_picture_settings *settin
         return fail(error, LAM_BAD_ARGUMENT, "a scene file: the %s missing",
                     !scene ? "scene is"
                     : out  ? "path is"
-                           : "place for its bytes is");
+                           : "a pointer for its bytes is");
     *out = (lam_bytes){0};
     if (settings && (!check_reserved("lam_picture_settings", settings, error) ||
                      !check_reserved("lam_picture_settings.camera", &settings->camera, error) ||

@@ -322,7 +322,7 @@ static bool set_place(struct reading *reading, lam_error *error)
         return fail(error, LAM_BAD_ARGUMENT, "'direction' and 'target' are given, expected one of them");
     if (reading->has_position && reading->w == 0) {
         if (light->type == LAM_LIGHT_SPOT)
-            return fail(error, LAM_BAD_ARGUMENT, "a spot light has a place, expected w above 0");
+            return fail(error, LAM_BAD_ARGUMENT, "a spot light needs a position, expected w above 0");
         if (reading->has_direction || reading->has_target)
             return fail(error, LAM_BAD_ARGUMENT, "position with w = 0 is a direction already, found another");
         if (p->x == 0 && p->y == 0 && p->z == 0)

@@ -416,7 +416,7 @@ class Errors(Animated):
 
     def test_formats(self):
         for format in ("jpg", "ppm", "pfm"):
-            done = self.bad(3, "cube.obj", "--turntable", "4", "-o", f"a.{format}", says=f"a file of format {format} holds one picture; expected .png or .webp, or {{frame}}")
+            done = self.bad(3, "cube.obj", "--turntable", "4", "-o", f"a.{format}", says=f"a file of format {format} contains one picture; expected .png or .webp, or {{frame}}")
             self.assertEqual(done.stderr.decode().count("\n"), 1)
 
     def test_sweeps(self):

@@ -128,7 +128,7 @@ class Page(Case):
         (self.folder / "deep").mkdir()
         self.given.add("deep")
         (self.folder / "deep" / "scene.json").write_text(self.scene_text("../cube.obj"))
-        self.bad(3, "deep/scene.json", "-o", "out.html", env=self.env, says=["outside of the folder", "cube."])
+        self.bad(3, "deep/scene.json", "-o", "out.html", env=self.env, says=["outside the folder", "cube."])
         (self.folder / "scene.json").write_text(self.scene_text("cube.obj"))
         self.given.add("scene.json")
         page, _ = self.make("scene.json", "--size", "32")

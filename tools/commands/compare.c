@@ -191,8 +191,8 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
     bool ok = shader && !shader->application;
     if (shader && !ok)
         complain(error, LAM_BAD_ARGUMENT,
-                 "options '--stage application' and '--across mistake': the sheet is drawn with shaders, which have no "
-                 "light there; expected '--stage vertex' or '--stage fragment'");
+                 "options '--stage application' and '--across mistake': shaders draw the sheet, and they compute no "
+                 "light in this stage; expected '--stage vertex' or '--stage fragment'");
     lam_shader_free(shader);
     lam_scene_free(job.scene);
     options_free(&options);
@@ -229,7 +229,7 @@ static bool choose_mistakes(struct compare *c, lam_error *error)
     int rows = (kept + 5) / 6;
     sheet->columns = (kept + rows - 1) / rows;
     if (*left_out && !c->options->report.quiet)
-        say_plain("left out, since the scene has nothing that they spoil: %s\n", left_out);
+        say_plain("omitted, because the scene does not show them: %s\n", left_out);
     return check_caption_count(c->options, sheet, error);
 }
 

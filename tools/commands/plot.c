@@ -263,7 +263,7 @@ static const struct kind kinds[] = {
      1},
     {"highlight",
      "Highlight: Phong cos(φ)^α, Blinn–Phong cos(φ/2)^α",
-     "angle φ between mirrored light and eye in degrees",
+     "angle φ between reflected light and eye in degrees",
      "strength S",
      add_highlight,
      {"10", "50", "1000", NULL},

@@ -54,7 +54,7 @@ void shader_contract(FILE *file, const lam_shader *s)
         list_uniforms(file, s->uniforms, s->uniform_count);
     }
     for (int i = 0; i < s->texture_count; i++)
-        fprintf(file, "//   %s holds %d texels; --host c and --json print them.\n", s->textures[i].name,
+        fprintf(file, "//   %s contains %d texels; --host c and --json print them.\n", s->textures[i].name,
                 s->textures[i].texels);
     for (int i = 0; i < s->draw_count; i++) {
         const lam_shader_draw *d = &s->draws[i];

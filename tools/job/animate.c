@@ -66,8 +66,8 @@ static bool check_format(const struct job *job, const struct options *o, lam_err
     if (job->frames.first || strcmp(job->format, "png") == 0 || lam_animation_format(job->output))
         return true;
     return complain(error, LAM_UNSUPPORTED,
-                    "option '--%s': a file of format %s holds one picture; expected .png or .webp, or {frame} in the "
-                    "name: -o '{stem}-{frame}.%s'",
+                    "option '--%s': a file of format %s contains one picture; expected .png or .webp, or {frame} in "
+                    "the name: -o '{stem}-{frame}.%s'",
                     animation_option(o), job->format, job->format);
 }
 

@@ -153,7 +153,7 @@ static void warn_maps(struct job *job)
             snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? ", " : "",
                      lam_map_name(fine[map]));
     }
-    snprintf(text, sizeof text, "maps that need Phong shading are left out: %s", names);
+    snprintf(text, sizeof text, "maps that need Phong shading are omitted: %s", names);
     if (*names)
         lam_scene_add_warning(job->scene, text);
 }
@@ -266,9 +266,9 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
         lam_scene_add_warning(job->scene, "option '--segments' changes nothing: the model is a file");
     if ((o->model.scene || o->model.variant || o->model.animation || o->model.has_time || o->model.lenient) &&
         strcmp(lam_scene_format(job->scene), "gltf") != 0)
-        lam_scene_add_warning(job->scene,
-                              "options '--scene', '--variant', '--animation', '--time' and '--lenient' count "
-                              "for glTF files alone");
+        lam_scene_add_warning(
+            job->scene,
+            "options '--scene', '--variant', '--animation', '--time' and '--lenient' apply only to glTF files");
     return true;
 }
 

@@ -131,7 +131,7 @@ void materials_warn(lam_scene *scene)
     }
     if (over > REPORTED) {
         char text[100];
-        snprintf(text, sizeof text, "%d more coefficients of materials are over 1", over - REPORTED);
+        snprintf(text, sizeof text, "%d more coefficients of materials are above 1", over - REPORTED);
         lam_scene_add_warning(scene, text);
     }
 }

@@ -439,9 +439,10 @@ bool store_list(const struct option *option, const char *value, struct options *
 bool store_jobs(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     if (*value && strspn(value, "0123456789") == strlen(value))
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "found '%.20s', expected - (standard input) or a file; -j %.20s draws so many models at once",
-                        value, value);
+        return complain(
+            error, LAM_BAD_ARGUMENT,
+            "found '%.20s', expected - (standard input) or a file; -j %.20s sets the number of models drawn at once",
+            value, value);
     return store_text(option, value, options, error);
 }
 

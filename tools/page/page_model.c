@@ -77,7 +77,7 @@ static bool add_files(const struct job *job, struct page_model *model, lam_error
         if (!beside || (i && !is_below(folder, path))) { // the model itself may be a link, which the user has named
             ok = complain(
                 error, LAM_UNSUPPORTED,
-                "%s: lies outside of the folder of %s, and a page has no files of other folders; copy it there", path,
+                "%s: is outside the folder of %s, and a page contains no files of other folders; copy it there", path,
                 job->model);
             break;
         }

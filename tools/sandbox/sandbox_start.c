@@ -20,7 +20,7 @@ const char *sandbox_advice(const lam_error *error)
 {
     bool denied = error->code == LAM_CANNOT_READ && strstr(error->text, strerror(EACCES));
     return active.landlock && denied
-               ? "; the sandbox lets files be read in the model's folder, and in those of --allow-path"
+               ? "; the sandbox allows reading only in the model's folder and in the folders of --allow-path"
                : "";
 }
 
@@ -183,7 +183,7 @@ bool sandbox_start(const struct options *o, struct sandbox_paths *paths, lam_err
     if (o->limits.sandbox == SANDBOX_OFF) {
         active.reason = "--sandbox off";
     } else if (uses_opengl(o)) {
-        active.reason = "OpenGL's driver needs what a sandbox takes away";
+        active.reason = "OpenGL's driver needs privileges that a sandbox removes";
         ok = check_required(o, error);
     } else if (o->limits.sandbox == SANDBOX_REQUIRE && sandbox_offered().reason) {
         active = (struct sandbox_state){.reason = sandbox_offered().reason};

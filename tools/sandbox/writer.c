@@ -138,7 +138,7 @@ static bool act(const struct request *request, const char *path, const lam_bytes
     if (request->action == REMOVE && right == WRITER_REMOVES)
         return unlink(path) == 0;
     if (request->action == REMOVE || (right != WRITER_NEW_OR_OURS && right != WRITER_ANY))
-        return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: is none of the files of this run", path);
+        return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: is not a file of this run", path);
     bool exists = stat(path, &there) == 0;
     if (exists && !S_ISREG(there.st_mode))
         return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: is not a regular file", path);
@@ -387,7 +387,7 @@ void writer_remove(const char *path)
 bool writer_start(writer_rule *rule, void *user, int count, lam_error *error)
 {
     (void)rule, (void)user, (void)count;
-    return complain(error, LAM_UNSUPPORTED, "this system has no processes that write files for others");
+    return complain(error, LAM_UNSUPPORTED, "this system cannot run the process that writes files");
 }
 
 bool writer_is_there(void) { return false; }

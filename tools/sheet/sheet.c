@@ -55,7 +55,7 @@ static const struct sheet sheets[] = {
                                {"All, shininess 1000", {"--shininess", "1000"}},
                                {"All, shininess 1000, flat", {"--shininess", "1000", "--shading", "flat"}}}},
     [SHEET_STAGES] = {.name = "stages",
-                      .title = "Where light is worked out",
+                      .title = "Where lighting is computed",
                       .columns = 2,
                       .inset = true,
                       .defaults = {COARSE, LIT, GLOSSY},
@@ -243,7 +243,7 @@ static void title_of(const char *option, char *title, size_t size)
         const char *option, *title;
     } rows[] = {{"ao", "ambient occlusion"},
                 {"color-mode", "encodings of colours"},
-                {"cull", "sides of the surface that are left out"},
+                {"cull", "culled sides of the surface"},
                 {"environment", "environments"},
                 {"environment-rotation", "turns of the environment"},
                 {"ground", "kinds of ground"},
@@ -255,7 +255,7 @@ static void title_of(const char *option, char *title, size_t size)
                 {"opacity", "opacity"},
                 {"projection", "projections"},
                 {"reflection", "reflection models"},
-                {"reflectivity", "shares of the environment that are mirrored"},
+                {"reflectivity", "shares of the environment that surfaces reflect"},
                 {"rig", "sets of lights"},
                 {"samples", "samples per pixel"},
                 {"segments", "numbers of segments"},
@@ -266,7 +266,7 @@ static void title_of(const char *option, char *title, size_t size)
                 {"show", "terms of the light and numbers of the surface"},
                 {"surfaces", "with and without surfaces"},
                 {"tone", "tone curves"},
-                {"viewer", "places of the eye for highlights"}};
+                {"viewer", "positions of the eye for highlights"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (strcmp(rows[i].option, option) == 0) {
             snprintf(title, size, "%s", rows[i].title);
@@ -377,7 +377,7 @@ bool sheet_choose(const struct options *options, struct sheet *sheet, char *stor
     for (int i = 0; i < 2; i++)
         if (strncmp(across->items[i], "mistake", 7) == 0)
             return complain(error, LAM_BAD_ARGUMENT,
-                            "option '--across': mistakes stand alone; expected no other '--across' beside them");
+                            "option '--across': mistakes cannot be combined; expected no other '--across' beside them");
     return choose_across(across->items[0], &lines, &store[0], error) &&
            choose_across(across->items[1], &columns, &store[1], error) && cross(&lines, &columns, sheet, error);
 }

@@ -177,7 +177,7 @@ static const char *reason_of(const struct job *job, const struct page_model *mod
     if (lacks)
         snprintf(text, REASON_SIZE, "%s", lacks);
     else if (bytes > PAGE_FILES_MAX)
-        snprintf(text, REASON_SIZE, "the model's files have %.1f MB, more than the %d MB that a page takes",
+        snprintf(text, REASON_SIZE, "the model's files have %.1f MB, more than the %d MB that a page supports",
                  (double)bytes / 1e6, PAGE_FILES_MAX / 1000000);
     else if (parts > VIEW_TRIANGLES_MAX)
         snprintf(text, REASON_SIZE,
@@ -237,7 +237,7 @@ static bool tell_explanation(struct drawer *d, struct job *job, const struct vie
 {
     const struct options *o = job->options;
     if (request->x < 0 || request->y < 0 || request->x >= o->picture.width || request->y >= o->picture.height)
-        return complain(error, LAM_BAD_ARGUMENT, "pixel %d,%d lies outside of the picture", request->x, request->y);
+        return complain(error, LAM_BAD_ARGUMENT, "pixel %d,%d is outside the picture", request->x, request->y);
     lam_explanation *explanation = job_explain(job, request->x, request->y, NULL, error);
     char *text = NULL;
     size_t size = 0;

@@ -172,8 +172,8 @@ static bool read_stream(int file, const char *path, bool fresh, struct call_cont
     while (ok && !ended) {
         if (used == out->size)
             ok = used >= max
-                     ? fail(error, LAM_LIMIT, "%s: has no end within %.1f GB, a quarter of this machine's memory", path,
-                            (double)max / 1e9)
+                     ? fail(error, LAM_LIMIT, "%s: does not end within %.1f GB, a quarter of this machine's memory",
+                            path, (double)max / 1e9)
                      : grow(out, used, call, error);
         if (ok && !wait_readable(file, call))
             ok = call_error(call, error);

@@ -185,7 +185,7 @@ static bool find_matrix(struct inference *f, const struct declaration *item)
     else if (has(core, "model world object trans") || strcmp(core, "m") == 0)
         role = "model";
     if (!role)
-        return cannot(f, "the check does not know what the matrix '%s' (%s) is for", item->name, item->type);
+        return cannot(f, "the check does not know the role of the matrix '%s' (%s)", item->name, item->type);
     f->has_model = f->has_model || strcmp(role, "model") == 0;
     f->has_model_view = f->has_model_view || strcmp(role, "model_view") == 0;
     f->has_normal_matrix = f->has_normal_matrix || strcmp(role, "normal_matrix") == 0;
@@ -533,7 +533,7 @@ static bool infer(struct inference *f, int guess)
         const struct declaration *item = &f->fragment->items[i];
         if (item->kind == DECLARED_INPUT && declarations_uses(f->fragment, item->name) &&
             !declarations_find(f->vertex, DECLARED_OUTPUT, item->name))
-            return cannot(f, "the vertex shader does not write '%s' (%s): another stage stands between", item->name,
+            return cannot(f, "the vertex shader does not write '%s' (%s): another stage is between them", item->name,
                           item->type);
     }
     find_attributes(f);

@@ -422,7 +422,7 @@ bool mtl_read(struct mtl_set *set, const struct import_source *source, struct la
     if (!close_material(&reader, error))
         return false;
     if (reader.wide_count)
-        scene_warn(scene, "%s:%zu: with Ns 0 the highlight would cover all that is lit; there is none%s", name,
+        scene_warn(scene, "%s:%zu: with Ns 0 the highlight would cover all lit points; it is omitted%s", name,
                    text_line(reader.begin, reader.wide), reader.wide_count > 1 ? ", here and in other materials" : "");
     return true;
 }

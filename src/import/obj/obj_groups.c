@@ -284,16 +284,16 @@ static bool fail_without_faces(struct state *state, lam_error *error)
     const char *name = obj->source->name;
     char found[TEXT_FOUND_SIZE];
     if (state->counts[FREE_FORM])
-        return fail(error, LAM_UNSUPPORTED,
-                    "%s:%zu: holds no faces, only free-form curves and surfaces (%s), which this version cannot draw",
-                    name, obj_line_number(obj, state->first[FREE_FORM]),
-                    text_found(state->first[FREE_FORM], obj->end, found));
+        return fail(
+            error, LAM_UNSUPPORTED,
+            "%s:%zu: contains no faces, only free-form curves and surfaces (%s), which this version cannot draw", name,
+            obj_line_number(obj, state->first[FREE_FORM]), text_found(state->first[FREE_FORM], obj->end, found));
     if (obj->total.positions)
-        return fail(error, LAM_CANNOT_READ, "%s: holds vertices (%llu), but no faces, lines or points of them", name,
+        return fail(error, LAM_CANNOT_READ, "%s: contains vertices (%llu), but no faces, lines or points of them", name,
                     (unsigned long long)obj->total.positions);
     if (state->counts[UNKNOWN])
         return fail(error, LAM_CANNOT_READ,
-                    "%s:%zu: found %s, expected a statement of OBJ (v, f, …); the file holds nothing to draw", name,
+                    "%s:%zu: found %s, expected a statement of OBJ (v, f, …); the file contains nothing to draw", name,
                     obj_line_number(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found));
     return true;
 }

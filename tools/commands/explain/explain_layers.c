@@ -34,7 +34,7 @@ void explain_layers(const lam_explained_layers *layers)
         row_color(4, "transmittance", layers->transmittance, "factor of the light behind the surface");
     if (layers->sheen_left < 1)
         row_number(4, "left", (double)layers->sheen_left,
-                   "1 − max(sheen_color) E(|n·v|): what the sheen leaves of the base");
+                   "1 − max(sheen_color) E(|n·v|): the light that the sheen leaves to the base");
     if (!is_zero(layers->coat_normal))
         row_vector(4, "n_c", layers->coat_normal, "the coat's normal");
     if (layers->coat > 0)

@@ -90,6 +90,5 @@ bool job_roots_have(const struct job_roots *roots, const char *path, bool writes
     free(real);
     if (odd)
         return complain(error, code, "%.400s: cannot write: is not a regular file", path);
-    return below ||
-           complain(error, code, "%.400s: lies outside of the folders that jobs may reach (--allow-path)", path);
+    return below || complain(error, code, "%.400s: is outside the folders that jobs may access (--allow-path)", path);
 }

@@ -115,8 +115,7 @@ static int image_of(struct gltf *gltf, int texture)
         image = webp_image;
     if (image < 0 && gltf_extension(object, "KHR_texture_basisu"))
         fail(gltf->json.error, LAM_UNSUPPORTED,
-             "%s: textures[%d]: its picture is KTX 2 alone (KHR_texture_basisu), which this version cannot decode, and "
-             "it has no other",
+             "%s: textures[%d]: its only picture is KTX 2 (KHR_texture_basisu), which this version cannot decode",
              gltf->source->name, texture);
     else if (image < 0)
         json_fail(&gltf->json, place, "source is missing");

@@ -135,8 +135,8 @@ static bool decode_indices(const struct decoding *d, const struct place *primiti
     size_t size = gltf_component_size(accessor->component);
     for (size_t i = 0; i < count; i++) {
         if (size < 4 && corners[i] >> (8 * size))
-            return json_fail(&gltf->json, here, "number %zu of the compressed mesh is %u, which its type cannot hold",
-                             i, corners[i]);
+            return json_fail(&gltf->json, here, "number %zu of the compressed mesh is %u, which exceeds its type", i,
+                             corners[i]);
         memcpy(elements + i * size, &corners[i], size); // little-endian, as glTF's buffers are
     }
     keep(d, accessor, elements);

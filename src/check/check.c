@@ -19,7 +19,7 @@
 
 // --- preparation
 
-// A scene as the shaders can express it, without what its terms do not show.
+// A scene as the shaders can express it, without features that its terms do not show.
 static struct reference_scene visible_scene(const struct run *r, int index)
 {
     struct reference_scene s = shader_interface_scene(&r->interface, &reference_scenes[index]);
@@ -209,8 +209,8 @@ static const uint64_t matrices_and_zero = BIT(SEMANTIC_MODEL_VIEW) | BIT(SEMANTI
                                           BIT(SEMANTIC_MODEL) | BIT(SEMANTIC_VIEW) | BIT(SEMANTIC_VIEW_PROJECTION) |
                                           BIT(SEMANTIC_ZERO) | BIT(SEMANTIC_ONE) | BIT(SEMANTIC_EYE_POSITION);
 
-// Whether the shaders' names are those of the contract: no verdict is honest where an input has no value. Names that are only
-// misspelt are mistakes, which the report names; those that differ in nothing but case and underscores are another course's.
+// Whether the shaders' names are the contract's: a verdict needs a value for every input. Misspelt names are mistakes,
+// which the report names; names that differ only in case and underscores belong to another course.
 static bool suits_contract(const struct run *r)
 {
     bool drawn_here = !r->texts.vertex;

@@ -1,5 +1,5 @@
-// check_describe.c: what the scenes show of a difference that no known mistake explains, in one sentence, and the line of a mistake
-// that the text alone shows.
+// check_describe.c: describes in one sentence a difference that no known mistake explains, and finds the line of a
+// mistake that only the text shows.
 #include "check_run.h"
 
 #include <string.h>

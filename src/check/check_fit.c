@@ -1,9 +1,10 @@
-// check_fit.c: compares a shader whose strengths and colours are its own with sums of an ambient, a diffuse and a specular term.
+// check_fit.c: compares a shader whose strengths and colours are its own with sums of an ambient, a diffuse and a
+// specular term.
 //
-// The fault shader draws each term of a scene in a channel of its own (shader_interface_scene). A reading is a highlight, an
-// exponent, and forms or a fault. The factors of its terms, the same in every scene, are those of the least squares. The shader
-// passes if some reading of a correct shader explains every scene, and differs if one with a single known mistake does.
-// Otherwise there is no verdict: what the check does not understand may well be right.
+// The fault shader draws each term of a scene in a channel of its own (shader_interface_scene). A reading is a
+// highlight, an exponent, and forms or a fault. The factors of its terms, the same in every scene, are found by least
+// squares. The shader passes if some reading of a correct shader explains every scene, and differs if one with a single
+// known mistake does. Otherwise there is no verdict: a shader that the check does not understand may be right.
 #include "readings.h"
 
 #include <stdio.h>
@@ -244,7 +245,7 @@ static int by_mean(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// The readings with which faults are tried: those that differ from the nearest one in the highlight and its forms alone. Where
+// The readings with which faults are tried: they differ from the nearest one only in the highlight and its forms. Where
 // the text has reflect(), the highlight is Phong's.
 static int choose_bases(const struct run *r, struct reading *readings, int count, const struct reading *best)
 {

@@ -1,4 +1,4 @@
-// check_write.c: writes a contract as a file for people: an entry a line, and beside each one what it means and what to correct.
+// check_write.c: writes a contract as a file for readers: one entry per line, with its meaning and what to correct.
 #include <lambent/check.h>
 
 #include <jansson.h>

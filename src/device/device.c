@@ -77,7 +77,7 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
     call_start(&call, control);
     call.input_bytes = scene->input_bytes;
     call.control.expansion_limit = UINT64_MAX; // drawing takes memory for the picture more than for the files
-    // Memory that the device holds already counts towards the budget.
+    // The device's existing memory counts towards the budget.
     uint64_t held = device->type->memory(device) + own_memory(device);
     memset(&device->report, 0, sizeof device->report);
     if (!call_charge(&call, held))

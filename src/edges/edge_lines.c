@@ -1,4 +1,4 @@
-// edge_lines.c: pieces of work of the edges: which are drawn, what of them is in the picture, and what of that is in sight.
+// edge_lines.c: tasks of the edges: selects drawn edges, clips them to the picture, and finds their visible parts.
 #include "edge_pieces.h"
 
 #include "fail.h"
@@ -89,7 +89,7 @@ static int style_of(const struct edge_piece *piece, const struct mesh_edge *edge
     return kinds & (unsigned)settings->edges ? EDGE_STYLE_FEATURE : plain;
 }
 
-// --- what of them is in the picture
+// --- clipping to the picture
 
 // Cuts a line off where a·q falls below 0; `a` at its two ends. False: nothing is left of 0 … 1.
 static bool cut(double at_0, double at_1, double range[2])
@@ -182,7 +182,7 @@ static bool set_line(const struct edge_piece *piece, const struct mesh_edge *edg
     return true;
 }
 
-// --- what of that is in sight
+// --- visible parts
 
 static bool add_part(struct edge_piece *piece, const struct edge_line *line, double from, double to)
 {

@@ -21,7 +21,7 @@ static uint32_t element(const uint32_t *own, const lam_mesh *mesh, size_t corner
     return own ? own[corner] : mesh->indices ? mesh->indices[corner] : (uint32_t)corner;
 }
 
-// A vector, turned about one axis so that what was up stays up.
+// A vector, rotated about one axis so that up stays up.
 static lam_vec3 turned(const struct writer *w, lam_vec3 p)
 {
     if (w->from == LAM_UP_X)
@@ -44,7 +44,8 @@ static lam_vec3 normal(const struct writer *w, uint32_t index)
     return turned(w, v3_unit(v3((double)n[0], (double)n[1], (double)n[2])));
 }
 
-// A number with all digits of a float, or of a double where it is none; with a point in every locale.
+// Prints a number with all digits of a float, or of a double if it is not exactly a float; with a point in every
+// locale.
 static void add_number(struct text *text, double x)
 {
     char digits[40], plain[40];

@@ -8,8 +8,8 @@
 // Triangles are prepared, and the largest ranges divided, in pieces of this many.
 enum { RAY_PIECE = 4096 };
 
-// The box of a triangle. low[3] holds the bits of its number, high[3] those of 1. Or that of a cell's triangles (cells.c), of
-// which low[3] has the first and high[3] the count.
+// The box of a triangle. low[3] contains the bits of its number, high[3] the bits of 1. Or of a cell's triangles
+// (cells.c): low[3] is the first and high[3] the count.
 struct primitive {
     _Alignas(16) float low[4];
     float high[4];

@@ -51,7 +51,7 @@ struct range {
     uint32_t node;         // the first of ray_nodes_below(count) nodes that it may use
     int depth;
     bool sorted;                     // the middles are the same; the primitives lie in the order of sort_group
-    uint32_t first_cell, cell_count; // the cells that hold the triangles; none: builder.primitives does
+    uint32_t first_cell, cell_count; // the cells that contain the triangles; none: builder.primitives does
     struct box box, middles;         // of the primitives or cells; of twice the middles of their boxes
     float area;                      // half of the box's
     uint32_t *child, *child_count;   // where its node or leaf is entered; NULL: it is the root
@@ -74,7 +74,7 @@ static inline void halves_of(struct range *r, uint32_t left, const struct box bo
     r->area = half_area(boxes[0]);
 }
 
-// The part with the largest box of those that are `open` to be divided; −1: none is.
+// The part with the largest box among the ones `open` to division; −1: none is.
 static inline int widest_part(const struct range *parts, const bool *open, int count)
 {
     int widest = -1;
@@ -211,7 +211,7 @@ bool range_halve(struct builder *builder, struct range *range, struct range *rig
 // Enters the node of a range that was divided into `parts`, and says where theirs go.
 void range_enter_node(struct builder *builder, const struct range *range, struct range *parts, int count);
 
-// Makes the nodes of a range, or a leaf where it is not divided. The root is a node always.
+// Makes the nodes of a range, or a leaf if it is not divided. The root is a node always.
 void range_divide(struct builder *builder, const struct range *range);
 
 #endif

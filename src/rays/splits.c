@@ -185,7 +185,7 @@ static void sort_corners(double p[3][3])
     }
 }
 
-// More triangles than a leaf holds, all with the same middle: sorts them, and finds twins. Any halves will do then.
+// More triangles than fit into a leaf, all with the same middle: sorts them, and finds twins. Any halves will do then.
 static bool sort_group(struct builder *b, const struct range *r)
 {
     struct placement place = {0};
@@ -277,7 +277,7 @@ bool range_halve(struct builder *b, struct range *r, struct range *right)
     return true;
 }
 
-// Makes the nodes of a range, or a leaf where it is not divided. The root is a node always.
+// Makes the nodes of a range, or a leaf if it is not divided. The root is a node always.
 static void divide(struct builder *b, const struct range *r, struct placement *place)
 {
     struct range parts[NODE_CHILDREN];

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// Keys that are not fields, or stand for some.
+// Keys that are not fields, or represent several.
 static const struct {
     const char *name;
     unsigned light_types;

@@ -71,7 +71,7 @@ class Mistakes(Case):
         self.bad(1, "compare", "sphere", "--across", "mistake", "-q", "-s", "32", *many, says="option '--caption': found 46, but the sheet has ")
         self.bad(3, "compare", "sphere", "--across", "mistake=no-gate", "--reflection", "ggx", says="'--style lecture' does not have '--reflection ggx'")
         self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--device", "cpu", says="mistakes are edits of shaders, which OpenGL draws")
-        self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--across", "shading", says="mistakes stand alone")
+        self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--across", "shading", says="mistakes cannot be combined")
 
 
 class Compare(Case):

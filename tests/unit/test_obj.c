@@ -306,8 +306,8 @@ static void test_errors(void **unused)
                  "t.obj:4: found the end of the line, expected a normal's coordinate (vn x y z)");
     expect_error(TRIANGLE "f 1 2 3\nf 1 2 7\nf 8 1 2\n", LAM_CANNOT_READ,
                  "t.obj:5: a face names vertex '7', but the file has 3");
-    expect_error("", LAM_CANNOT_READ, "t.obj: holds no triangles, lines or points");
-    expect_error(TRIANGLE, LAM_CANNOT_READ, "t.obj: holds vertices (3), but no faces, lines or points of them");
+    expect_error("", LAM_CANNOT_READ, "t.obj: contains no triangles, lines or points");
+    expect_error(TRIANGLE, LAM_CANNOT_READ, "t.obj: contains vertices (3), but no faces, lines or points of them");
     expect_error(TRIANGLE "l 1 4\n", LAM_CANNOT_READ, "t.obj:4: a line names vertex 4, but the file has 3");
     expect_error(TRIANGLE "p 0\n", LAM_CANNOT_READ, "t.obj:4: a point names vertex 0, expected an index from 1");
     expect_error(TRIANGLE "l 1 -4\n", LAM_CANNOT_READ,
@@ -318,7 +318,7 @@ static void test_errors(void **unused)
     expect_error(TRIANGLE "vt 0 0\nl 1/1 2/2\n", LAM_CANNOT_READ,
                  "t.obj:5: a line names texture coordinate 2, but the file has 1");
     expect_error(TRIANGLE "cstype bspline\nsurf 0 1 0 1 1 2 3\n", LAM_UNSUPPORTED,
-                 "t.obj:4: holds no faces, only free-form curves and surfaces ('cstype'), which this version "
+                 "t.obj:4: contains no faces, only free-form curves and surfaces ('cstype'), which this version "
                  "cannot draw");
     // A zero byte in the middle.
     lam_error error;

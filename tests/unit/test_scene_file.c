@@ -307,7 +307,7 @@ static void test_errors(void **unused)
         LIGHT("\"type\": \"directional\", \"position\": [1, 2, 3]",
               ".position: a directional light has a direction, or a position whose fourth number is 0"),
         LIGHT("\"type\": \"spot\", \"position\": [1, 2, 3, 0]",
-              ".position: the fourth number is 0, but a spot light stands somewhere"),
+              ".position: the fourth number is 0, but a spot light needs a position"),
         LIGHT("\"type\": \"point\", \"position\": [0, 0, 0, 0]", ".position: found 0, 0, 0, 0, expected a direction"),
         LIGHT("\"type\": \"spot\", \"inner\": 30, \"outer\": 20",
               ".inner: found 30, expected less than outer, which is 20"),

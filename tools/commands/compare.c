@@ -104,7 +104,7 @@ static bool cell_options(const struct compare *c, const struct cell *cell, const
     }
     if (!options->picture.background)
         options->picture.background = SHEET_BACKGROUND;
-    // Sheets compare methods of local lighting: what its sums leave out comes in only where it is asked for.
+    // Sheets compare methods of local lighting: effects outside its sums appear only on request.
     if (!option_given(options, "ao"))
         options->draw.occlusion = LAM_OCCLUSION_OFF;
     options->shader.lecture_device = c->sheet.mistakes;
@@ -199,7 +199,7 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
     return ok;
 }
 
-// Leaves out of a sheet of all mistakes those that the scene cannot show, and says which.
+// Removes from a sheet of all mistakes those without an effect on the scene, and prints their names.
 static bool choose_mistakes(struct compare *c, lam_error *error)
 {
     struct sheet *sheet = &c->sheet;
@@ -285,7 +285,7 @@ static void join(const char *const *words, int count, char line[512])
         snprintf(line + strlen(line), 512 - strlen(line), "%s%s", i ? " " : "", words[i]);
 }
 
-// Draws words in one line or, where they would be too small to read, in two, broken after a comma or a word.
+// Draws text in one line or, if it would be too small to read, in two lines, broken after a comma or a word.
 static void draw_words(struct compare *c, struct point baseline, double width, const char *line)
 {
     double u = c->page.unit, size = 15 * u, needed = text_width(&c->drawing, size, line);
@@ -436,7 +436,7 @@ static bool has_word(const char *const *words, int count, const char *word)
     return false;
 }
 
-// Prints what each picture is: its caption, and the words that make it of the command line without the sheet's own options.
+// Prints for each picture its caption, and its part of the command line without the sheet's own options.
 static void print_json(const struct compare *c, const char *path)
 {
     struct json json = {.file = strcmp(path, "-") == 0 ? stderr : stdout};
@@ -484,7 +484,7 @@ static char *path_of(const struct options *o, const char *model, const char *she
     return output_path(o->picture.output, model, ending);
 }
 
-// Decides which of the sheet's defaults hold for this command line and model.
+// Selects the sheet's defaults that apply to this command line and model.
 static bool find_defaults(struct compare *c, lam_error *error)
 {
     int shape = lam_shape_find(c->model);

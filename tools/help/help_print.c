@@ -91,7 +91,8 @@ void help_option(const struct option *option, const struct command *command, boo
     (1u << GROUP_PICTURE | 1u << GROUP_MODEL | 1u << GROUP_VIEW | 1u << GROUP_LIGHTS | 1u << GROUP_MATERIALS |         \
      1u << GROUP_SHADING | 1u << GROUP_ANIMATION | 1u << GROUP_WORK | 1u << GROUP_LIMITS | 1u << GROUP_REPORT)
 
-// A command describes its own options, those of which it accepts no other of the group, and those whose default is its own.
+// A command describes its own options, options of a group from which it accepts no other, and options with a different
+// default.
 static bool is_shared(const struct option *o, const struct command *command)
 {
     return command != command_table && SHARED & command->groups & 1u << o->group &&

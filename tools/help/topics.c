@@ -78,21 +78,21 @@ const struct topic topics[] = {
      "depths once to measure it. A model that cannot be read is reported, and the exit code is the highest one."},
     {"check", "Checking shaders", BIT(CHECK) | BIT(DIFF), TOPIC_NO_TABLE,
      "`lambent check SHADER.frag --vertex SHADER.vert` draws small reference scenes with the shaders and compares the "
-     "pictures with those of the CPU device. Without `--vertex` Lambent generates a correct vertex shader. It "
-     "recognises the contract by the names of uniforms and attributes; if no contract fits, it infers the inputs from "
-     "their use. `--list` prints the contracts, the scenes and the known mistakes. If pictures differ, it draws the "
-     "same scenes with known mistakes. It reports the smallest set that reproduces the shader's pictures, with a "
-     "corrected line for each. `-o` writes a sheet with the shader's picture, the reference and the difference (times "
-     "`--gain`) of each scene. `--tolerance` (default 2) applies to each channel of a pixel: one pixel in 200 may "
-     "exceed it, and the mean difference may be a quarter of it. The shaders run in a separate process, which "
-     "`--stop-after` and `--memory-limit` limit. `lambent check --class FOLDER --csv grades.csv -o sheets/` checks a "
-     "class. A submission is a folder with one fragment shader and at most one vertex shader; outside such folders it "
-     "is a fragment shader and the vertex shader of the same name. `sheets/index.html` is a page with all results. You "
-     "can also name several shaders: `lambent check */phong.frag */phong.vert` pairs the fragment and vertex shaders "
-     "of the same folder and name, and `-o sheets/` writes a sheet for each. If a shader cannot be checked, Lambent "
-     "reports it and checks the others. The exit code is 0 if every scene of every shader matches the reference, "
-     "otherwise the highest of all. It is 6 also for shaders that do not compile, do not end, or write NaN. With "
-     "`--json` the report is one line (`docs/check.schema.json`). More: `docs/check.md`."},
+     "pictures with the CPU device's. Without `--vertex` Lambent generates a correct vertex shader. It recognises the "
+     "contract by the names of uniforms and attributes; if no contract fits, it infers the inputs from their use. "
+     "`--list` prints the contracts, the scenes and the known mistakes. If pictures differ, it draws the same scenes "
+     "with known mistakes. It reports the smallest set that reproduces the shader's pictures, with a corrected line "
+     "for each. `-o` writes a sheet with the shader's picture, the reference and the difference (times `--gain`) of "
+     "each scene. `--tolerance` (default 2) applies to each channel of a pixel: one pixel in 200 may exceed it, and "
+     "the mean difference may be a quarter of it. The shaders run in a separate process, which `--stop-after` and "
+     "`--memory-limit` limit. `lambent check --class FOLDER --csv grades.csv -o sheets/` checks a class. A submission "
+     "is a folder with one fragment shader and at most one vertex shader; outside such folders it is a fragment shader "
+     "and the vertex shader of the same name. `sheets/index.html` is a page with all results. You can also name "
+     "several shaders: `lambent check */phong.frag */phong.vert` pairs the fragment and vertex shaders of the same "
+     "folder and name, and `-o sheets/` writes a sheet for each. If a shader cannot be checked, Lambent reports it and "
+     "checks the others. The exit code is 0 if every scene of every shader matches the reference, otherwise the "
+     "highest of all. It is 6 also for shaders that do not compile, do not end, or write NaN. With `--json` the report "
+     "is one line (`docs/check.schema.json`). More: `docs/check.md`."},
     {"shaders", "Shaders for other programs", BIT(SHADER), TOPIC_NO_TABLE, NULL},
     {"diff", "Comparing pictures", BIT(DIFF), TOPIC_NO_TABLE,
      "`lambent diff A B` reads two pictures of the same size and the same kind (PNG or PPM with 8 bits, or PFM with "

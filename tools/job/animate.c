@@ -146,7 +146,7 @@ static char up_letter(lam_up up)
     return up == LAM_UP_X || up == LAM_UP_NEGATIVE_X ? 'x' : up == LAM_UP_Z || up == LAM_UP_NEGATIVE_Z ? 'z' : 'y';
 }
 
-// The turns that the camera is fitted for besides those of the options: the camera goes around the model.
+// The rotations that the camera is fitted for besides the options': the camera circles the model.
 static bool add_turns(struct animation *a, struct options *o, lam_error *error)
 {
     static const char *const all[] = {"x:0", "y:0", "z:0"};
@@ -217,7 +217,7 @@ static void keep_exposure(const struct job *job, struct options *o)
 
 // --- loading
 
-// The options of the frame, completed by those of a scene file, become the job's.
+// The options of the frame, completed by a scene file's, become the job's.
 static bool use_options(struct job *job, int frame, lam_error *error)
 {
     struct animation *a = job->animation;

@@ -312,7 +312,8 @@ static bool fill_darkness(struct job *job, lam_draw_params *draw, int width, int
     return true;
 }
 
-// Finds the exposure where it is automatic. All lights count then: what a light changes depends on the exposure.
+// Computes the exposure if it is automatic. All lights count then, because the effect of a light depends on the
+// exposure.
 static bool fit_exposure(struct job *job, lam_draw_params *draw, int width, int height, lam_error *error)
 {
     const struct options *o = job->options;
@@ -380,7 +381,7 @@ static bool draw(struct job *job, struct progress *progress, lam_error *error)
     return ok;
 }
 
-// Whether 8 bits hold sRGB-encoded colours.
+// Whether the file stores 8 bits of sRGB-encoded colours.
 static bool is_color(lam_output output) { return lam_output_is_light(output) || output == LAM_OUTPUT_BASE_COLOR; }
 
 lam_save_params job_save_params(const struct job *job, const lam_control *control)

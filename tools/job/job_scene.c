@@ -38,7 +38,7 @@ static bool set_materials(const struct texts *texts, bool back, const char *name
     return true;
 }
 
-// Colours of vertices and triangles multiply those of materials.
+// Colours of vertices and triangles multiply the materials' colours.
 static void warn_of_own_colors(lam_scene *scene)
 {
     for (int i = 0; i < lam_scene_mesh_count(scene); i++)

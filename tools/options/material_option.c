@@ -32,8 +32,8 @@ bool material_option_parse(const char *text, lam_color_mode mode, struct materia
 
 void material_option_mirror(struct material_option *option)
 {
-    // What metals reflect at normal incidence, linear: Akenine-Möller and others, Real-Time Rendering, 4th edition, table 9.2. Bronze is the
-    // mean of copper and brass.
+    // The reflectance of metals at normal incidence, linear: Akenine-Möller and others, Real-Time Rendering, 4th
+    // edition, table 9.2. Bronze is the mean of copper and brass.
     static const struct {
         const char *name, *words;
     } metals[] = {{"brass", "diffuse=0.910/0.778/0.423,metallic=1,roughness=0.25"},
@@ -120,7 +120,7 @@ void materials_warn(lam_scene *scene)
 {
     enum { REPORTED = 3 };
     int over = 0;
-    // Those of glTF are not the file's: highlights that stand for rough surfaces keep their energy, whatever their width.
+    // glTF's values are not the file's: highlights that represent rough surfaces keep their energy at any width.
     if (strcmp(lam_scene_format(scene), "gltf") == 0)
         return;
     for (int i = 0; i < lam_scene_material_count(scene); i++) {

@@ -1,5 +1,5 @@
-// option_setting.c: the options of the library's settings. Words, default, range and summary come from its table; a row of
-// option_table.c adds details, and says where the option stands in the help.
+// option_setting.c: the options of the library's settings. Words, default, range and summary come from its table; a row
+// of option_table.c adds details and the position in the help.
 #include "options.h"
 
 #include <stdio.h>

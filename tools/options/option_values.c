@@ -316,8 +316,8 @@ bool store_segments(const struct option *option, const char *value, struct optio
     return true;
 }
 
-// A number that k, M, G, T may multiply by powers of 1000, or Ki, Mi, Gi, Ti by powers of 1024. NULL: it is none; else
-// what follows it.
+// A number that k, M, G, T may multiply by powers of 1000, or Ki, Mi, Gi, Ti by powers of 1024. NULL: not a number;
+// otherwise the rest of the text.
 static const char *read_multiple(const char *value, double *out)
 {
     double number;
@@ -435,7 +435,7 @@ bool store_list(const struct option *option, const char *value, struct options *
                   : complain(error, LAM_BAD_ARGUMENT, "its value is empty, expected a file of names");
 }
 
-// "-", or a file; a number is what other programs take.
+// "-", or a file; other programs accept a number here.
 bool store_jobs(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     if (*value && strspn(value, "0123456789") == strlen(value))

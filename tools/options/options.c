@@ -51,7 +51,7 @@ static bool texts_copy(struct texts *texts)
 bool options_copy(struct options *to, const struct options *from)
 {
     *to = *from;
-    to->lighting.look_text = NULL; // a copy ends before what it was made of
+    to->lighting.look_text = NULL; // free a copy before its original
     bool ok = texts_copy(&to->lighting.lights);
     ok = texts_copy(&to->material.materials) && ok;
     ok = texts_copy(&to->material.back_materials) && ok;
@@ -101,7 +101,7 @@ bool option_given(const struct options *options, const char *name)
     return option && options->given[option - option_table];
 }
 
-// What other programs call the option that names a model.
+// Names of this option in other programs.
 static const char *const model_names[] = {"i", "in", "input", "infile", "model", "mesh", "shape", "load", "open", NULL};
 
 static bool is_one_of(const char *word, const char *const *words)
@@ -128,7 +128,7 @@ static bool unknown_long(const char *name, size_t length, unsigned groups, lam_e
     return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'", typed);
 }
 
-// A letter is suggested only by its own row: those that are near by spelling mean nothing.
+// A letter is suggested only by its own row: similar spelling means nothing for letters.
 static bool unknown_letter(const char *word, char letter, unsigned groups, lam_error *error)
 {
     const char typed[2] = {letter, 0};
@@ -302,7 +302,7 @@ static bool apply(const struct option *typed, const char *value, unsigned groups
                     reason.text);
 }
 
-// Whether the next word is the value of an option that may stand without one: a value of its own, that is.
+// Whether the next word is the value of an option whose value is optional.
 static bool follows(const struct option *option, const char *word, const struct options *options)
 {
     struct options copy = *options;
@@ -310,7 +310,7 @@ static bool follows(const struct option *option, const char *word, const struct 
     return option->store(option, word, &copy, &unused);
 }
 
-// Whether the word after an option that may stand without a value is a mistyped value: one plain word that names no file, shape
+// Whether the word after an option with an optional value is a mistyped value: one plain word that names no file, shape
 // or command.
 static bool is_mistyped(const char *word)
 {
@@ -344,7 +344,7 @@ static bool read_long(int count, char **words, int *at, unsigned groups, struct 
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' takes no value; found '%s'", option->name, value);
     bool alone = option->alone && (*at + 1 == count || !follows(option, words[*at + 1], options));
     if (!value && alone && *at + 1 < count && is_mistyped(words[*at + 1]))
-        return apply(option, words[*at + 1], groups, options, error); // which says what is expected
+        return apply(option, words[*at + 1], groups, options, error); // which reports the expected values
     if (option->value && !value && alone)
         value = option->alone;
     if (option->value && !value && !(value = next_value(option, count, words, at, error)))

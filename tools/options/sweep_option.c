@@ -1,4 +1,4 @@
-// sweep_option.c: parses --sweep: the keys are those of the tables of options, materials and lights.
+// sweep_option.c: parses --sweep: its keys come from the tables of options, materials and lights.
 #include "sweep_option.h"
 
 #include <stdio.h>

@@ -59,7 +59,7 @@ static bool is_below(const char *folder, const char *path)
     return below;
 }
 
-// The model and what it names, by their names in the model's folder, which is the page's "/".
+// The model and the files that it names, by their names in the model's folder, which is the page's "/".
 static bool add_files(const struct job *job, struct page_model *model, lam_error *error)
 {
     const char *slash = strrchr(job->model, '/'), *path;
@@ -167,7 +167,7 @@ const char *page_model_lacks(const struct page_model *model, const lam_file_info
 
 // --- words
 
-// Whether an option belongs to the picture: those that the page has controls for. A look is in the options that it sets.
+// Whether an option belongs to the picture, and has a control in the page. A look is in the options that it sets.
 bool page_model_has_option(const struct option *option)
 {
     static const char *const without[] = {"output", "save-scene", "durable", "compress", "quality", "look"};

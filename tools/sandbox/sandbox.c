@@ -119,7 +119,7 @@ static int landlock_version(void)
 struct sandbox_state sandbox_offered(void)
 {
     struct sandbox_state state = {0};
-    if (under_valgrind()) { // whose own system calls would be those of the program
+    if (under_valgrind()) { // whose own system calls would look like the program's
         state.reason = "Valgrind runs the program";
         return state;
     }

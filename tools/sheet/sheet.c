@@ -140,7 +140,7 @@ static bool add_variant(struct sheet *sheet, const char *dashed, const char *nam
     return true;
 }
 
-// Adds the words of the option, each value once, without "auto", which stands for one of the others.
+// Adds the words of the option, each value once, without "auto", which selects one of the others.
 static bool add_words(struct sheet *sheet, const char *dashed, const struct option *option, lam_error *error)
 {
     for (const struct word *w = option->words; w->name; w++) {
@@ -167,7 +167,7 @@ static bool lacks_semicolons(const struct option *option, const char *values)
 // Rows of variants that need more than the option that varies to show a difference.
 static const struct row {
     const char *option;
-    const char *values; // where none are given; NULL: the option's words
+    const char *values; // if none are given; NULL: the option's words
     struct sheet_default defaults[SHEET_DEFAULTS_MAX + 1];
 } row_table[] = {
     {"shading", NULL, {COARSE, LIT, GLOSSY}},
@@ -236,7 +236,7 @@ static bool choose_mistakes(const char *values, struct sheet *sheet, char **stor
     return ok;
 }
 
-// What a row of pictures shows that differ in the values of an option.
+// The title of a row of pictures with different values of an option.
 static void title_of(const char *option, char *title, size_t size)
 {
     static const struct {
@@ -303,7 +303,7 @@ static bool choose_across(const char *across, struct sheet *sheet, char **store,
         return complain(error, LAM_LIMIT, "out of memory");
     sprintf(*store, "--%s", option->name);
     *sheet = (struct sheet){.name = option->name, .across = true};
-    // Named terms and numbers are those of the model as it is; the five terms are made visible.
+    // Named terms and numbers show the unchanged model; the five terms are made visible.
     if (row && (all_terms || strcmp(option->name, "show") != 0))
         memcpy(sheet->defaults, row->defaults, sizeof sheet->defaults);
     title_of(option->name, sheet->title, sizeof sheet->title);

@@ -23,7 +23,7 @@ struct view_request {
     int size; // bytes of the words, which follow: each with a 0 at its end; the first is the model, by its path in the page or a shape's name
 };
 
-// Before what an answer consists of.
+// Before the parts of an answer.
 struct view_reply {
     bool keeps;     // the model: it will be drawn again
     int status;     // of HTTP: 200, 422 (a sentence why there is no picture), 409 (cancelled)

@@ -77,7 +77,7 @@ static bool take_options(struct view_page *page, const struct options *options, 
 
 // --- the page
 
-// JSON in which no '<' is left, so that it may stand in a script element.
+// JSON in which no '<' is left, so that a script element can contain it.
 static void put_json(FILE *out, const char *id, const char *json)
 {
     fprintf(out, "<script type=\"application/json\" id=\"%s\">", id);

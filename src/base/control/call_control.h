@@ -48,7 +48,7 @@ uint64_t call_file_limit(const struct call_control *call);
 unsigned call_json_depth_limit(const struct call_control *call);
 uint64_t call_layer_limit(const struct call_control *call);
 
-// Whether a model, or a scene that is drawn, may have so many triangles; false: LAM_LIMIT. `items` is what they are:
+// Whether a model, or a scene that is drawn, may have so many triangles; false: LAM_LIMIT. `items` is their name:
 // "triangles", "lines".
 bool call_check_triangles(const struct call_control *call, const char *name, uint64_t count, const char *items,
                           lam_error *error);

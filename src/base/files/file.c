@@ -243,7 +243,7 @@ static int open_beneath(const char *path, size_t folder)
     return open(path, OPEN_FLAGS | O_NOFOLLOW);
 }
 
-// Opens a regular file; −1: an error. What is not one is not even opened. `shown` NULL: the user's own path.
+// Opens a regular file; −1: an error. Other paths are not even opened. `shown` NULL: the user's own path.
 static int open_regular(const char *path, size_t folder, const char *shown, struct stat *about, lam_error *error)
 {
     const char *advice = shown ? "" : " (- is standard input)";

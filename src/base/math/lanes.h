@@ -25,7 +25,8 @@
 #include <wasm_simd128.h>
 #endif
 
-// Always inlined, so that lanes stay in registers; but not in what computes one pixel (src/cpu/kernels.c), where size counts.
+// Always inlined, so that lanes stay in registers; but not in code that computes one pixel (src/cpu/kernels.c), in
+// which size counts.
 #ifdef RECORDING
 #define LANE_FN static inline __attribute__((unused))
 #else

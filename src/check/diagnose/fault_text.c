@@ -78,7 +78,7 @@ static bool is_wide(const struct line *line, enum uniform_semantic semantic) // 
 
 static bool is_world(const struct line *line) { return line->interface->space == LAM_FRAME_WORLD; }
 
-// The matrix from the model's space to that of the lighting.
+// The matrix from the model's space to the space of the lighting.
 static const char *to_lighting(const struct line *line)
 {
     const char *name = own_name(line, is_world(line) ? SEMANTIC_MODEL : SEMANTIC_MODEL_VIEW);

@@ -78,7 +78,7 @@ void diagnostics_add_refusal(struct diagnostics *diagnostics, const struct draw_
         compiler_hints_for_link(diagnostics, interface, params);
         return;
     }
-    // A generated vertex shader is refused only because of what the fragment shader declares.
+    // A generated vertex shader is refused only because of the fragment shader's declarations.
     if (drawn->refused_vertex && (params->vertex || !drawn->refused_fragment)) {
         add_log(diagnostics, drawn->log, &interface->vertex, params->vertex_name);
         compiler_hints_for_text(diagnostics, &interface->vertex, params->vertex_name, true);

@@ -228,7 +228,7 @@ static bool read_statement(struct reader *r)
     return true;
 }
 
-// The slot of a word: its own, or the empty one where it belongs.
+// The slot of a word: its own, or the empty one for it.
 static int *slot_of(const struct declarations *d, const char *text)
 {
     uint32_t hash = 2166136261u; // FNV-1a

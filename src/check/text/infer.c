@@ -62,7 +62,7 @@ static const char *last_part(const char *name)
     return dot ? dot + 1 : name;
 }
 
-// A name without what says nothing: u_, a leading u before a capital, Matrix, Mat.
+// A name without parts that mean nothing: u_, a leading u before a capital, Matrix, Mat.
 static void core_of(const char *name, char out[64])
 {
     size_t length = 0;
@@ -449,7 +449,7 @@ static bool find_vector_of_light(const struct declarations *d, int number, const
     return false;
 }
 
-// A light whose place or direction is a number. `guess` counts them; which is left is that of the spaces.
+// A light whose place or direction is a number. `guess` counts them; the spaces' guess remains.
 static bool find_light_in_text(struct inference *f, int guess, int *left)
 {
     double v[3];

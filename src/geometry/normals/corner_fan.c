@@ -194,7 +194,7 @@ static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_
     }
 }
 
-// The fan for a corner of a triangle without area: that of the first neighbour across an edge that has an area, else the
+// The fan for a corner of a triangle without area: the first neighbour's across an edge that has an area, otherwise the
 // fan of corner `otherwise`.
 static uint32_t neighbouring_fan(const struct fan_corner *around, uint32_t count, uint32_t i, uint32_t otherwise)
 {

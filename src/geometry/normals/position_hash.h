@@ -53,7 +53,7 @@ static inline void copy_bits(uint32_t to[3], const uint32_t from[3])
     to[2] = from[2];
 }
 
-// The vertex that represents a position; NONE: the table does not hold it. Adds the probes after the first line.
+// The vertex that represents a position; NONE: it is not in the table. Adds the probes after the first line.
 uint32_t position_hash_find(const struct position_hash *table, const uint32_t bits[3], uint32_t hash, size_t *probes);
 
 // Fills a part from its bin in each of `threads` lists, and empties the bins. With `duplicates`, each vertex whose

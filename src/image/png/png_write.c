@@ -1,4 +1,4 @@
-// png_write.c: pictures become PNG files: grey, grey and alpha, RGB or RGBA, whichever holds the picture exactly.
+// png_write.c: pictures become PNG files: grey, grey and alpha, RGB or RGBA, whichever stores the picture exactly.
 //
 // The picture is cut into strips of rows, whose height depends on the width alone. Each strip is filtered and
 // compressed by itself (png_fast.c, png_best.c) and becomes one IDAT chunk with its own CRC, so any thread can take any

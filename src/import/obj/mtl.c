@@ -101,8 +101,8 @@ static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *
 
 static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
-// Replaces a material whose colours are all 0: by white where a texture holds the colour, else, since exporters write such
-// materials by mistake, by the neutral grey, with a warning.
+// Replaces a material whose colours are all 0: by white if a texture has the colour, otherwise (exporters write such
+// materials by mistake) by the neutral grey, with a warning.
 static void replace_black(struct reader *reader, lam_material *m)
 {
     lam_rgb kd = {m->diffuse.r, m->diffuse.g, m->diffuse.b};

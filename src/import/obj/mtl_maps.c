@@ -69,7 +69,7 @@ static int take_numbers(struct options *o, float *out, int most)
     return count;
 }
 
-// The same for numbers that count: where one is absurd, none is taken, with a warning.
+// The same for numbers that matter: if one is absurd, all are ignored, with a warning.
 static int take_checked(struct options *o, float *out, int most)
 {
     float numbers[3];

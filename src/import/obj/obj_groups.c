@@ -121,7 +121,7 @@ static bool join_names(const struct state *state, const char *object, const char
     char *name = arena_alloc(&state->obj->scene->arena, length + rest + 2);
     if (!name)
         return no_memory(state, length + rest, error);
-    // NOLINTNEXTLINE(bugprone-not-null-terminated-result): what follows has its zero
+    // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the text after it has its zero
     memcpy(name, object, length);
     name[length] = '/';
     memcpy(name + length + 1, group, rest + 1);

@@ -190,7 +190,7 @@ static bool build(struct reader *reader, lam_error *error)
         return false;
     ply_warn_header(source, scene, &reader->header);
     if (!reader->elements[VERTICES])
-        return true; // the caller reports a file that holds nothing
+        return true; // the caller reports a file without contents
     if (!read_elements(reader, error))
         return false;
 

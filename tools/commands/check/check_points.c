@@ -1,4 +1,4 @@
-// check_points.c: what a report is worth, and its verdict in words.
+// check_points.c: the points of a report, and its verdict in words.
 #include "check.h"
 
 const char *check_verdict_text(lam_check_verdict verdict)

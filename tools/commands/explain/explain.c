@@ -120,7 +120,7 @@ static void print(const lam_explanation *explanation, const struct job *job)
         explain_text(explanation, job->model);
 }
 
-// Explains the pixel, prints it unless standard output is taken, and draws its figure where one is wanted.
+// Explains the pixel, prints it unless standard output is in use, and draws its figure if requested.
 static int explain(struct job *job, int x, int y, const char *figure)
 {
     lam_error error = {0};

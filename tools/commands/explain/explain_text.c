@@ -9,7 +9,7 @@
 #include "explain_rows.h"
 #include "explain_words.h"
 
-enum { FEW_LIGHTS = 16 }; // up to this number all lights are printed; of more, those that contribute
+enum { FEW_LIGHTS = 16 }; // up to this number all lights are printed; above it only contributing ones
 
 static void named(const char *name)
 {
@@ -198,7 +198,7 @@ static void print_hemisphere(const lam_explained_hemisphere *h, int number_in_li
     row_color(4, "ambient", h->term, "ka ⊙ mix(ground, sky, ½ + ½ n·up)");
 }
 
-// Prints all lights; of many, only those that contribute here.
+// Prints all lights; if there are many, only contributing ones.
 static void print_lights(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
 {
     int nothing = 0, left_out = 0;

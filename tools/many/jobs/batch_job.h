@@ -1,4 +1,4 @@
-// batch_job.h: one job of --jobs: what a line asks for, with the options, the plan and the model that it is drawn by.
+// batch_job.h: one job of --jobs: the request of a line, with its options, plan and model.
 #ifndef BATCH_JOB_H
 #define BATCH_JOB_H
 
@@ -10,7 +10,7 @@
 struct batch_job {
     struct batch_job *next; // in a list of jobs
     json_t *id;             // a string or an integer
-    struct options options; // the worker's, with those of the job
+    struct options options; // the worker's, followed by the job's
     char **words;           // which the options point into
     int word_count;
     struct batch_plan plan; // of one model
@@ -18,7 +18,7 @@ struct batch_job {
     bool in_answer;         // the pictures' files are part of the answer
     char *output;           // that the options point to
     char *options_text;     // for keys; NULL: there are none
-    lam_cancel cancel;      // raised where it is cancelled
+    lam_cancel cancel;      // set to cancel it
     bool cancelled;         // it was
 };
 

@@ -1,4 +1,4 @@
-// job_roots.h: the folders that files of jobs may lie in: those of --allow-path.
+// job_roots.h: the folders of --allow-path, to which the files of jobs are restricted.
 #ifndef JOB_ROOTS_H
 #define JOB_ROOTS_H
 

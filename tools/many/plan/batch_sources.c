@@ -38,7 +38,7 @@ static bool leads_out(const struct batch_plan *plan, const char *path, const cha
     return out;
 }
 
-// Adds a name whatever it stands for: pipes and links that lead nowhere are reported when they are read.
+// Adds a name without checking it: pipes and broken links are reported when they are read.
 static bool add_file(struct batch_plan *plan, const char *path, const char *root, bool is_link, lam_error *error)
 {
     struct stat target;

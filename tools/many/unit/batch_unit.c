@@ -58,7 +58,7 @@ void batch_unit_free(struct batch_unit *u)
     *u = (struct batch_unit){0};
 }
 
-// --- what the journal says
+// --- decisions by the journal
 
 static const char *text_of(const json_t *record, const char *key)
 {

@@ -84,15 +84,15 @@ LAM_API void lam_cancel_clear(lam_cancel *cancel);
 #define LAM_FILE_LIMIT_BYTES 32000000000u // bytes
 #define LAM_JSON_DEPTH_LIMIT 256u         // objects and lists within one another
 #define LAM_JSON_DEPTH_MAX   2000u        // the upper bound of json_depth_limit: the parser is recursive
-// Triangles of small files: so many, and more for each byte of files, up to LAM_TRIANGLE_LIMIT.
+// Triangles of small files: this many, and more for each byte of files, up to LAM_TRIANGLE_LIMIT.
 #define LAM_TRIANGLES_BASE     50000000u
 #define LAM_TRIANGLES_PER_BYTE 100u
-// Bytes of memory that reading a model may take: so many, and expansion_limit for each byte of files.
+// Bytes of memory that reading a model may use: this many, and expansion_limit for each byte of files.
 #define LAM_EXPANSION_BASE_BYTES 500000000u
 #define LAM_EXPANSION_LIMIT      2000u
-// Objects of a model: so many, and one more for each byte of files.
+// Objects of a model: this many, and one more for each byte of files.
 #define LAM_OBJECTS_BASE 100000u
-// Layers of a picture: so many, and one more for each LAM_LAYER_BYTES of files.
+// Layers of a picture: this many, and one more for each LAM_LAYER_BYTES of files.
 #define LAM_LAYERS_BASE 40u
 #define LAM_LAYER_BYTES 16384u
 
@@ -114,8 +114,8 @@ typedef struct lam_control {
     // Triangles that a model may have, and that a picture may draw (each object counts its mesh's). Lines and points
     // count as one in a model, and as two in a picture. 0: LAM_TRIANGLE_LIMIT, less for small files.
     uint64_t triangle_limit;
-    // Pixels of each picture that is read: textures, environments, pictures by themselves. A side has at most 65535 in
-    // any case. 0: LAM_PIXEL_LIMIT.
+    // Pixels of each picture read: textures, environments, single pictures. A side has at most 65535 in any case. 0:
+    // LAM_PIXEL_LIMIT.
     uint64_t pixel_limit;
     // Bytes of each file that is read. 0: LAM_FILE_LIMIT_BYTES.
     uint64_t file_limit_bytes;

@@ -201,8 +201,8 @@ typedef struct lam_check_painter {
     void (*close)(void *place); // frees it; its programs are forgotten before
     // A cache of the caller's keeps places: they come to rest after a check, and wake for another, perhaps on another thread.
     void (*rest)(void *place);
-    // False: see `error`; the place stays at rest. Its programs are forgotten and it is closed all the same, without another call
-    // that wakes it: memory and the device's objects have to be freed then too.
+    // False: see `error`; the place stays at rest. Its programs are forgotten, and it is closed without another call
+    // that wakes it: memory and the device's objects must be freed then too.
     bool (*wake)(void *place, lam_error *error);
     // Compiles both texts, so that the messages of both are known at once, and links them. A program that is refused is no
     // error. False: `error`; nothing is kept then.
@@ -264,7 +264,7 @@ typedef struct lam_check_params {
     // The terms that the shaders are expected to compute, bits of lam_check_term; 0: the terms of which they declare a
     // name. A colour that is not declared is taken as white.
     unsigned terms;
-    // The search for mistakes ends after so many pictures of sets of them; 0: 10000. The result is the same on every
+    // The search for mistakes ends after this many pictures of sets of them; 0: 10000. The result is the same on every
     // machine, with a cache or without.
     uint64_t max_pictures;
     // Draws in place of OpenGL. NULL: OpenGL draws, on `gl_device`. With `draw`, the shaders under test are drawn by

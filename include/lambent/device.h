@@ -56,7 +56,7 @@ LAM_API const char *lam_device_name(const lam_device *device);
 // The instruction set in use; LAM_ISA_AUTO: not a CPU device.
 LAM_API lam_isa lam_device_isa(const lam_device *device);
 
-// The number of threads that draw; 0: the device has none of its own.
+// The number of threads that draw; 0: the device has no own threads.
 LAM_API int lam_device_threads(const lam_device *device);
 
 // Shading methods: where the lighting is evaluated.
@@ -275,9 +275,9 @@ typedef struct lam_draw_params {
     // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the light's number in lam_draw_lights.
     int output_light;
     lam_tone tone; // between exposure and encoding, of 8-bit pictures
-    // Physical materials under an environment: the integral of its light is summed by so many directions at each lit point,
-    // 16..1048576, in place of the split sum (docs/lighting/environment.md). 0: the split sum. The CPU device alone; others
-    // refuse it (LAM_UNSUPPORTED).
+    // Physical materials under an environment: the integral of its light is summed over this many directions at each
+    // lit point, 16..1048576, in place of the split sum (docs/lighting/environment.md). 0: the split sum. The CPU
+    // device alone; others refuse it (LAM_UNSUPPORTED).
     int reference;
     // The width of lines, and the diameter of points, in pixels, up to 1000. 0: 1.5, and for points at least 3, more the fewer
     // there are and the larger the picture is, 8 or more for fewer than 100. Points below 4 pixels are squares. They lie nearer to the eye by their own width, as it is seen there, so that lines on a surface are not lost in it.

@@ -121,7 +121,7 @@ typedef struct lam_explained_point {
     // Unit: the normal, the direction to the eye, and the tangent, which is zero where the reflection model has no use
     // for it.
     lam_vec3 n, v, t;
-    lam_rgb color;         // vertex colour; 1 where the mesh has none
+    lam_rgb color;         // vertex colour; 1 if the mesh has no colours
     lam_rgb ambient_light; // La_global + Σ La
     lam_rgb ambient_term;  // ka ⊙ ambient_light
     // The hemisphere lights of the scene and the rig.
@@ -148,8 +148,8 @@ typedef struct lam_explained_point {
     float environment_scale, environment_bias; // of the split sum
     lam_rgb irradiance, prefiltered;           // light that falls in, linear
     lam_rgb environment_diffuse;               // the part of the reflection term that `irradiance` gives
-    // The share of the light from all around that ambient occlusion lets through, of which the ambient and reflection
-    // terms are multiplied (a classic material's reflection is not); 1 without occlusion.
+    // The share of surrounding light that ambient occlusion lets pass; it multiplies the ambient and reflection terms
+    // (not a classic material's reflection); 1 without occlusion.
     float unoccluded;
     // The layers of a physical material; NULL: it has none.
     const lam_explained_layers *layers;
@@ -172,7 +172,7 @@ typedef struct lam_explained_map {
     LAM_RESERVED(4);
 } lam_explained_map;
 
-// The material at a fragment that is lit by itself (Phong shading).
+// The material at a separately lit fragment (Phong shading).
 typedef struct lam_explained_values {
     // The diffuse colour, or the base colour of a physical material: its own times maps and vertex colours.
     lam_rgb base_color;

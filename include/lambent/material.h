@@ -99,7 +99,7 @@ typedef enum lam_alpha_mode {
     LAM_ALPHA_BLEND = 0, // it covers the surfaces behind it by that share
     // It is left out where the opacity is below lam_material.alpha_cutoff, and opaque elsewhere.
     LAM_ALPHA_MASK,
-    LAM_ALPHA_OPAQUE, // it is opaque all the same
+    LAM_ALPHA_OPAQUE, // it is opaque nevertheless
     LAM_ALPHA_COUNT
 } lam_alpha_mode;
 

@@ -158,8 +158,8 @@ static bool is_dark(const struct scene_comparison *scene, const float *picture)
     return true;
 }
 
-// A black picture of a scene that is black proves nothing: it earns no point in a shader that does not pass, and a shader of
-// which nothing else is asked gets no verdict.
+// A black picture of a black scene proves nothing: it earns no point in a shader that does not pass, and a shader with
+// no other scenes gets no verdict.
 static bool weigh_darkness(struct run *r, lam_error *error)
 {
     bool lit = false;

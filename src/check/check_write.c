@@ -56,7 +56,7 @@ static json_t *comment_of(const json_t *entry)
     return json_sprintf("%s%s%s", role ? meaning_of(role) : "", correct ? "; " : "", correct ? correct : "");
 }
 
-// Adds a comment to each entry that has none, and gives names of the fixed state back their own.
+// Adds a comment to each entry without one, and restores names of the fixed state.
 static json_t *comment_entries(const json_t *entries)
 {
     json_t *out = json_object();

@@ -38,8 +38,8 @@ static bool find_edges(lam_device *device, struct call_control *call, lam_error 
     return true;
 }
 
-// Draws the frame, and edges over it. Where surfaces are not drawn, they hide edges all the same: the frame is built once
-// with them and once without.
+// Draws the frame, and edges over it. Surfaces that are not drawn still hide edges: the frame is built once with them
+// and once without.
 static bool draw_frame(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                        const lam_draw_params *params, lam_image *target, struct call_control *call, lam_error *error)
 {

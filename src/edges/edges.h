@@ -18,7 +18,7 @@ struct edge_strokes {
 
 // Kept from frame to frame.
 struct edge_memory {
-    // The edges of the draws' meshes, in the order of the draws, and of which meshes.
+    // The edges of the draws' meshes, in the order of the draws, and their meshes.
     struct buffer edges, sources;
     int source_count;
     struct scene_token *token; // held; NULL: none are listed

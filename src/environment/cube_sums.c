@@ -1,5 +1,5 @@
-// cube_sums.c: cubes of which every texel is a weighted mean of all texels of a small copy of an environment, for weights
-// that change slowly.
+// cube_sums.c: cubes whose texels are weighted means of all texels of a small copy of an environment, for weights that
+// change slowly.
 #include "environment_kernels.h"
 #include "fail.h"
 

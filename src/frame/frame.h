@@ -234,7 +234,7 @@ static inline bool output_is_one_light(lam_output output)
     return output == LAM_OUTPUT_LIGHT || output == LAM_OUTPUT_N_L || output == LAM_OUTPUT_N_H;
 }
 
-// Outputs of which a pixel has the value of its nearest surface, whatever the opacity of that; masked surfaces leave their holes out.
+// Outputs whose pixels show the value of their nearest surface, whatever its opacity; masked surfaces keep their holes.
 static inline bool output_is_value(lam_output output)
 {
     return !lam_output_is_light(output) && output != LAM_OUTPUT_CLIPPED;
@@ -252,7 +252,7 @@ static inline bool output_is_material(lam_output output)
     return output >= LAM_OUTPUT_BASE_COLOR && output <= LAM_OUTPUT_LOD;
 }
 
-// The maps of which LAM_OUTPUT_LOD shows the first that a material has.
+// The maps in the order in which LAM_OUTPUT_LOD selects a material's first.
 enum { LOD_MAPS = 9 };
 extern const lam_map frame_lod_maps[LOD_MAPS];
 

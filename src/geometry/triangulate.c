@@ -38,7 +38,7 @@ struct corner {
     uint8_t level;           // LEVELS: in no queue
 };
 
-// A node's box around its points, of which `count` are left.
+// A node's box around its points; `count` of them are left.
 struct box {
     int32_t min_x, min_y, max_x, max_y;
     uint32_t count;

@@ -275,7 +275,7 @@ static int place_of(const char *name)
     return found ? (int)(found - letters) : strcmp(name, "Y") == 0 ? 0 : -1;
 }
 
-// Whether every chunk is there, before memory is taken for the picture.
+// Whether every chunk is present, before memory is allocated for the picture.
 static exr_result_t find_chunks(const struct core *core, exr_context_t file, int top, int64_t height)
 {
     int32_t rows = 1;

@@ -1,4 +1,4 @@
-// clear_models.c: scenes of which a picture would show nothing, because all of it is fully transparent.
+// clear_models.c: makes a scene visible whose picture would be empty because everything is fully transparent.
 #include "clear_models.h"
 
 #include <stdio.h>

@@ -1,10 +1,10 @@
 // cells.c: divides large ranges of a hierarchy's triangles, and hands the small ones out.
 //
 // The middles of a large range's triangles are sorted into the cells of a grid, and the range is divided by the boxes
-// of its cells in place of the triangles', of which there are many times more. A range of few triangles leaves its
-// cells and is divided by one thread (splits.c); so is one that fills a cell, within a grid of its own if it is large.
-// Tasks follow from the number of triangles, and a range's nodes have a position that follows only from its triangles,
-// so neither the threads nor their number matter.
+// of its cells in place of the far more numerous triangles. A range of few triangles leaves its cells and is divided by
+// one thread (splits.c); so is one that fills a cell, within a grid of its own if it is large. Tasks follow from the
+// number of triangles, and a range's nodes have a position that follows only from its triangles, so neither the threads
+// nor their number matter.
 #include "ranges.h"
 
 #include "fail.h"

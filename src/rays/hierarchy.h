@@ -35,7 +35,7 @@ struct hierarchy {
     double centre[3], scale;
     const struct ray_node *nodes;         // the root first
     const struct ray_triangle *triangles; // in the order of the leaves; one more may follow them
-    uint32_t node_count;                  // entries of `nodes`, of which some are not used, and 0
+    uint32_t node_count;                  // entries of `nodes`, some unused, and 0
     uint32_t triangle_count;
     const uint32_t *twins; // of each triangle of the frame, as ray_triangle.twin
     // How far, along each axis, rounding may have moved a corner from where its file means it, and a point of its triangle.

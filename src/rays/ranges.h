@@ -22,7 +22,7 @@ enum {
     BALANCED_AT = 48 // nodes above one that is divided in the middle
 };
 
-// Four floats of which the last means nothing.
+// Four floats; the last is unused.
 struct box {
     num low, high;
 };
@@ -45,7 +45,7 @@ static inline float half_area(struct box b)
     return lane(d, 0) * lane(d, 1) + lane(d, 1) * lane(d, 2) + lane(d, 2) * lane(d, 0);
 }
 
-// Primitives of which nodes are to be made.
+// Primitives that become nodes.
 struct range {
     uint32_t first, count; // triangles
     uint32_t node;         // the first of ray_nodes_below(count) nodes that it may use
@@ -205,7 +205,7 @@ static inline uint32_t partition(struct primitive *p, uint32_t count, const stru
 // The box of a range's primitives and of twice their middles.
 void range_measure(const struct primitive *p, uint32_t count, struct box *box, struct box *middles);
 
-// Divides a range in two: itself, and *right. False: it is to be a leaf, or there is no memory.
+// Divides a range in two: itself, and *right. False: it becomes a leaf, or there is no memory.
 bool range_halve(struct builder *builder, struct range *range, struct range *right);
 
 // Enters the node of a range that was divided into `parts`, and says where theirs go.

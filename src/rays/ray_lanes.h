@@ -33,9 +33,9 @@ struct ray_lanes {
     double point[3][LANES]; // that the ray leaves: its origin, unless that was moved off the surface
 };
 
-// Rays seen along their directions d, of which component k is the largest: x = p_i − (d_i/d_k) p_k, y = p_j − (d_j/d_k) p_k
-// and z = p_k/d_k with i, j after k. One of the three factors of a row is 1 and one 0, which are exact: rays of different k
-// can go through the same operations, and those that have k in common through fewer, with the same results.
+// Rays seen along their directions d with k as the largest component: x = p_i − (d_i/d_k) p_k, y = p_j − (d_j/d_k) p_k
+// and z = p_k/d_k with i, j after k. One of the three factors of a row is 1 and one 0, which are exact: rays of
+// different k can go through the same operations, and those that have k in common through fewer, with the same results.
 struct ray_view {
     _Alignas(64) double x[3][LANES], y[3][LANES], z[3][LANES];
     unsigned of_k[3]; // the rays with each k

@@ -213,7 +213,7 @@ static void fit_turning(const struct fitting *fitting, const lam_scene *scene, l
         *camera = fit(fitting, &points, fitting->fill);
 }
 
-// lam_camera_fit, or with an axis lam_camera_fit_turning, with this fill where the view has none.
+// lam_camera_fit, or with an axis lam_camera_fit_turning, with this fill if the view sets none.
 static lam_camera fit_view(const lam_scene *scene, int width, int height, const lam_view *view, lam_vec3 centre,
                            const lam_vec3 *axis, double fill)
 {

@@ -58,7 +58,7 @@ static bool read_color(struct scene_reader *r, const struct place *place, const 
     return true;
 }
 
-// The fields by themselves. A position has a reader of its own.
+// The fields one by one. A position has a reader of its own.
 static bool read_fields(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
 {
     for (int i = 0; lam_light_field(i); i++) {

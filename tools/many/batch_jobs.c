@@ -157,7 +157,7 @@ static void count(struct batch_jobs *jobs, const lam_error *error, size_t pictur
     pthread_mutex_unlock(&b->lock);
 }
 
-// `id` NULL: the line has none, or one that another job has.
+// `id` NULL: the line has none, or another job's.
 static void refuse(struct batch_jobs *jobs, json_t *id, uint64_t line, const char *outcome, const lam_error *reason)
 {
     lam_error error;

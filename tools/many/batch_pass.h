@@ -13,8 +13,8 @@ bool batch_begin_pass(struct batch *batch, int pass);
 bool batch_begin_suspects(struct batch *batch);
 void batch_end_suspects(struct batch *batch);
 
-// The next model of the pass, or the next job, which is waited for with `waits`. False: there is none, or nothing more is to be
-// begun. Any thread.
+// The next model of the pass, or the next job, which is waited for with `waits`. False: there is none, or nothing more
+// may begin. Any thread.
 bool batch_take(struct batch *batch, struct batch_task *task, bool waits);
 
 // Takes over the results of a unit: counts, lines of the journal, messages, the answer to a job. Any thread.

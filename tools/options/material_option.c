@@ -60,7 +60,7 @@ lam_material material_option_apply(const struct material_option *option, lam_mat
     return material;
 }
 
-// Fractions of light have a symbol; the surface's own light has none.
+// Fractions of light have a symbol; emission has none.
 static bool is_fraction(const lam_field *field)
 {
     return (field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA) && field->symbol;

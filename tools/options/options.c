@@ -237,7 +237,7 @@ static bool take_look_line(void *user, int line, char *name, char *value, lam_er
 
 static bool apply_look(const char *name, struct options *options, lam_error *error)
 {
-    struct options before = *options; // shares its lists, of which only the flags are read
+    struct options before = *options; // shares its lists; only the flags are read
     struct look_lines lines = {options, &before, own_lights(options)};
     options->lighting.look = name;
     options->lighting.look_first = options->lighting.lights.count;

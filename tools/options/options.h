@@ -35,7 +35,7 @@ struct options {
     struct report_options report;
 
     bool given[OPTIONS_MAX];         // for each row of the table: the option is on the command line
-    bool by_look[OPTIONS_MAX];       // and it is there by --look
+    bool by_look[OPTIONS_MAX];       // and it comes from --look
     const char *values[OPTIONS_MAX]; // its last value there; NULL: it takes none
 };
 

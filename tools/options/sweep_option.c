@@ -48,7 +48,7 @@ static const lam_field *light_field(const char *key)
     return NULL;
 }
 
-// The number of a component's letter in a field; −1: it has none such.
+// The number of a component's letter in a field; −1: no such component.
 static int component_of(const lam_field *field, const char *letter)
 {
     const char *letters = field->type == LAM_FIELD_RGB                                           ? "rgb"

@@ -10,7 +10,7 @@ struct output_words {
     const char *root;  // {dir} is the model's folder below this one; NULL or "": the folder as it is given
     const char *view;  // {view}; NULL: the pattern has none
     int width, height; // {size}: "256" of a square, else "256x128"
-    int frame, digits; // {frame}: a number with leading zeros, at least so many digits; OUTPUT_FRAME_OPEN: it stays
+    int frame, digits; // {frame}: a number with leading zeros, at least this many digits; OUTPUT_FRAME_OPEN: it stays
 };
 
 // The word {frame} stays in the name, until the number of frames is known.

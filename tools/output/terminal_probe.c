@@ -86,7 +86,7 @@ static int wait_ms(void)
     return text && *text && (*end || wanted < 0) ? WAIT_MS : wanted > WAIT_MAX_MS ? WAIT_MAX_MS : (int)wanted;
 }
 
-// Reads until the last answer is there, or time is over.
+// Reads until the last answer has arrived, or time is over.
 static void read_answers(int file, char *text, size_t size)
 {
     double end = clock_ms() + wait_ms();

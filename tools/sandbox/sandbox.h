@@ -41,7 +41,7 @@ struct sandbox_state {
     int landlock;          // the kernel's version of Landlock; 0: none
     bool filter;           // the seccomp filter
     bool reads_everything; // files may be read anywhere
-    const char *reason;    // why one of them is missing; NULL: both are there
+    const char *reason;    // why one of them is missing; NULL: both are active
 };
 
 // The protections that the kernel offers. Changes nothing.

@@ -46,7 +46,8 @@ void sandbox_add_input(struct sandbox_paths *paths, const char *model)
 {
     if (strcmp(model, "-") == 0 || lam_shape_find(model) >= 0)
         return;
-    sandbox_add(paths, model, SANDBOX_READ); // by itself too: it may be a link to a file elsewhere, which the user made
+    sandbox_add(paths, model, SANDBOX_READ); // the path itself too: it may be a link to a file elsewhere, which the
+                                             // user made
     add_folder_of(paths, model, SANDBOX_READ);
     paths->scene_files |= is_scene_file(model);
 }

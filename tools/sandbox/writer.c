@@ -249,7 +249,7 @@ static struct {
     pthread_cond_t given;
 } writer = {.lock = PTHREAD_MUTEX_INITIALIZER, .given = PTHREAD_COND_INITIALIZER};
 
-// A pair of connections above the standard streams, one of which may be closed.
+// A pair of connections above the standard streams, which may be closed.
 static bool make_pair(int *here, int *there)
 {
     int pair[2];

@@ -198,7 +198,7 @@ static const struct row *find_row(const char *option)
     return NULL;
 }
 
-// Two lights, one of which fades, the other one from behind, on a coloured surface: most mistakes can be seen.
+// Two lights, one with attenuation, the other from behind, on a coloured surface: most mistakes become visible.
 #define LAMP  "point:position=-1.2r/1.3r/1.7r,attenuation=0.3/0.1r/0.15r,ambient=0.2"
 #define RIM   "directional:direction=-1/-0.5/1.4,diffuse=0.4/0.45/0.55,specular=0.8"
 #define PAINT "ambient=0.3/0.12/0.08,diffuse=0.75/0.3/0.2,specular=0.5,shininess=20"

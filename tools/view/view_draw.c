@@ -128,7 +128,7 @@ static void put_path(struct json *json, const char *key, const char *page_model,
     free(path);
 }
 
-// Files that were looked for and not found: once one is there, the picture is another one.
+// Files that were looked for and not found: once one exists, the picture changes.
 static void put_missing(struct json *json, const struct job *job, const char *page_model)
 {
     const char *slash = strrchr(job->model, '/'), *path;
@@ -165,7 +165,7 @@ static uint64_t put_files(struct json *json, const struct page_model *model, con
     return bytes;
 }
 
-// Why the page does not draw the model by itself. Returns `text`; NULL: it does.
+// The reason why the page does not draw the model itself. Returns `text`; NULL: it does.
 enum { REASON_SIZE = 700 };
 static const char *reason_of(const struct job *job, const struct page_model *model, bool listed, const char *why,
                              uint64_t bytes, char text[REASON_SIZE])

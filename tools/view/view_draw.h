@@ -31,7 +31,8 @@ struct view_reply {
     uint64_t data;  // bytes that follow it: pixels, a file
 };
 
-// The largest that the page draws by itself: the triangles, lines and points of a model, and the bytes of its files (PAGE_FILES_MAX).
+// The largest model that the page draws itself: its triangles, lines and points, and the bytes of its files
+// (PAGE_FILES_MAX).
 enum { VIEW_TRIANGLES_MAX = 2000000 };
 
 // Reads requests from `from` until it ends, and answers to `to`. SIGUSR1 cancels the one that is worked on. Does not return.

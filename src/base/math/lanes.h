@@ -352,7 +352,7 @@ LANE_FN num lanes_at(num x, inum at)
 #endif
 }
 
-// The minimum of all lanes, none of which is NaN.
+// The minimum of all lanes, without NaN.
 LANE_FN float min_lane(num x)
 {
 #if (LANES == 16 && defined(__AVX512DQ__)) || (LANES == 8 && defined(__AVX__))

@@ -169,7 +169,7 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
         }
         mantissa >>= 1 - field;
         mantissa = (mantissa + (mantissa & 1)) >> 1;
-        *bits = mantissa; // one that became the smallest normal number carries into the exponent by itself
+        *bits = mantissa; // one that became the smallest normal number carries into the exponent
         return true;
     }
     // Exactly in the middle: round to even.

@@ -4,9 +4,9 @@
 // own. 3. A beam search: each of the best few with one more fault, and so on. 4. If no set explains every picture: the
 // faults that explain some, and spoil none.
 //
-// Nearly all of the time goes into drawing, so few pictures are drawn of a set that leads nowhere: the added fault must
-// gain in the first of the scenes that it changes (is_idle). The search ends at its limit of pictures; they are counted
-// whether they come from the cache or not, so that the result does not depend on it.
+// Nearly all of the time goes into drawing, so few pictures are drawn of hopeless sets: the added fault must gain in
+// the first of the scenes that it changes (is_idle). The search ends at its limit of pictures; they are counted whether
+// they come from the cache or not, so that the result does not depend on it.
 #include "fault_candidate.h"
 
 #include <stdlib.h>
@@ -172,7 +172,7 @@ static bool find_also(struct state *t, const struct candidate *best, int i, stru
     return true;
 }
 
-// Stores a candidate as the result, that which explains most first.
+// Stores a candidate as the result; the fault that explains most comes first.
 static bool store(struct state *t, struct candidate *c, lam_error *error)
 {
     struct fault_search *s = t->s;

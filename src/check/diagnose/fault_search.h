@@ -33,7 +33,7 @@ struct fault_search {
     bool has_unset_names;
     uint64_t max_pictures; // that it may draw, until it looks for no further sets
     double before;         // mean difference without faults, over the scenes that are not spoilt
-    // Results: the faults, that which explains most first, and whether they explain everything.
+    // Results: the faults, the one that explains most first, and whether they explain everything.
     struct found_fault found[MAX_FOUND_FAULTS];
     int count;
     bool certain;

@@ -166,7 +166,7 @@ static const char *term_name(const struct line *line, enum uniform_semantic sema
     return name && !declared && colored ? color : name;
 }
 
-// A map of metalness or roughness: that which has both, or a map of it alone.
+// A map of metalness or roughness: one map for both, or a separate one.
 static const char *data_map(const struct line *line, enum uniform_semantic alone)
 {
     const char *name =

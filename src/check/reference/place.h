@@ -39,7 +39,7 @@ struct type_shape {
 };
 struct type_shape type_shape(lam_check_type type);
 
-// The input with a name, as the painter says it; -1: the program has none.
+// The input with a name, as the painter reports it; -1: the program has none.
 int place_input(const lam_check_program *program, const char *name, bool attribute);
 
 #endif

@@ -104,8 +104,8 @@ extern const int reference_scene_count;
 
 int reference_scene_find(const char *name); // −1: none
 
-// Positions, normals and tangents of vertices, three floats each, no two with all the same, and three indices of them for each
-// triangle: few enough for OpenGL ES 2, whose indices have 16 bits. From malloc.
+// Positions, normals and tangents of vertices, three floats each, no two vertices equal, and three indices of them for
+// each triangle: few enough for OpenGL ES 2, whose indices have 16 bits. From malloc.
 struct reference_points {
     float *positions, *normals, *tangents;
     // For maps: two floats, linear in the position, so that their derivatives vanish nowhere; and four: the tangent, and the

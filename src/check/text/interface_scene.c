@@ -68,7 +68,7 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
     bool own_diffuse = diffuse || declares(r, SEMANTIC_COLOR);
     bool lit_specular = declares(r, SEMANTIC_LIGHT_SPECULAR);
     bool lit_ambient = declares(r, SEMANTIC_LIGHT_AMBIENT) || declares(r, SEMANTIC_AMBIENT_LIGHT);
-    // The highlight has the light's colour where the material has none.
+    // The highlight has the light's colour if the material has no colour for it.
     if (!own_specular && lit_specular && d->specular_color.source != COLOR_OF_SCENE)
         for (int i = 0; i < s->light_count; i++)
             s->lights[i].specular = times(s->lights[i].specular, s->specular);

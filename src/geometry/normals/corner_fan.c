@@ -162,8 +162,8 @@ static int compare_edges(const void *left, const void *right)
     return a->corner < b->corner ? -1 : a->corner > b->corner;
 }
 
-// For many corners: sorts their edges. On an edge with so many triangles that all pairs would be too many, each outgoing
-// one is tested against the incoming one of the same rank only; no real surface has such an edge.
+// For many corners: sorts their edges. On an edge with very many triangles, each outgoing one is tested only against
+// the incoming one of the same rank, because there would be too many pairs; no real surface has such an edge.
 static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_t count, double min_cosine)
 {
     enum { PAIRS_MAX = 256 };

@@ -21,11 +21,11 @@ struct position_hash {
     uint32_t part_lines, part_words;
 };
 
-// Chooses the number of parts for about so many vertices.
+// Chooses the number of parts for about this many vertices.
 void position_hash_plan(struct position_hash *table, size_t vertices);
 
-// The bytes that the table takes for so many vertices in all parts together. `strict` doubles the bits of the filter, so
-// that it lets fewer other positions pass.
+// The bytes of the table for this many vertices in all parts together. `strict` doubles the bits of the filter, so that
+// it lets fewer other positions pass.
 size_t position_hash_size(struct position_hash *table, size_t vertices, bool strict);
 void position_hash_place(struct position_hash *table, void *memory);
 

@@ -86,7 +86,7 @@ static inline uint32_t triangles_before(const struct position_search *s, size_t 
            s->triangles_of_others;
 }
 
-// Checks the probes of so many searches; false once the probe limit is reached.
+// Checks the probes of this many searches; false once the probe limit is reached.
 bool within_probe_limit(struct position_search *s, size_t probes, size_t searches);
 
 #endif

@@ -64,7 +64,7 @@ static size_t find_pixels(const struct picture_file *file)
     return 0;
 }
 
-// Joins the compressed bytes of the chunks of pixels, which the file's end follows. 0: something else is there.
+// Joins the compressed bytes of the chunks of pixels, which the file's end follows. 0: something else follows.
 static size_t join_pixels(const struct inflater *d, const struct picture_file *file, size_t at, uint8_t *joined)
 {
     size_t used = 0;

@@ -356,7 +356,7 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
         return true;
     }
     switch (statement) {
-    case TR: // d decides where both are there, in whatever order
+    case TR: // d decides if both are present, in any order
         if (!reader->d && read_numbers(reader, at, end, &number, 1, 1) == 1) {
             m->diffuse.a = 1 - within(reader, at, number, 0, 1, "Tr");
             reader->opacity = word;

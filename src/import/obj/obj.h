@@ -55,7 +55,7 @@ struct obj_chunk {
     float brightest;                    // the largest colour channel
     // Some corner names, or does not name, a texture coordinate or a normal.
     bool texcoord_used, texcoord_missing, normal_used, normal_missing;
-    // Some corner names one although the file has none.
+    // Some corner names one although the file contains none.
     bool texcoord_unknown, normal_unknown;
     uint64_t short_faces;                              // of one or two corners
     uint64_t nonfinite_numbers;                        // normals and texture coordinates that are not finite

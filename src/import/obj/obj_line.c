@@ -33,8 +33,8 @@ static const uint8_t *fail_expected(struct obj_reader *reader, const uint8_t *at
     return NULL;
 }
 
-// Reads `count` numbers, of which those after the first `min` are optional and 0 by default. Returns the next word;
-// NULL: error. `expected` describes a number for the message.
+// Reads `count` numbers; those after the first `min` are optional and 0 by default. Returns the next word; NULL: error.
+// `expected` describes a number for the message.
 static inline const uint8_t *read_numbers(struct obj_reader *reader, const uint8_t *at, float *to, int min, int count,
                                           const char *expected)
 {

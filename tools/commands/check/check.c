@@ -16,7 +16,7 @@
 enum { MAX_SCENES = 32 };
 static const size_t max_cache_bytes = (size_t)384 << 20; // of pictures cached for several shaders
 
-// The contract of a command line, by its name or from its file. *contract stays NULL for one that is to be recognised.
+// The contract of a command line, by its name or from its file. *contract stays NULL for one to recognise.
 static bool read_contract(const char *name, lam_check_contract **contract, lam_error *error)
 {
     if (!name || strcmp(name, "auto") == 0)
@@ -141,7 +141,7 @@ static bool open_tables(struct check_command *c, lam_error *error)
     return true;
 }
 
-// The folder of the page and the sheets. Without it the verdicts are printed all the same.
+// The folder of the page and the sheets. Without it the verdicts are still printed.
 static bool prepare_page(struct check_command *c, lam_error *error)
 {
     char *page = check_page_path(c->options->picture.output, error);

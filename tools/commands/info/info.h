@@ -6,7 +6,7 @@
 
 #include "job.h"
 
-// A texture as materials read it, or a picture of the file that none reads.
+// A texture as materials read it, or an unused picture of the file.
 struct info_texture {
     const lam_texture *texture;  // NULL: no material reads the picture, or it could not be read
     const lam_file_image *image; // NULL: the file does not list its pictures

@@ -10,7 +10,7 @@ struct job_stream {
     int file;
     char *data; // the bytes read, from `start` on
     size_t start, end, capacity;
-    size_t searched; // from `start` on there is no line end in so many bytes
+    size_t searched; // from `start` on there is no line end in this many bytes
     size_t limit;    // bytes of a line
     uint64_t line;   // of the last line that was taken, from 1
     bool skips;      // the rest of a line that is too long

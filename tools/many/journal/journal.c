@@ -223,7 +223,7 @@ static bool check_options(const char *path, const char *then, const char *option
                     path, difference);
 }
 
-// Takes up the journal that is there.
+// Continues the existing journal.
 static bool read_journal(struct journal *j, enum journal_way way, const char *options, lam_error *error)
 {
     size_t size;

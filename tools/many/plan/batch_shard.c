@@ -57,7 +57,7 @@ static bool set_index(struct batch_shard *shard, const char *variable, long inde
     return true;
 }
 
-// A job array that is there as a whole: from 0 or 1 on, and without gaps. One that was submitted again for some of its tasks
+// A complete job array: from 0 or 1 on, and without gaps. One that was submitted again for some of its tasks
 // (--array=17,23) speaks of fewer tasks, and would deal out all models anew.
 static bool slurm_array(struct batch_shard *shard, lam_error *error)
 {

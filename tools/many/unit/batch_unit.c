@@ -66,7 +66,7 @@ static const char *text_of(const json_t *record, const char *key)
     return text ? text : "";
 }
 
-// Whether the picture is there, with the hash that the journal has.
+// Whether the picture exists, with the journal's hash.
 static bool is_untouched(const json_t *record, const char *output)
 {
     uint64_t hash, recorded;

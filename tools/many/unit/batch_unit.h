@@ -24,7 +24,7 @@ bool batch_unit_start(struct batch_unit *unit, const struct batch *batch, const 
                       lam_error *error);
 void batch_unit_free(struct batch_unit *unit);
 
-// Finds the open pictures that --resume and --skip-same skip. True: some are to be drawn. Any thread may call it.
+// Finds the open pictures that --resume and --skip-same skip. True: some remain to draw. Any thread may call it.
 bool batch_unit_look(struct batch_unit *unit, const struct batch *batch);
 
 // Draws the open pictures. `cancel` stops it; NULL: Ctrl-C does. `capture`: messages are kept; else they are printed at once, and

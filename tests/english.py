@@ -63,7 +63,7 @@ def paragraphs(page):
             made = True
         elif line.startswith("<!-- end of"):
             made = False
-        if fence or made or line.startswith(("```", "<!--", "|")) or not line.strip() or (line.startswith("    ") and (not before.strip() or before.startswith("    "))):
+        if fence or made or line.lstrip().startswith(("```", "<!--", "|")) or not line.strip() or (line.startswith("    ") and (not before.strip() or before.startswith("    "))):
             found.append(None)
         elif line.startswith("#"):
             found += [(number, line), None]
@@ -116,7 +116,7 @@ def c_texts(source):
 
 
 def texts_of(path, text):
-    return [(n, t) for n, t in enumerate(text.split("\n"), 1) if t.startswith("|")] + paragraphs(text) if path.endswith(".md") else c_texts(text)
+    return [(n, t) for n, t in enumerate(text.split("\n"), 1) if t.lstrip().startswith("|")] + paragraphs(text) if path.endswith(".md") else c_texts(text)
 
 
 def check_phrases(path, text):
@@ -132,7 +132,7 @@ def files():
     def below(folder, endings):
         for path, _, names in sorted(os.walk(os.path.join(ROOT, folder))):
             yield from (os.path.relpath(os.path.join(path, name), ROOT) for name in sorted(names) if name.endswith(endings))
-    pages = [path for path in ["README.md", *below("docs", ".md")] if path not in MADE]
+    pages = [path for path in ["README.md", "CONTRIBUTING.md", "SECURITY.md", *below("docs", ".md")] if path not in MADE]
     yield "pages", pages
     for folder in ("include", "src", "tools"):
         yield folder, [path for path in below(folder, (".c", ".h", ".inc")) if not LATER.match(path)]

@@ -93,7 +93,7 @@ int frame_back_material(struct frame *frame, int front, int back)
     return second;
 }
 
-// Whether nobody chose the colour of a material: the default one of a scene, or that of a glTF primitive without one.
+// Whether nobody chose the colour of a material: a scene's default, or the default of a glTF primitive without one.
 static bool is_unchosen(const struct frame *frame, int front)
 {
     const lam_material *m = frame->materials[front];

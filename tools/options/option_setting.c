@@ -85,10 +85,14 @@ static const struct {
     bool (*store)(const struct option *, const char *, struct options *, lam_error *);
     const char *value; // the placeholder
 } kinds[] = {
-    [LAM_SETTING_WORD] = {store_word, "WORD"},         [LAM_SETTING_FLAG] = {store_switch, NULL},
-    [LAM_SETTING_NOT_FLAG] = {store_word_flag, "HOW"}, [LAM_SETTING_WHOLE] = {store_integer, "N"},
-    [LAM_SETTING_NUMBER] = {store_float, "NUMBER"},    [LAM_SETTING_ANGLE] = {store_angle, "DEGREES"},
-    [LAM_SETTING_WORDS] = {store_words, "WORDS"},      [LAM_SETTING_RGBA] = {NULL, NULL},
+    [LAM_SETTING_WORD] = {store_word, "WORD"},
+    [LAM_SETTING_FLAG] = {store_switch, NULL},
+    [LAM_SETTING_NOT_FLAG] = {store_word_flag, "SWITCH"},
+    [LAM_SETTING_WHOLE] = {store_integer, "N"},
+    [LAM_SETTING_NUMBER] = {store_float, "NUMBER"},
+    [LAM_SETTING_ANGLE] = {store_angle, "DEGREES"},
+    [LAM_SETTING_WORDS] = {store_words, "WORDS"},
+    [LAM_SETTING_RGBA] = {NULL, NULL},
 };
 
 // The rows that leave something to the settings' table, and the number of all rows. Returns the number of the former.

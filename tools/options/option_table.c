@@ -284,7 +284,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"color-mode", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL,
      color_mode_words, .store = store_word, .others = "encoding gamma colorspace color-space linear srgb",
      FIELD(picture.color_mode)},
-    {"compress", 0, GROUP_PICTURE, "HOW", "fast", "The compression of PNG files: fast or best.",
+    {"compress", 0, GROUP_PICTURE, "LEVEL", "fast", "The compression of PNG files: fast or best.",
      "`best` makes a file that is about a third smaller, in a second or two for a million pixels; `fast` takes some "
      "milliseconds. The pixels are identical; other formats ignore the option. `best` needs libdeflate, and the file's "
      "bytes depend on its version; with `fast` they depend only on the picture.",
@@ -295,7 +295,7 @@ struct option option_table[OPTIONS_MAX] = {
      "on the version of libjpeg-turbo or libwebp.",
      .store = store_integer, .others = "jpeg-quality webp-quality jpg lossy", FIELD(picture.quality), .min = 1,
      .max = 100},
-    {"term", 0, GROUP_PICTURE, "HOW", "auto", "Also show the picture in the terminal, by a named method, or off.",
+    {"term", 0, GROUP_PICTURE, "METHOD", "auto", "Also show the picture in the terminal, by a named method, or off.",
      "If the terminal can show pictures, a single picture without `-o` appears above the line that names its file. `-o "
      "-` shows the picture and writes no file. Lambent recognises kitty, Ghostty, iTerm2 and WezTerm by the "
      "environment, and asks other terminals (for at most half a second). It reduces the picture to the width of the "
@@ -322,7 +322,7 @@ struct option option_table[OPTIONS_MAX] = {
      "without the curve. `docs/lighting/tone.md` has the formulas.",
      tone_words, .store = store_word, .others = "tonemap tone-map tonemapping tone-mapping tone-curve view-transform",
      FIELD(draw.tone)},
-    {"show", 0, GROUP_PICTURE, "WHAT", "the picture",
+    {"show", 0, GROUP_PICTURE, "QUANTITY", "the picture",
      "Show a term of the light, one light, or a surface quantity instead of the picture.",
      "The terms `ambient`, `diffuse`, `specular`, `emission` and `reflection` add up to the picture. `light:key` is "
      "the contribution of the light named key, `light:1` the contribution of the first light. `n.l` and `n.h` use the "
@@ -455,12 +455,12 @@ struct option option_table[OPTIONS_MAX] = {
      "channel (0.5/255): no byte changes by more than 1. Lights that contribute exactly nothing (behind the surface, "
      "out of range, outside their cone) are always skipped.",
      .words = NULL},
-    {"ao", 0, GROUP_LIGHTS, "HOW", NULL, NULL,
+    {"ao", 0, GROUP_LIGHTS, "METHOD", NULL, NULL,
      "A recess receives less light from its surroundings than an open face. Occlusion dims ambient, hemisphere and "
      "environment light. It also dims the share `occluded` of other lights: the studio's lights set this key, and "
      "lights of `--light` do not. It needs Phong shading. `docs/lighting/occlusion.md` has the formulas.",
      .others = "ambient-occlusion occlusion ssao gtao hbao no-ao"},
-    {"cavity", 0, GROUP_LIGHTS, "HOW", NULL, NULL,
+    {"cavity", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
      "It makes letters, holes, seams and wrinkles visible. It computes ambient occlusion at a small radius, and the "
      "same measure for ridges. It changes the light that `--ao` dims. `--show ao --ao off --cavity on` shows its "
      "effect.",
@@ -470,7 +470,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1", "Multiply the brightness of all lights except `--ambient`.", NULL,
      .store = store_number, .others = "intensity light-intensity light-power", FIELD(lighting.light_scale),
      .has_field = offsetof(struct options, lighting.has_light_scale), .min = 0, .max = 1e6},
-    {"material", 0, GROUP_MATERIALS, "NAME|KEYS[@WHERE]", "the model's",
+    {"material", 0, GROUP_MATERIALS, "NAME|KEYS[@NAME]", "the model's",
      "A material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
      "The value is a name of the classic table (its colours are sRGB), keys separated by commas, or a name followed by "
      "keys (`gold,shininess=80`). Under the default lights `brass`, `bronze`, `chrome`, `copper`, `gold` and `silver` "
@@ -505,7 +505,7 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "flat smooth gouraud phong interpolation", .has_field = offsetof(struct options, shading.has_shading)},
     {"reflection", 0, GROUP_SHADING, "MODEL", NULL, reflection_summary,
      .others = "brdf lobe pbr lighting-model reflection-model blinn-phong lambert"},
-    {"stage", 0, GROUP_SHADING, "WHERE", "fragment", NULL,
+    {"stage", 0, GROUP_SHADING, "STAGE", "fragment", NULL,
      "Without `--shading`, application and vertex imply gouraud, and fragment implies phong. `flat` works with all "
      "three stages, `gouraud` with application and vertex, `phong` with fragment. On the CPU all stages of a shading "
      "method draw identical pictures.",
@@ -525,7 +525,7 @@ struct option option_table[OPTIONS_MAX] = {
      "hemisphere light and the environment cast no shadows. A light with a `radius` has soft shadows. "
      "`docs/lighting/shadows.md` describes the method and well-known shadow errors.",
      .others = "shadow cast-shadows raytrace shadow-map"},
-    {"ground", 0, GROUP_SHADING, "WHAT", NULL, NULL,
+    {"ground", 0, GROUP_SHADING, "KIND", NULL, NULL,
      "With a ground, lights cast shadows, on the ground and on the model. A `shadow` ground shows only the shadows, "
      "over any background or none. The other kinds are lit surfaces. The ground is perpendicular to the up axis "
      "(`--up`) and fades out at a distance. It is invisible from below, and the camera ignores it. It needs Phong "
@@ -554,7 +554,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"edge-width", 0, GROUP_SHADING, "PIXELS", .others = "outline-width"},
     {"edge-color", 0, GROUP_SHADING, "COLOR", "black", NULL, NULL, .kind = VALUE_COLOR, .store = store_color,
      .others = "outline-color", FIELD(shading.edge_color)},
-    {"hidden-lines", 0, GROUP_SHADING, "HOW", NULL, NULL,
+    {"hidden-lines", 0, GROUP_SHADING, "STYLE", NULL, NULL,
      "Rays from each edge to the eye decide exactly, so that lines along a surface have no gaps. A surface hides the "
      "lines behind it if its opacity is at least 0.5; glass hides nothing.",
      .others = "hidden-line dashed see-through xray x-ray"},
@@ -773,7 +773,7 @@ struct option option_table[OPTIONS_MAX] = {
      "it ignores them. The journal and the page of each part get their own names: `lambent-2-of-4.jsonl` "
      "(`docs/batch.md`). `lambent journal` summarises them.",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(batch.shard)},
-    {"shard-by", 0, GROUP_BATCH, "HOW", "name", "How `--shard` divides the models: by name or list.",
+    {"shard-by", 0, GROUP_BATCH, "ORDER", "name", "How `--shard` divides the models: by name or list.",
      "With `name` each shard reads all names, which takes a second or two for a million. With `list` it reads the K-th "
      "of N parts of one list (`@FILE`), by its bytes. The models must be sorted by the names of their pictures "
      "(`LC_ALL=C sort`), so that no two pictures can have one name. If the list changes, models move to other shards; "
@@ -902,7 +902,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"products", 0, GROUP_SHADER, NULL, NULL,
      "Pass the products ka La, kd Ld and ks Ls as uniforms, as in the lectures.", NULL, .store = store_switch,
      FIELD(shader.products)},
-    {"lights-in", 0, GROUP_SHADER, "PLACE", "auto", "How the shaders store the lights: array, block or texture.",
+    {"lights-in", 0, GROUP_SHADER, "STORAGE", "auto", "How the shaders store the lights: array, block or texture.",
      "No method has a fixed maximum number of lights; OpenGL allows the fewest in an array and the most in a texture.",
      lights_in_words, .store = store_word, FIELD(shader.lights_in)},
     {"style", 0, GROUP_SHADER, "STYLE", "full", "The style of the shaders: full or lecture.",

@@ -74,8 +74,8 @@ static bool has_two_sides(const struct run *r, int i) { return r->scenes[i].row-
 static bool is_translucent(const struct run *r, int i) { return r->scenes[i].alpha; }
 static bool is_glossy(const struct run *r, int i) { return scene_of(r, i)->shininess > 30; }
 
-// A property of scenes. Where all that differ have it, and others without it match, it says where to look; of several the one
-// that the fewest scenes have.
+// A property of scenes. If all differing scenes have it, and others without it match, it states a hint; of several
+// properties the rarest is used.
 static const struct {
     const char *sentence;
     bool (*has)(const struct run *r, int scene);

@@ -160,10 +160,10 @@ static bool try_candidate(struct run *r, lam_device *device, int scene_count, st
     return true;
 }
 
-// Where the exercise has a number in place of a name, and the text does not say which of its numbers that is, all are
-// tried on the first scene, which shows every term. Numbers with which it is right are kept in `best`. If there are none
-// the shader has a mistake, and whichever come nearest prove little: then a number of the contract is kept where the
-// text has it, or nothing else, and no number of the text serves twice.
+// If the exercise has a number in place of a name, and the text does not show which of its numbers it is, all are tried
+// on the first scene, which shows every term. Numbers with which it is right are kept in `best`. If there are none the
+// shader has a mistake, and whichever come nearest prove little: then a number of the contract is kept where the text
+// has it, or nothing else, and no number of the text serves twice.
 enum { MAX_OPEN = 4, MAX_TRIES = 512 };
 static const double same_pictures = 1e-5; // mean difference
 

@@ -245,7 +245,7 @@ static int by_mean(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// The readings with which faults are tried: they differ from the nearest one only in the highlight and its forms. Where
+// The readings with which faults are tried: they differ from the nearest one only in the highlight and its forms. If
 // the text has reflect(), the highlight is Phong's.
 static int choose_bases(const struct run *r, struct reading *readings, int count, const struct reading *best)
 {

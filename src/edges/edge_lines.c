@@ -10,7 +10,7 @@
 enum {
     POINTS_PER_LINE = 32768,
     POINTS = 2 * POINTS_PER_LINE,
-    HALVINGS = 4, // where a line goes out of sight is found to 1/32 of a pixel
+    HALVINGS = 4, // the end of a visible part is found to 1/32 of a pixel
 };
 
 // Of one thread.
@@ -18,7 +18,7 @@ struct scratch {
     struct edge_line lines[EDGE_PIECE];
     struct edge_point points[POINTS];
     uint8_t hidden[POINTS];
-    // Where a line goes in or out of sight: between the shares from and to.
+    // The border of a visible part: between the shares from and to.
     struct change {
         double from, to;
         uint8_t hidden; // at `from`
@@ -132,8 +132,8 @@ static double height_over(const struct edge_piece *piece, uint32_t corner, const
     return (across < 0 ? -across : across) / line->length;
 }
 
-// Where both triangles at an edge of the wireframe are narrower than FADE widths, the line is drawn thinner, in proportion, down to
-// the share 1/FADE: a fine mesh is an even grey, and not a black that hides the surface.
+// If both triangles at an edge of the wireframe are narrower than FADE widths, the line is drawn thinner, in
+// proportion, down to the share 1/FADE: a fine mesh is an even grey, and not a black that hides the surface.
 enum { FADE = 5 };
 static double half_width(const struct edge_piece *piece, const struct mesh_edge *edge, const struct edge_line *line)
 {

@@ -98,7 +98,8 @@ static struct lam_environment *cube_of_faces(const lam_image *faces, const char 
 typedef float pixel __attribute__((vector_size(16)));
 typedef float pixel_memory __attribute__((vector_size(16), aligned(4), may_alias));
 
-// Where longitudes and latitudes lie in the picture, in pixels from the centre of the first. Longitude 0 is −z, latitude 0 +y.
+// The positions of longitudes and latitudes in the picture, in pixels from the centre of the first. Longitude 0 is −z,
+// latitude 0 +y.
 static double column_of(const lam_image *image, double longitude)
 {
     return (0.5 + longitude / (2 * PI)) * image->width - 0.5;

@@ -293,7 +293,8 @@ static bool build_environment(struct frame *frame, const lam_scene *scene, const
     return true;
 }
 
-// Normals of facets need not be made before the picture is lit, where each is only read for the points of its own triangle.
+// Normals of facets need not be made before the picture is lit, if each is only read for the points of its own
+// triangle.
 static void leave_facets(struct frame *frame)
 {
     if (!frame->makes_normals || frame->settings.shading != LAM_SHADING_PHONG || frame_has_rays(frame))

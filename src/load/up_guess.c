@@ -1,4 +1,4 @@
-// up_guess.c: the up axis of a model whose format has none, where its shape leaves no doubt.
+// up_guess.c: the up axis of a model whose format has none, if its shape is unambiguous.
 #include "up_guess.h"
 
 #include "linear.h"

@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum {
-    CELLS = 96, // along the longest side, where nothing else is given
+    CELLS = 96, // along the longest side, by default
     CELLS_MAX = 1024,
     SEARCH_CELLS = 64,
     SEARCH_POINTS = SEARCH_CELLS + 1,

@@ -341,7 +341,7 @@ static void extend(lam_vec3 *low, lam_vec3 *high, lam_vec3 a, lam_vec3 b)
     high->z = b.z > high->z ? b.z : high->z;
 }
 
-// Where frames pose the model in different ways: one point to turn about, and one camera, for the box of all of them.
+// If frames pose the model in different ways: one point to rotate about, and one camera, for the box of all of them.
 static bool fit_poses(struct job *job, lam_error *error)
 {
     struct animation *a = job->animation;

@@ -31,7 +31,7 @@ struct batch_jobs {
     size_t ahead;           // jobs that may wait
     struct job_answers out; // has a lock of its own
 
-    pthread_mutex_t lock; // of what follows
+    pthread_mutex_t lock; // of the rest
     pthread_cond_t changed;
     struct list waiting, drawing;
     size_t waiting_count, waiting_bytes; // of models in memory

@@ -108,7 +108,7 @@ static void add_system(struct sandbox_paths *paths)
         sandbox_add(paths, folders[i], SANDBOX_READ);
     add_list(paths, getenv("LD_LIBRARY_PATH"), ':');
     add_list(paths, getenv("LAMBENT_FONT"), 0);
-    // The module of Draco, where the library looks for it (src/base/system/dynamic_library.c).
+    // The module of Draco, at the library's search path (src/base/system/dynamic_library.c).
     static const char *const modules[] = {"", "../", "lambent/", "../" LAMBENT_LIBDIR "/lambent/"};
     char own[PATH_MAX], path[PATH_MAX + 100];
     ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);

@@ -1,7 +1,7 @@
 // file_write.c: writes whole files, so that a reader sees the old file or the new one and nothing is left behind.
 //
-// Where the file system has them, the bytes go to a file without a name (O_TMPFILE), which the kernel removes with the
-// process, whatever ends it. The finished file is linked to its name; where that name exists, beside it, and renamed
+// If the file system supports them, the bytes go to a file without a name (O_TMPFILE), which the kernel removes with
+// the process, however it ends. The finished file is linked to its name; if that name exists, beside it, and renamed
 // over it. Between the link and the rename every signal waits; SIGKILL cannot, and leaves a file only in those
 // microseconds.
 //

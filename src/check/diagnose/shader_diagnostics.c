@@ -28,7 +28,7 @@ static int line_of(const char *text, const char **words)
     return 0;
 }
 
-// Mesa's errors about the operands of an expression. Where its line has an error before, they follow from that.
+// Mesa's errors about the operands of an expression. If its line has an error before, they follow from it.
 static bool is_about_operands(const char *words)
 {
     return strstr(words, "operands to arithmetic operators") || strstr(words, "type mismatch");

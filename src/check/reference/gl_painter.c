@@ -27,7 +27,7 @@ struct gl_place {
     GLuint streams[MAX_STREAMS]; // buffers of the picture that is drawn
 };
 
-// Where the values of an input go.
+// The targets of an input's values.
 struct gl_input {
     GLint location;                             // of the first element; -1: in a block
     GLint block, offset, stride, matrix_stride; // in the block, of the first element, in bytes

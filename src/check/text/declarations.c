@@ -94,7 +94,7 @@ static bool add_declaration(struct declarations *d, const struct declaration *it
     return true;
 }
 
-// Adds a declared name; where its type is a struct of the source, each of its members.
+// Adds a declared name; if its type is a struct of the source, each of its members.
 static bool add_expanded(struct reader *r, const struct declaration *item)
 {
     for (int s = 0; s < r->struct_type_count; s++)

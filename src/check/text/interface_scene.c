@@ -85,7 +85,7 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
     bool shared = (!ambient && d->ambient_color.source == COLOR_OF_DIFFUSE) ||
                   (!own_specular && d->specular_color.source == COLOR_OF_DIFFUSE);
     bool lit_diffuse = declares(r, SEMANTIC_LIGHT_COLOR) && lit_specular;
-    // Where the light has an ambient colour, that says how strong it is.
+    // If the light has an ambient colour, it states its strength.
     struct default_number ambient_strength = d->ambient_strength;
     if (lit_ambient && !(r->constants >> SEMANTIC_KA & 1))
         ambient_strength.value = 1;
@@ -287,8 +287,8 @@ static void adapt_maps(const struct shader_interface *r, struct reference_scene 
         s->mesh += MESH_PATCH_DOWN - MESH_PATCH;
 }
 
-// Where the strengths and colours are the shader's own, each term has a channel: red ambient, green diffuse, blue specular.
-// The fit finds their factors.
+// If the strengths and colours are the shader's own, each term has a channel: red ambient, green diffuse, blue
+// specular. The fit finds their factors.
 static void separate_terms(struct reference_scene *s)
 {
     const lam_rgb white = {1, 1, 1}, black = {0, 0, 0};

@@ -341,7 +341,7 @@ static void find_lights(struct shader_interface *r)
             .count = 1, .kinds = r->contract->supports & (NEED_POINT | NEED_DIRECTIONAL), .list = false};
 }
 
-// The space in which the shaders light. Where the course lights in world space, shaders may use eye space as well: they
+// The space in which the shaders light. If the course lights in world space, shaders may use eye space as well: they
 // have the model-view matrix, and neither the model's own nor the eye's position.
 static lam_light_frame find_space(const struct shader_interface *r)
 {

@@ -218,7 +218,7 @@ static inline uint64_t key_of(const uint32_t *at, int bytes_per_pixel)
 }
 
 // At each pixel, the first of these that is possible: a run; a match with the last position of the same key; literals,
-// as many pixels as fit into a token. Where a match may be as short as one pixel, a single repetition is a match too.
+// as many pixels as fit into a token. If a match may be as short as one pixel, a single repetition is a match too.
 // Matches stay within a row on both sides, so they contain no filter byte.
 static inline __attribute__((always_inline)) void find_matches(struct deflate *deflate, const int bytes_per_pixel,
                                                                int first, int end)

@@ -183,7 +183,7 @@ static double processor_time_s(pid_t pid)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-// Starts this program anew. Where /proc is missing, by the path that started it.
+// Starts this program anew. If /proc is missing, by the path that started it.
 static void become_worker(const char *memory, const char *path)
 {
     execl("/proc/self/exe", "lambent", CHECK_WORKER, memory, (char *)NULL);

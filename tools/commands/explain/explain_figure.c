@@ -470,7 +470,7 @@ static bool describe(const struct explain_figure *f, const struct subject *s, co
     return drawing_describe(d, title, text, error);
 }
 
-// Where nothing is lit: a ring around the pixel.
+// If nothing is lit: a ring around the pixel.
 static bool draw_ring(struct drawing *d, struct point middle, double unit, lam_error *error)
 {
     struct point round[33];

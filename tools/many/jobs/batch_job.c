@@ -140,7 +140,7 @@ static bool read_model(struct batch_job *job, const json_t *root, const struct b
     return batch_plan_add(&job->plan, model ? model : name ? name : "model", NULL, error);
 }
 
-// Where the pictures go: a name that the options get. In an answer they have names too, for their format.
+// The target of the pictures: a name that the options get. In an answer they have names too, for their format.
 static bool read_output(struct batch_job *job, const json_t *root, lam_error *error)
 {
     const char *output, *format;

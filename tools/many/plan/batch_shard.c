@@ -1,4 +1,4 @@
-// batch_shard.c: which models are this process's, where several share the work.
+// batch_shard.c: selects this process's models, if several processes share the work.
 //
 // A model's shard follows from its name alone, so that shards need not speak to each other, and a model that is added
 // moves no other one. The environment's variables are read only with --shard auto, and only if they are unambiguous: a

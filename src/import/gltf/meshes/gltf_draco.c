@@ -182,7 +182,8 @@ static bool charge_claim(const struct decoding *d, const struct gltf_view *view,
     return true;
 }
 
-// Memory that decoding may take beyond what the file claims. It is granted a megabyte at a time, which is when a long decoding can be ended.
+// Memory that decoding may use beyond the file's claims. It is granted a megabyte at a time, which is when a long
+// decoding can be ended.
 struct grants {
     struct call_control *call;
     size_t refused;

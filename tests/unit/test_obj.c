@@ -557,7 +557,7 @@ static void test_mtl_options(void **unused)
         }
         assert_int_equal(maps, 1);
         if (rows[i].sentence) {
-            snprintf(sentence, sizeof sentence, "t.obj: material 'a': %s; it is left out", rows[i].sentence);
+            snprintf(sentence, sizeof sentence, "t.obj: material 'a': %s; it is ignored", rows[i].sentence);
             assert_string_equal(lam_scene_warning(scene, 0), sentence);
         }
         assert_null(lam_scene_warning(scene, rows[i].sentence != NULL));
@@ -583,9 +583,9 @@ static void test_mtl_warnings(void **unused)
         {"newmtl a\nKs xyz 1 1 1\n", "a.mtl:2: Ks as a CIE XYZ colour is not supported, expected r g b"},
         {"newmtl a\nillum 99\n", "a.mtl:2: illum is not one of the models 0 to 10; it is ignored"},
         {"newmtl a\nKs 1 1 1\nNs 0.000\nillum 2\n",
-         "a.mtl:3: with Ns 0 the highlight would cover all that is lit; there is none"},
+         "a.mtl:3: with Ns 0 the highlight would cover all lit points; it is omitted"},
         {"newmtl a\nNs 0\nKs 1\nnewmtl b\nNs 0\nKs 1\n",
-         "a.mtl:2: with Ns 0 the highlight would cover all that is lit; there is none, here and in other materials"},
+         "a.mtl:2: with Ns 0 the highlight would cover all lit points; it is omitted, here and in other materials"},
         {"newmtl a\nd 0\n", "a.mtl:2: material 'a' is fully transparent (d 0)"},
         {"newmtl a\nd 1\nnewmtl b\n\nTr 1.000\nnewmtl c\nd 0\n",
          "a.mtl:5: material 'b' is fully transparent (Tr 1), the first of 2"},

@@ -315,7 +315,7 @@ static void test_errors(void **unused)
         LIGHT("\"type\": \"spot\", \"cutoff\": 120",
               ".cutoff: found 120, expected degrees above 0 and up to 90, or 180"),
         LIGHT("\"type\": \"spot\", \"cutoff\": 20, \"outer\": 20",
-              ": inner and outer stand beside cutoff or exponent, expected one pair of them"),
+              ": inner and outer are given beside cutoff or exponent, expected one pair of them"),
         LIGHT("\"type\": \"spot\", \"direction\": [0, 0, 0]", ".direction: found 0, 0, 0, expected a direction"),
         LIGHT("\"type\": \"point\", \"frame\": \"object\", \"object\": \"cube\"", ".object: no object is named 'cube'"),
         LIGHT("\"type\": \"point\", \"object\": \"sphere\"", ".object: goes only with \"frame\": \"object\""),

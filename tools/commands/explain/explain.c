@@ -38,7 +38,7 @@ static bool read_pixel(const char *text, const struct options *o, int *x, int *y
                         text, o->picture.width / 2, o->picture.height / 2);
     if (*x >= o->picture.width || *y >= o->picture.height)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "explain: pixel %d,%d lies outside the picture of %dx%d pixels, expected 0,0 to %d,%d", *x, *y,
+                        "explain: pixel %d,%d is outside the picture of %dx%d pixels, expected 0,0 to %d,%d", *x, *y,
                         o->picture.width, o->picture.height, o->picture.width - 1, o->picture.height - 1);
     return true;
 }

@@ -7,7 +7,7 @@
 
 #if defined(__wasm__)
 
-// WebAssembly opens no libraries; the page's module has functions that stand for some (src/import/gltf/draco/page_decoders.c).
+// WebAssembly opens no libraries; the page's module has functions that replace some (src/import/gltf/draco/page_decoders.c).
 __attribute__((weak)) void *page_library(const char *name);
 __attribute__((weak)) bool page_library_find(void *library, const char *name, void *function);
 

@@ -178,29 +178,24 @@ def growth_section(result):
 
 
 def readme_section(result):
-    """The README's claims of speed, each from a row; nothing unmeasured is claimed."""
+    """The README's table of speed, each line from a row; nothing unmeasured is claimed."""
     rows = {row["name"]: row for row in result["rows"] if "not_measured" not in row}
-    if not any("cpu_ms" in row for row in rows.values()):
-        return []  # measured before both sides were drawn at their best
-    isa, claims, numbers = result["isas"][0], [], []
-    found = [(rows["whole 1M " + kind], kind.upper()) for kind in ("ply", "stl", "obj") if "whole 1M " + kind in rows]
-    default = [rows["whole 1M %s, default" % kind] for kind in ("ply", "stl", "obj") if "whole 1M %s, default" % kind in rows]
-    if found and len(found) == len(default):
-        claims.append("a file of a million triangles becomes a 1024×1024 PNG in %s (%s), smooth and with %d samples; for the same work as F3D "
-                      "(facets, one sample) it takes %s, 1/%s of F3D's time and 1/%s of its CPU time" % (
-                          ", ".join("%s ms" % ms(row["ms"][isa]["median"]) for row in default), ", ".join(kind for _, kind in found),
-                          default[0]["samples"], ", ".join("%s ms" % ms(row["ms"][isa]["median"]) for row, _ in found),
-                          ", 1/".join("%.0f" % row["ratio"][isa]["median"] for row, _ in found),
-                          ", 1/".join("%.0f" % row["cpu_ratio"][isa]["median"] for row, _ in found)))
+    isa, lines, numbers = result["isas"][0], [], []
+    for kind in ("ply", "stl", "obj"):
+        row, default = rows.get("whole 1M " + kind), rows.get("whole 1M %s, default" % kind)
+        if row and default and "cpu_ms" in row:
+            lines.append(("A %s file of a million triangles to a PNG of 1024×1024 pixels" % kind.upper(), ms(row["ms"][isa]["median"]) + " ms", ms(row["ms"]["f3d"]["median"]) + " ms",
+                          times(row["ratio"][isa]["median"]), ms(default["ms"][isa]["median"]) + " ms"))
+            numbers += [row["number"], default["number"]]
     if result["frames"].get(isa):
-        claims.append("a frame alone has %s the speed of OpenGL on the same processor (Mesa's llvmpipe; geometric mean)" % times(
-            result["frames"][isa]["mean"]))
-    if not claims:
+        lines.append(("One frame, without files (geometric mean of %d scenes)" % result["frames"][isa]["rows"], "", "",
+                      times(result["frames"][isa]["mean"]) + ", against OpenGL on llvmpipe", ""))
+        numbers += [row["number"] for row in rows.values() if row["name"].startswith("frame ")]
+    if not lines:
         return []
-    numbers = [str(row["number"]) for row in [row for row, _ in found] + default] + [str(r["number"]) for r in rows.values() if r["name"].startswith("frame ")]
-    return ["  On %d processors (%s, %s) %s:" % (result["machine"]["processors"], result["machine"]["processor"], ISA_NAMES[isa],
-                                                "; ".join(claims)),
-            "  [docs/speed.md](docs/speed.md#the-rows), rows %s." % ", ".join(numbers)]
+    return table(("work", "Lambent", "F3D", "speed", "Lambent with smooth normals and 4 samples"), lines) + [
+        "", "Measured on %d processors (%s, %s): [docs/speed.md](docs/speed.md#results), rows %s." % (
+            result["machine"]["processors"], result["machine"]["processor"], ISA_NAMES[isa], ", ".join(map(str, numbers)))]
 
 
 def files(result):
@@ -215,7 +210,7 @@ def files(result):
             before, rest = page.split(begin, 1)
             lines = section(result) if result else ["Not measured yet."] if path == PAGE else []
             text = "\n".join(lines).rstrip()
-            page = before + begin + "\n" + (text + "\n" if text else "") + ("  " if path == README else "") + end + rest.split(end, 1)[1]
+            page = before + begin + "\n" + (text + "\n" if text else "") + end + rest.split(end, 1)[1]
         made[path] = page
     for axis, series in ((result or {}).get("growth") or {}).items():
         made[os.path.join(paths.ROOT, "docs", "pictures", "speed-%s.svg" % axis)] = growth_plot.svg(series)

@@ -18,6 +18,6 @@ shards=${SHARDS:-12}
 models=$1 pictures=$2
 
 # exec: lambent is the process that Slurm signals before the time is over, and it ends within a second. --failures-ok: models that cannot be
-# drawn are in the journal, and do not make the task a failed one (sacct). `lambent journal PICTURES` sums up all tasks.
+# drawn are in the journal, and do not mark the task as failed (sacct). `lambent journal PICTURES` summarises all tasks.
 exec lambent batch "$models" -o "$pictures/{dir}/{stem}.png" -s 256 \
     --shard "auto/$shards" --resume --retry-failed 1 --failures-ok -j "${SLURM_CPUS_PER_TASK:-1}"

@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// worker.mjs: draws thumbnails with one `lambent batch --jobs -`, which stays there for all of them.  worker.mjs MODEL ...
+// worker.mjs: draws thumbnails with one `lambent batch --jobs -`, which stays running for all of them.  worker.mjs MODEL ...
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { writeFileSync } from 'node:fs';

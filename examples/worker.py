@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# worker.py: draws thumbnails with one `lambent batch --jobs -`, which stays there for all of them.  worker.py MODEL ...
+# worker.py: draws thumbnails with one `lambent batch --jobs -`, which stays running for all of them.  worker.py MODEL ...
 import base64
 import json
 import os

@@ -87,9 +87,9 @@ FORMS = {"masking": {"smith": "Smith's masking for GGX with correlated heights",
                      "whole": "a diffuse part of 1 − metallic"},
          "tone": {"reinhard": "Reinhard's tone curve"}, "encoding": {"gamma": "gamma-encoded, pow(x, 1/2.2)"}}
 
-MAPS = {"colors": {"linear": "their colours are linear, as a sampler gives those of a texture with an sRGB format",
+MAPS = {"colors": {"linear": "their colours are linear, as a sampler returns them for a texture with an sRGB format",
                    "gamma": "their colours are encoded, and the shader decodes them, pow(x, 2.2)"},
-        "v": {"up": "v goes up where u goes right", "down": "v goes down where u goes right, as in glTF files"}}
+        "v": {"up": "v goes up if u goes right", "down": "v goes down if u goes right, as in glTF files"}}
 
 
 def value(x):
@@ -116,10 +116,10 @@ def section(program, contract, meaning):
     fixed = contract.get("undeclared", {})
     if fixed:
         yield ""
-        yield "Where a shader has no name for it: " + "; ".join("`%s` %s" % (key, value(x)) for key, x in fixed.items()) + "."
+        yield "Values for inputs that a shader does not declare: " + "; ".join("`%s` %s" % (key, value(x)) for key, x in fixed.items()) + "."
     numbers = contract.get("constants", {})
     if numbers:
-        yield "Numbers in the text that take their place: " + ", ".join("`%s`" % key for key in numbers) + "."
+        yield "Numbers in the text that replace them: " + ", ".join("`%s`" % key for key in numbers) + "."
     forms = contract.get("physical")
     if forms:
         yield ""
@@ -168,11 +168,13 @@ def glance():
 
 def page(program, runs):
     meaning = meanings(program)
-    yield """# The contracts of `lambent check`
+    yield """# Built-in contracts of `lambent check`
 
-Made by `scripts/contracts.py` (`make docs`). For each contract that is built in: the names that it expects, a correct program, and what
-the check finds in the course's own, written anew with the same mistakes. [Checking a shader](../check.md) explains the reports,
-[contract files](contract-file.md) how to write a contract of your own.
+After reading this page you know the names that each built-in contract expects, and the findings of the check in the courses' own programs.
+
+`scripts/contracts.py` (`make docs`) writes this page. Each section contains a contract's names, a correct program, and the report on
+the course's own program, rewritten with the same mistakes. [Checking a shader](../check.md) explains the reports, and [contract
+files](contract-file.md) how to write your own contract.
 """
     yield from glance()
     order = re.findall(r'\{"([\w-]+)", text_\w+_json\}', read("src", "check", "contract", "contract.c"))

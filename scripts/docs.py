@@ -84,7 +84,7 @@ def roles(program, _):
     for kind, word in (("attribute", "attribute"), ("uniform", "uniform"), ("constant", "number")):
         for role in kinds[kind + "_role"]["oneOf"]:
             found.setdefault(role["const"], (role["description"], []))[1].append(word)
-    yield "| role | of | |"
+    yield "| role | for | meaning |"
     yield "|---|---|---|"
     for name, (meaning, words) in found.items():
         yield "| `%s` | %s | %s |" % (name, ", ".join(words), meaning)
@@ -94,7 +94,7 @@ def settings(program, _):
     """The keys of scene files that are options too, from the schema: those with a default and an option of the same name."""
     schema = json.loads(output(program, "generate", "scene-schema"))["properties"]
     manual = output(program, "generate", "markdown")
-    yield "| key | default | values | |"
+    yield "| key | default | values | meaning |"
     yield "|---|---|---|---|"
     for key, value in schema.items():
         if "$ref" in value and "color" in value["$ref"] and key != "ambient":
@@ -113,7 +113,7 @@ def settings(program, _):
 
 def mistakes(program, _):
     """The mistakes of `lambent shader --mistake`."""
-    yield "| `--mistake` | what is wrong | what it looks like | needs |"
+    yield "| `--mistake` | mistake | visible effect | needs |"
     yield "|---|---|---|---|"
     for row in json.loads(output(program, "shader", "--mistake", "list", "--json")):
         yield "| `%s` | %s | %s | %s |" % (row["mistake"], row["wrong"], row["looks"], row["needs"] or "")
@@ -122,13 +122,13 @@ def mistakes(program, _):
 def formats(program, _):
     """The formats of models and pictures, from `lambent formats`."""
     written, read = re.findall(r"(?m)^  (\w+) +((?:\.\w+ ?)+(?:\w+)?)(?:  (.*))?$", output(program, "formats")), output(program, "formats").splitlines()[-1]
-    yield "| format | endings | |"
+    yield "| format | extensions | use |"
     yield "|---|---|---|"
     for name, endings, numbers in written:
         yield "| `%s` | %s | %s |" % (name, ", ".join("`.%s`" % ending.strip(".") for ending in endings.split()),
-                                      "a picture that is written: " + numbers if numbers else "a model that is read")
+                                      "writes pictures: " + numbers if numbers else "reads models")
     yield ""
-    yield "Pictures are read from: %s." % read.strip()
+    yield "Pictures can be read from these formats: %s." % read.strip()
 
 
 SECTIONS = {"formats": formats, "rigs": rigs, "explained": explained, "roles": roles, "settings": settings, "mistakes": mistakes}

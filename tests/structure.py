@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 """structure.py BUILD: the dependencies between source files, read from the symbols of the objects in the build folder.
 
-Two rules hold the house together (docs/architecture.md): files never depend on one another in a circle, in the library or in
-the program; and a room of the library or a folder of the program uses none below it in the list. The include paths of the build
-keep the library's headers to that order; this test keeps function calls to it, and the program's headers (a fifth rule). A third
-keeps the way through the house: a file that a page or a comment names is there. A fourth keeps reflection models replaceable:
-what is asked of a lobe is asked of its row in src/lighting/lobes.h."""
+Two rules order the folders (docs/architecture.md). Files never depend on one another in a circle, in the library or in the program; and a folder of
+the library or of the program uses none below it in the list. The include paths of the build keep the library's headers to that order; this
+test checks function calls, and the program's headers (a fifth rule). The third rule: every file that a page or a comment names exists.
+The fourth keeps reflection models replaceable: only a lobe's row in src/lighting/lobes.h describes it."""
 import collections
 import functools
 import glob
@@ -17,10 +16,10 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
-def rooms():
-    """The rooms in their order: the base's own, then the subdir() lines of src/meson.build."""
+def library_folders():
+    """The folders in their order: the base's own, then the subdir() lines of src/meson.build."""
     text = open(os.path.join(ROOT, "src", "meson.build")).read()
-    inner = re.findall(r"'(\w+)'", re.search(r"^base_rooms = \[(.*)\]", text, re.M)[1])
+    inner = re.findall(r"'(\w+)'", re.search(r"^base_folders = \[(.*)\]", text, re.M)[1])
     return ["base/" + name for name in inner] + [name for name in re.findall(r"^subdir\('(\w+)'\)", text, re.M) if name != "base"]
 
 
@@ -31,7 +30,7 @@ def floors():
     return ["tools/" + name for name in folders] + ["tools"]
 
 
-def room(file):
+def folder_of(file):
     """base/text/number -> base/text; gl/loader -> gl; import/obj/obj -> import; tools/many/jobs/job_words -> tools/many/jobs."""
     if file.startswith("tools/"):
         return os.path.dirname(file)
@@ -51,7 +50,7 @@ def headers_back(order):
     for file in program_files():
         for name in re.findall(r'^#include "([^"]+)"', open(os.path.join(ROOT, file), encoding="utf-8").read(), re.M):
             header = place.get(name)
-            if header and order.index(room(header)) > order.index(room(file)):
+            if header and order.index(folder_of(header)) > order.index(folder_of(file)):
                 yield file, header
 
 
@@ -62,7 +61,7 @@ def objects(build):
 
 
 def source_of(build, path):
-    """src/gl/liblambent-gl.a.p/loader.c.o -> gl/loader; folders within a room are in the object's name, joined by _.
+    """src/gl/liblambent-gl.a.p/loader.c.o -> gl/loader; sub-folders are in the object's name, joined by _.
     lambent.p/tools_job_job_scene.c.o -> tools/job/job_scene."""
     if os.path.dirname(path) == os.path.join(build, "lambent.p"):
         name = os.path.basename(path)[:-2]
@@ -164,7 +163,7 @@ def lobes_asked_by_name():
 
 
 def main():
-    edges, order = graph(sys.argv[1]), rooms() + floors()
+    edges, order = graph(sys.argv[1]), library_folders() + floors()
     bad = 0
     print("1..5")
     found = circles(edges)
@@ -176,8 +175,8 @@ def main():
             for b in part:
                 if b in edges[a]:
                     print("#   %s uses %s: %s" % (a, b, ", ".join(sorted(edges[a][b])[:6])))
-    back = [(a, b, edges[a][b]) for a in edges for b in edges[a] if order.index(room(b)) > order.index(room(a))]
-    print("%s 2 - no room uses one below it" % ("not ok" if back else "ok"))
+    back = [(a, b, edges[a][b]) for a in edges for b in edges[a] if order.index(folder_of(b)) > order.index(folder_of(a))]
+    print("%s 2 - no folder uses one below it" % ("not ok" if back else "ok"))
     for a, b, symbols in sorted(back):
         bad += 1
         print("#   %s uses %s: %s" % (a, b, ", ".join(sorted(symbols)[:6])))

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""style.py: checks that every C file, header and .inc file has the layout of one version of the formatter.
+"""style.py: checks that every C file, header and .inc file has the layout of one version of the formatter, and that pages, help, messages and
+comments are without the phrases and long sentences that english.py lists.
 
 The version is fixed because clang-format's layout changes from release to release; Debian 12 and 13 both have this one.
 The formatter never changes the text of a comment (.clang-format: ReflowComments).
@@ -9,8 +10,11 @@ only changed ones are formatted again, which takes a tenth of a second each."""
 import hashlib
 import json
 import os
+import re
 import subprocess
 import sys
+
+import english
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FORMATTER = "clang-format-19"
@@ -55,7 +59,8 @@ def main():
         return 1
     before, hash_of = right_before(version)
     right = set()
-    print("1..%d" % len(FOLDERS))
+    groups = list(english.files())
+    print("1..%d" % (len(FOLDERS) + len(groups) + 1))
     for number, folder in enumerate(FOLDERS, 1):
         files = list(sources(folder))
         hashes = {path: hash_of(path) for path in files}
@@ -70,7 +75,23 @@ def main():
             print("\n".join("# " + line for line in done.stdout.splitlines()[:40]))
             print("# mend it with: %s -i FILE" % FORMATTER)
     remember(right)
-    return 1 if failed else 0
+    return 1 if failed + check_english(groups, len(FOLDERS)) else 0
+
+
+def check_english(groups, number):
+    """A row for each group of files, and one for the patterns themselves. Returns the number of failures."""
+    failed = 0
+    for name, paths in groups:
+        number += 1
+        found = [complaint for path in paths for complaint in english.complaints(path)]
+        print("%s %d - English of %s: %d files" % ("not ok" if found or not paths else "ok", number, name, len(paths)))
+        print("".join("# %s\n" % complaint for complaint in found[:40]), end="")
+        failed += bool(found or not paths)
+    blind = [pattern for (pattern, _), example in zip(english.PHRASES, english.EXAMPLES) if not re.search(pattern, example)]
+    blind += ["EXAMPLES"] * (len(english.PHRASES) != len(english.EXAMPLES))
+    print("%s %d - each phrase is found in its example" % ("not ok" if blind else "ok", number + 1))
+    print("".join("# %s\n" % pattern for pattern in blind), end="")
+    return failed + bool(blind)
 
 
 if __name__ == "__main__":

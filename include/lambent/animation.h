@@ -8,21 +8,21 @@
 extern "C" {
 #endif
 
-// An animation that is being encoded. It holds the last frame and the encoded frames, not the pictures before. One thread
-// at a time may use it.
+// An animation that is being encoded. It stores the last frame and the encoded frames, not the earlier pictures. One
+// thread at a time may use it.
 typedef struct lam_animation lam_animation;
 
 // How an animation is written. All zero: the defaults.
 typedef struct lam_animation_params {
     double frames_per_second; // 0.1..240; 0: 24
-    int loops;                // how often it is shown, 0..65535; 0: for ever
+    int loops;                // number of repetitions, 0..65535; 0: forever
     // How each frame is encoded, as in lam_image_save; its `control` does not count. NULL: the defaults.
     const lam_save_params *frames;
     LAM_RESERVED(8);
 } lam_animation_params;
 
 // The format of an animation whose file has this name: "png" (animated PNG, which shows its first frame where a program
-// does not know animations) or "webp". NULL: the name's ending is that of no format with several pictures.
+// does not know animations) or "webp". NULL: the extension belongs to no format with several pictures.
 LAM_API const char *lam_animation_format(const char *path);
 
 // Begins an animation of pictures of width × height pixels in one of these formats. `params` may be NULL; it is copied. The
@@ -31,16 +31,16 @@ LAM_API const char *lam_animation_format(const char *path);
 LAM_API lam_animation *lam_animation_make(const char *format, int width, int height, const lam_animation_params *params,
                                           lam_error *error);
 
-// Encodes the next frame, of 8 bits a channel and the animation's size. Only the smallest rectangle that holds all changes
-// since the frame before is stored. `control` may be NULL; its memory limit counts the encoded frames of a PNG too, and the
-// encoder's canvases of a WebP. False: LAM_BAD_ARGUMENT, LAM_LIMIT, LAM_CANCELLED; the animation is then of no more use
-// but to be freed.
+// Encodes the next frame, of 8 bits a channel and the animation's size. Only the smallest rectangle that contains all
+// changes since the previous frame is stored. `control` may be NULL; its memory limit counts the encoded frames of a
+// PNG too, and the encoder's canvases of a WebP. False: LAM_BAD_ARGUMENT, LAM_LIMIT, LAM_CANCELLED; the animation is
+// then of no more use but to be freed.
 LAM_API bool lam_animation_add(lam_animation *animation, const lam_image *frame, const lam_control *control,
                                lam_error *error);
 
-// Ends the animation, which has at least one frame, and makes the bytes of its file; the caller frees them. The same frames
-// give the same bytes of a PNG on every machine (LAM_COMPRESS_FAST); those of a WebP depend on the version of its library.
-// Later calls fail. False: LAM_BAD_ARGUMENT, LAM_LIMIT, LAM_CANCELLED.
+// Ends the animation, which has at least one frame, and makes the bytes of its file; the caller frees them. The same
+// frames give the same bytes of a PNG on every machine (LAM_COMPRESS_FAST); for a WebP they depend on the version of
+// its library. Later calls fail. False: LAM_BAD_ARGUMENT, LAM_LIMIT, LAM_CANCELLED.
 LAM_API bool lam_animation_finish(lam_animation *animation, const lam_control *control, lam_bytes *out,
                                   lam_error *error);
 

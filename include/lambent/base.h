@@ -1,24 +1,24 @@
 // lambent/base.h: errors, control of long calls, small vectors, and the rules of the whole interface.
 //
-// C11; includes cleanly in C++17. Every call may be made from any thread with 256 kB of stack. The library prints nothing, never exits, and
-// keeps no global state.
+// C11; includes cleanly in C++17. Every call may be made from any thread with 256 kB of stack. The library prints
+// nothing, never exits, and keeps no global state.
 //
-// Names: functions are lam_<thing>_<verb>, types lam_<thing>, constants LAM_<KIND>_<VALUE>. A unit stands at the end of
-// the name: _rad, _deg, _ms, _s, _px, _bytes. Lengths without one are model units.
+// Names: functions are lam_<thing>_<verb>, types lam_<thing>, constants LAM_<KIND>_<VALUE>. A unit is at the end of the
+// name: _rad, _deg, _ms, _s, _px, _bytes. Lengths without one are model units.
 //
 // Errors: a call that can fail takes a `lam_error *` last, which may be NULL; it returns false, NULL or −1 on failure
 // and then fills the error.
 //
 // Defaults: a zeroed parameter struct asks for the default of every field, and a NULL one does too where the call says
-// so. Structs whose defaults are not zero (lam_material, lam_light, lam_object, lam_camera) have a function that returns
-// them, lam_<thing>_default.
+// so. Structs whose defaults are not zero (lam_material, lam_light, lam_object, lam_camera) have a function that
+// returns them, lam_<thing>_default.
 //
-// Growth: a struct that may grow ends in LAM_RESERVED(n), n words of 8 bytes that must be zero. A later version puts new
-// fields in their place, a whole number of words at a time, and zero means the default or "absent" for each of them.
-// Hence the size of a struct, the stride of an array of them, and the offset of each field never change within one
-// soname: programs and libraries of different versions work together, in both directions. A call that takes a struct of
-// parameters with a reserved word that is not zero fails with LAM_BAD_ARGUMENT: the program was compiled against a newer
-// header and sets a field that this library does not know. Structs without LAM_RESERVED never change.
+// Growth: a struct that may grow ends in LAM_RESERVED(n), n words of 8 bytes that must be zero. A later version puts
+// new fields in their place, a whole number of words at a time, and zero means the default or "absent" for each of
+// them. Hence the size of a struct, the stride of an array of them, and the offset of each field never change within
+// one soname: programs and libraries of different versions work together, in both directions. A call that takes a
+// struct of parameters with a reserved word that is not zero fails with LAM_BAD_ARGUMENT: the program was compiled
+// against a newer header and sets a field that this library does not know. Structs without LAM_RESERVED never change.
 #ifndef LAMBENT_BASE_H
 #define LAMBENT_BASE_H
 
@@ -30,7 +30,7 @@
 extern "C" {
 #endif
 
-// The version of these headers; lam_version() is that of the library.
+// The version of these headers; lam_version() returns the library's.
 #define LAM_VERSION_MAJOR 0
 #define LAM_VERSION_MINOR 1
 #define LAM_VERSION_PATCH 0
@@ -62,7 +62,7 @@ typedef enum lam_code {
 // An error. It need not be initialised: a call that fails fills all of it, a call that succeeds leaves it alone.
 typedef struct lam_error {
     lam_code code; // the kind of failure
-    // One sentence in UTF-8 without a line end: the file, the place in it (line or byte), what was found and what
+    // One sentence in UTF-8 without a line end: the file, the position in it (line or byte), what was found and what
     // was expected.
     char text[508];
 } lam_error;
@@ -76,23 +76,23 @@ typedef struct lam_cancel {
 LAM_API void lam_cancel_raise(lam_cancel *cancel);
 LAM_API void lam_cancel_clear(lam_cancel *cancel);
 
-// The limits of a call whose lam_control does not name others. What is over one fails with LAM_LIMIT; the sentence has
-// both numbers. Limits "for each byte of files" count the model's file and all files that it names, each once; they bound
-// what a small file can unfold to, and do not apply to scenes that a program makes itself.
+// The limits of a call whose lam_control does not name others. Exceeding a limit fails with LAM_LIMIT; the sentence
+// contains both numbers. Limits "for each byte of files" count the model's file and all files that it names, each once.
+// They bound the expansion of small files, and do not apply to scenes that a program makes itself.
 #define LAM_TRIANGLE_LIMIT   200000000u   // triangles
 #define LAM_PIXEL_LIMIT      400000000u   // pixels
 #define LAM_FILE_LIMIT_BYTES 32000000000u // bytes
 #define LAM_JSON_DEPTH_LIMIT 256u         // objects and lists within one another
-#define LAM_JSON_DEPTH_MAX   2000u        // what json_depth_limit may be raised to: the parser calls itself
-// Triangles of small files: so many, and more for each byte of files, up to LAM_TRIANGLE_LIMIT.
+#define LAM_JSON_DEPTH_MAX   2000u        // the upper bound of json_depth_limit: the parser is recursive
+// Triangles of small files: this many, and more for each byte of files, up to LAM_TRIANGLE_LIMIT.
 #define LAM_TRIANGLES_BASE     50000000u
 #define LAM_TRIANGLES_PER_BYTE 100u
-// Bytes of memory that reading a model may take: so many, and expansion_limit for each byte of files.
+// Bytes of memory that reading a model may use: this many, and expansion_limit for each byte of files.
 #define LAM_EXPANSION_BASE_BYTES 500000000u
 #define LAM_EXPANSION_LIMIT      2000u
-// Objects of a model: so many, and one more for each byte of files.
+// Objects of a model: this many, and one more for each byte of files.
 #define LAM_OBJECTS_BASE 100000u
-// Layers of a picture: so many, and one more for each LAM_LAYER_BYTES of files.
+// Layers of a picture: this many, and one more for each LAM_LAYER_BYTES of files.
 #define LAM_LAYERS_BASE 40u
 #define LAM_LAYER_BYTES 16384u
 
@@ -105,24 +105,24 @@ typedef struct lam_control {
     // Seconds on the clock from the start of the call after which it fails with LAM_LIMIT. Times the number of threads,
     // this bounds the processor time as well. 0 or less: no limit.
     double time_limit_s;
-    // Bytes that the call may hold at once; more is LAM_LIMIT. 0: no limit.
+    // Bytes that the call may use at once; more is LAM_LIMIT. 0: no limit.
     uint64_t memory_limit_bytes;
     // Called now and then, in the calling thread, with the fraction done, 0..1, and the name of the step ("read",
     // "normals", "frame"). It must not call into the same device or scene. NULL: none.
     void (*progress)(void *user, double share, const char *step);
     void *user; // passed to `progress`
-    // Triangles that a model may have, and that a picture may draw (each object counts its mesh's; lines count as one in
-    // a model and points too, and as two where they are drawn). 0: LAM_TRIANGLE_LIMIT, less for small files.
+    // Triangles that a model may have, and that a picture may draw (each object counts its mesh's). Lines and points
+    // count as one in a model, and as two in a picture. 0: LAM_TRIANGLE_LIMIT, less for small files.
     uint64_t triangle_limit;
-    // Pixels of each picture that is read: textures, environments, pictures by themselves. A side has at most 65535 in
-    // any case. 0: LAM_PIXEL_LIMIT.
+    // Pixels of each picture read: textures, environments, single pictures. A side has at most 65535 in any case. 0:
+    // LAM_PIXEL_LIMIT.
     uint64_t pixel_limit;
     // Bytes of each file that is read. 0: LAM_FILE_LIMIT_BYTES.
     uint64_t file_limit_bytes;
     // How deep JSON (glTF, scene files) may nest, at most LAM_JSON_DEPTH_MAX. 0: LAM_JSON_DEPTH_LIMIT.
     uint64_t json_depth_limit;
-    // Bytes of memory that reading may take for each byte of files, beyond LAM_EXPANSION_BASE_BYTES: textures, vertices,
-    // and what decoders need. 0: LAM_EXPANSION_LIMIT.
+    // Bytes of memory that reading may use for each byte of files, beyond LAM_EXPANSION_BASE_BYTES: textures, vertices,
+    // and the memory of decoders. 0: LAM_EXPANSION_LIMIT.
     uint64_t expansion_limit;
     // Objects that a model may have, instances included. 0: LAM_OBJECTS_BASE, and one for each byte of files.
     uint64_t object_limit;
@@ -134,8 +134,7 @@ typedef struct lam_control {
 } lam_control;
 
 // The memory that this process may use, bytes: the smallest of the machine's, its control group's (cgroup v2 and v1,
-// with the groups above it) and those of RLIMIT_AS and RLIMIT_DATA. UINT64_MAX: unknown. Reads a few files of the
-// system each time.
+// with the groups above it), RLIMIT_AS and RLIMIT_DATA. UINT64_MAX: unknown. Reads a few files of the system each time.
 LAM_API uint64_t lam_memory_available(void);
 
 // A position, direction or angle triple.
@@ -157,7 +156,7 @@ typedef struct lam_rgba {
 typedef enum lam_color_mode {
     // Colours of files are decoded to linear light, and 8-bit pictures are encoded.
     LAM_COLOR_SRGB = 0,
-    // No conversion either way: a picture holds the numbers that the equations give.
+    // No conversion: a picture stores the numbers of the equations.
     LAM_COLOR_RAW,
 } lam_color_mode;
 

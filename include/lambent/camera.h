@@ -18,8 +18,8 @@ typedef struct lam_camera {
     double fovy_rad;
     // > 0: an orthographic camera that shows this many model units from the middle of the picture to its top.
     double ortho_half_height;
-    // Distances along the view of what is nearest and farthest drawn; near < far, and near > 0 for perspective. Both 0:
-    // fitted to the scene.
+    // Distances along the view of the nearest and farthest drawn points; near < far, and near > 0 for perspective. Both
+    // 0: fitted to the scene.
     double near_plane, far_plane;
     LAM_RESERVED(16);
 } lam_camera;
@@ -83,9 +83,9 @@ LAM_API lam_view lam_view_of_side(lam_side side);
 LAM_API lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view);
 
 // The same for a scene that turns about an axis through `centre` (lam_scene_rotate): one camera for all angles, so that
-// the scene does not jump in size or place. It is the camera of the scene as it is or, where that would cut the scene at
-// some angle, one that the scene fills as it turns. Give it the scene before it turns. An axis of length 0 stands for
-// turns about any axis.
+// the scene does not jump in size or place. It is the camera of the scene as it is or, where that would cut the scene
+// at some angle, one that the scene fills as it turns. Give it the scene before it turns. An axis of length 0 means
+// rotations about any axis.
 LAM_API lam_camera lam_camera_fit_turning(const lam_scene *scene, lam_vec3 centre, lam_vec3 axis, int width, int height,
                                           const lam_view *view);
 

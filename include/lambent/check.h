@@ -1,5 +1,5 @@
 // lambent/check.h: checks the lighting of GLSL shaders. It draws reference scenes with the shaders under test, compares
-// the pictures with those of the CPU device, and names the known mistakes that explain a difference. For teachers and
+// the pictures with the CPU device's, and names the known mistakes that explain a difference. For teachers and
 // students: docs/check.md.
 //
 // These functions are in a library of their own, liblambent-check (pkg-config lambent-check), which uses liblambent.
@@ -12,8 +12,8 @@
 extern "C" {
 #endif
 
-// A contract: the names by which the shaders of a course receive their inputs, and what its exercise asks for. It is a
-// file of JSON (docs/check.md, "Contracts"). Nothing changes it, so any number of checks may share one.
+// A contract: the names of a course's shader inputs, and the requirements of its exercise. It is a file of JSON
+// (docs/check.md, "Contracts"). Nothing changes it, so any number of checks may share one.
 typedef struct lam_check_contract lam_check_contract;
 
 // The names of the contracts that are built in: "lambent", "pittsburgh", "oregon", … NULL past the last.
@@ -64,7 +64,7 @@ LAM_API bool lam_check_role_row(int row, lam_check_role *role);
 LAM_API const char *lam_check_mistake(int index);
 LAM_API const char *lam_check_mistake_explanation(int index);
 
-// The reference scenes and what each one tests. NULL past the last.
+// The reference scenes and the property that each one tests. NULL past the last.
 LAM_API const char *lam_check_scene_name(int index);
 LAM_API const char *lam_check_scene_description(int index);
 
@@ -77,7 +77,7 @@ LAM_API bool lam_check_draw(const void *request, size_t size, const char *gl_dev
 
 // How a process that calls lam_check_draw ended.
 typedef enum lam_check_draw_status {
-    LAM_CHECK_DRAW_DONE = 0, // `result` holds the bytes from lam_check_draw
+    LAM_CHECK_DRAW_DONE = 0, // `result` contains the bytes from lam_check_draw
     LAM_CHECK_DRAW_FAILED,   // `error` says why
     LAM_CHECK_DRAW_TIMEOUT,  // it was stopped at its deadline
     LAM_CHECK_DRAW_CRASHED,  // the process crashed
@@ -89,9 +89,9 @@ typedef lam_check_draw_status lam_check_draw_fn(void *user, const lam_bytes *req
 
 // --- drawing for a check
 
-// A check draws the shaders under test, and its own shaders with known mistakes, by OpenGL that it finds at run time, or by a
-// painter of the caller: a page draws with WebGL 2 (web/check/painter.js). What is drawn, with which inputs, and what the
-// pictures prove is the check's alone, so that every painter gets the same verdict.
+// A check draws the shaders under test, and its own shaders with known mistakes, by OpenGL that it finds at run time,
+// or by a painter of the caller: a page draws with WebGL 2 (web/check/painter.js). The check alone decides the drawn
+// meshes, their inputs and the conclusion from the pictures, so that every painter gets the same verdict.
 
 // The compiler of a pair of shaders.
 typedef enum lam_check_language {
@@ -128,7 +128,7 @@ typedef struct lam_check_input {
 // A compiled program. Its members belong to the painter.
 typedef struct lam_check_program {
     void *program;                         // NULL: it does not compile or link
-    lam_check_input *inputs;               // those that it reads
+    lam_check_input *inputs;               // the inputs that they read
     int input_count;                       // of `inputs`
     bool refused_vertex, refused_fragment; // which of the texts do not compile
     char vertex_log[4096];                 // the compiler's messages; ""
@@ -201,14 +201,14 @@ typedef struct lam_check_painter {
     void (*close)(void *place); // frees it; its programs are forgotten before
     // A cache of the caller's keeps places: they come to rest after a check, and wake for another, perhaps on another thread.
     void (*rest)(void *place);
-    // False: see `error`; the place stays at rest. Its programs are forgotten and it is closed all the same, without another call
-    // that wakes it: memory and the device's objects have to be freed then too.
+    // False: see `error`; the place stays at rest. Its programs are forgotten, and it is closed without another call
+    // that wakes it: memory and the device's objects must be freed then too.
     bool (*wake)(void *place, lam_error *error);
     // Compiles both texts, so that the messages of both are known at once, and links them. A program that is refused is no
     // error. False: `error`; nothing is kept then.
     bool (*compile)(void *place, const char *vertex, const char *fragment, lam_check_program *program,
                     lam_error *error);
-    void (*forget)(void *place, lam_check_program *program); // frees what compile made
+    void (*forget)(void *place, lam_check_program *program); // frees the result of compile
     // Draws to size² RGBA pixels, rows top-down: floats as the program wrote them, or bytes / 255 where the device has no
     // targets of floats, in which case colours are clamped and NaN is not found.
     bool (*draw)(void *place, const lam_check_drawing *drawing, float *pixels, lam_error *error);
@@ -220,8 +220,8 @@ typedef struct lam_check_painter {
 } lam_check_painter;
 
 // A cache of the pictures of known mistakes, shared by several checks: most of a check's time goes into drawing them.
-// It holds up to `max_bytes`; further pictures are drawn each time. For one OpenGL device or painter; any number of threads may
-// check with one cache at once. NULL: out of memory.
+// It stores up to `max_bytes`; further pictures are drawn each time. For one OpenGL device or painter; any number of
+// threads may check with one cache at once. NULL: out of memory.
 typedef struct lam_check_cache lam_check_cache;
 
 // Makes an empty cache.
@@ -240,10 +240,10 @@ typedef enum lam_check_term {
 typedef struct lam_check_params {
     const char *fragment;      // GLSL; required
     const char *fragment_name; // the file's name, for messages
-    // NULL: a correct vertex shader is generated that writes what the fragment shader reads.
+    // NULL: a correct vertex shader is generated that writes the inputs of the fragment shader.
     const char *vertex;
     const char *vertex_name; // as fragment_name
-    // The names that the shaders use. NULL: that of the built-in ones which has them.
+    // The names that the shaders use. NULL: the built-in one with these names.
     const lam_check_contract *contract;
     int size; // width and height of each picture, 32..1024 pixels; 0: 128
     // Largest allowed difference of a channel, 1 = full range; 0: 2/255. A scene passes when at most one pixel in 200
@@ -261,14 +261,14 @@ typedef struct lam_check_params {
     // Runs lam_check_draw in another process. NULL: in this process, for trusted shaders.
     lam_check_draw_fn *draw;
     void *user; // passed to `draw`
-    // The terms that the shaders are expected to compute, bits of lam_check_term; 0: those of which they declare a name.
-    // A colour that is not declared is taken as white.
+    // The terms that the shaders are expected to compute, bits of lam_check_term; 0: the terms of which they declare a
+    // name. A colour that is not declared is taken as white.
     unsigned terms;
-    // The search for mistakes ends after so many pictures of sets of them; 0: 10000. The result is the same on every
+    // The search for mistakes ends after this many pictures of sets of them; 0: 10000. The result is the same on every
     // machine, with a cache or without.
     uint64_t max_pictures;
-    // Draws in place of OpenGL. NULL: OpenGL draws, on `gl_device`. With `draw`, the shaders under test are drawn by that.
-    // The caller keeps it, and what it points to, until the check and its cache are done.
+    // Draws in place of OpenGL. NULL: OpenGL draws, on `gl_device`. With `draw`, the shaders under test are drawn by
+    // that. The caller keeps it, and the data that it points to, until the check and its cache are done.
     const lam_check_painter *painter;
     LAM_RESERVED(13);
 } lam_check_params;
@@ -284,8 +284,8 @@ typedef enum lam_check_verdict {
     LAM_CHECK_MEMORY,     // needed more memory than it may use
 } lam_check_verdict;
 
-// The result of one scene. Pixels are compared where they and their eight neighbours are inside the model; colours are
-// clamped to 0…1 first, as a screen does.
+// The result of one scene. Pixels are compared if they and their eight neighbours are inside the model; colours are
+// first clamped to 0…1, as on a screen.
 typedef struct lam_check_scene {
     const char *name, *description; // of the scene
     lam_image theirs, reference;    // LAM_RGBA32F, straight alpha
@@ -312,7 +312,7 @@ typedef struct lam_check_finding {
     bool certain;
     // Mean difference over all scenes without and with the mistake.
     double mean_before, mean_after;
-    // The share of the difference that this mistake and those before it explain: 1 where they explain all of it.
+    // The share of the difference that this mistake and the earlier ones explain: 1 if they explain all of it.
     double share;
     // The ids of mistakes with the same pictures, separated by blanks; NULL: there are none.
     const char *also;
@@ -363,10 +363,10 @@ typedef struct lam_check_report {
 LAM_API bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam_error *error);
 LAM_API void lam_check_report_free(lam_check_report *report); // zeroed is fine
 
-// Writes a contract file for a pair of shaders: the contract of `report`, or without a report (NULL) the roles of their inputs by
-// their use. A comment beside each entry says what it means and what to correct. The file gives the verdict of the report. The
-// caller frees `out` with lam_bytes_free. False: LAM_BAD_ARGUMENT (the vertex shader is missing, or the shaders are of a kind
-// that the check does not understand), LAM_LIMIT.
+// Writes a contract file for a pair of shaders: the contract of `report`, or without a report (NULL) the roles of their
+// inputs by their use. A comment beside each entry states its meaning and what to correct. The file gives the verdict
+// of the report. The caller frees `out` with lam_bytes_free. False: LAM_BAD_ARGUMENT (the vertex shader is missing, or
+// the shaders are of a kind that the check does not understand), LAM_LIMIT.
 LAM_API bool lam_check_contract_write(const lam_check_params *params, const lam_check_report *report, lam_bytes *out,
                                       lam_error *error);
 

@@ -56,7 +56,7 @@ LAM_API const char *lam_device_name(const lam_device *device);
 // The instruction set in use; LAM_ISA_AUTO: not a CPU device.
 LAM_API lam_isa lam_device_isa(const lam_device *device);
 
-// The number of threads that draw; 0: the device has none of its own.
+// The number of threads that draw; 0: the device has no own threads.
 LAM_API int lam_device_threads(const lam_device *device);
 
 // Shading methods: where the lighting is evaluated.
@@ -67,7 +67,7 @@ typedef enum lam_shading {
     LAM_SHADING_FLAT,
 } lam_shading;
 
-// The stage that evaluates the lighting. The CPU device gives the same bytes for every stage of a shading method.
+// The stage that evaluates the lighting. The CPU device gives identical bytes for every stage of a shading method.
 typedef enum lam_stage {
     LAM_STAGE_AUTO = 0,    // fragment
     LAM_STAGE_APPLICATION, // before drawing: flat, Gouraud
@@ -90,9 +90,9 @@ typedef enum lam_flat_normal {
 // The content of a frame: the picture, a part of its light, or a number of its surfaces.
 //
 // Light is drawn as the picture is: over the background, and sRGB-encoded in 8 bits (lam_output_is_light). Numbers are
-// neither. A float picture holds the number itself, an 8-bit one the code given here. Where there is no triangle, 8 bits
-// hold the background, as in the picture, and floats 0 with alpha 0. Numbers are not averaged: they are those of the
-// triangle at the covered sample nearest to the pixel's centre.
+// neither. A float picture stores the number itself, an 8-bit one the code given here. Without a triangle, 8 bits store
+// the background, as in the picture, and floats 0 with alpha 0. Numbers are not averaged: they come from the triangle
+// at the covered sample nearest to the pixel's centre.
 typedef enum lam_output {
     LAM_OUTPUT_PICTURE = 0, // the whole sum
     // Terms of the sum. The five add up to the picture over no background (unlit, the colour is the diffuse term). With
@@ -102,8 +102,8 @@ typedef enum lam_output {
     LAM_OUTPUT_SPECULAR,
     LAM_OUTPUT_EMISSION,
     LAM_OUTPUT_REFLECTION, // of the environment, and its light on physical materials
-    // The ambient, diffuse and specular terms of one light. Those of all lights, the scene's ambient light, emission
-    // and reflection add up to the picture. Black where a surface is not lit.
+    // The ambient, diffuse and specular terms of one light. The contributions of all lights, the scene's ambient light,
+    // emission and reflection add up to the picture. Black where a surface is not lit.
     LAM_OUTPUT_LIGHT,
     // Normals as the lighting uses them, in eye space: x right, y up, z to the viewer; turned where seen from behind.
     // 8 bits: (x + 1)/2.
@@ -127,8 +127,8 @@ typedef enum lam_output {
     // Triangles that cover a sample before the depth test, without culled ones: the mean over the pixel's samples.
     // Alpha is 1 everywhere, without triangles too. 8 bits: c/(c + 3).
     LAM_OUTPUT_OVERDRAW,
-    // How far each channel of the picture leaves 0…1, negative below. 8 bits: red where a channel is above, blue where
-    // one is below, else the picture in dark grey.
+    // How far each channel of the picture leaves 0…1, negative below. 8 bits: red if a channel is above, blue if one is
+    // below, otherwise the picture in dark grey.
     LAM_OUTPUT_CLIPPED,
     // The material at the point, whatever the shading method: the base colour of a physical material or the diffuse
     // colour of a classic one, times maps and vertex colours. A classic reflection model does not turn physical materials into
@@ -138,16 +138,16 @@ typedef enum lam_output {
     LAM_OUTPUT_METALLIC,  // likewise
     LAM_OUTPUT_OCCLUSION, // the factor of a map for light from everywhere; 1: no map
     // Level of detail of the diffuse map, else of the first map that the material has; 0: no map. Below 0 the map is
-    // magnified, by -50 where it has no footprint. 8 bits: level / 10.
+    // magnified; without a footprint it is -50. 8 bits: level / 10.
     LAM_OUTPUT_LOD,
     // The share of the light from all around that reaches the point (lam_occlusion, lam_cavity), 0 … 1, on ridges more.
     LAM_OUTPUT_AMBIENT_OCCLUSION,
     LAM_OUTPUT_COUNT,
 } lam_output;
 
-// Tone curves: how light of any strength becomes a colour of the screen. Each takes linear light after exposure, with the
-// primaries of sRGB, and returns linear light from 0 to 1, which is then encoded (docs/lighting/tone.md has formulas, sources
-// and plots). They apply to pictures of 8 bits; pictures of floats hold the light itself.
+// Tone curves: how light of any strength becomes a colour of the screen. Each takes linear light after exposure, with
+// the primaries of sRGB, and returns linear light from 0 to 1, which is then encoded (docs/lighting/tone.md has
+// formulas, sources and plots). They apply to pictures of 8 bits; float pictures store the light itself.
 typedef enum lam_tone {
     // KHRONOS_NEUTRAL where the frame shows a physical material, else NONE.
     LAM_TONE_AUTO = 0,
@@ -211,7 +211,7 @@ typedef enum lam_cavity {
 // and everything else that goes by the scene's size leave it out. It needs Phong shading.
 typedef enum lam_ground {
     LAM_GROUND_NONE = 0, // no ground
-    // It holds black, and as its alpha the share of the light that the scene takes away from a white, matt ground: shadows and
+    // It is black, and its alpha is the share of light that the scene blocks from a white, matt ground: shadows and
     // occlusion for any background. Pictures of the numbers of surfaces, except ambient occlusion, leave it out.
     LAM_GROUND_SHADOW,
     // Squares, whose side is the largest of 1, 2 and 5 times a power of ten that is at most half of the radius. They begin at
@@ -275,9 +275,9 @@ typedef struct lam_draw_params {
     // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the light's number in lam_draw_lights.
     int output_light;
     lam_tone tone; // between exposure and encoding, of 8-bit pictures
-    // Physical materials under an environment: the integral of its light is summed by so many directions at each lit point,
-    // 16..1048576, in place of the split sum (docs/lighting/environment.md). 0: the split sum. The CPU device alone; others
-    // refuse it (LAM_UNSUPPORTED).
+    // Physical materials under an environment: the integral of its light is summed over this many directions at each
+    // lit point, 16..1048576, in place of the split sum (docs/lighting/environment.md). 0: the split sum. The CPU
+    // device alone; others refuse it (LAM_UNSUPPORTED).
     int reference;
     // The width of lines, and the diameter of points, in pixels, up to 1000. 0: 1.5, and for points at least 3, more the fewer
     // there are and the larger the picture is, 8 or more for fewer than 100. Points below 4 pixels are squares. They lie nearer to the eye by their own width, as it is seen there, so that lines on a surface are not lost in it.
@@ -299,12 +299,12 @@ typedef struct lam_draw_params {
     lam_ground ground; // CPU device alone; others refuse it (LAM_UNSUPPORTED)
     // Linear; of COLOR, and of the bright squares of CHECKER, whose others have 0.45 of it. CHECKER: all zero is 0.6.
     lam_rgb ground_color;
-    // Lines over the picture (LAM_OUTPUT_PICTURE alone): the edges of all faces, those of the file's polygons where the mesh
-    // knows them (lam_mesh.inner_edges), and feature edges, LAM_EDGES_…. Their coverage of each pixel is computed from the
-    // distance to its centre, whatever `samples` is; light, exposure and tone do not change their colours. A surface hides the
-    // edges behind it where its opacity is at least ½ and no light goes through it (docs/edges.md).
+    // Lines over the picture (only LAM_OUTPUT_PICTURE): the edges of all faces (of the file's polygons if the mesh
+    // knows them, lam_mesh.inner_edges), and feature edges, LAM_EDGES_…. Their coverage of each pixel is computed from
+    // the distance to its centre, whatever `samples` is; light, exposure and tone do not change their colours. A
+    // surface hides the edges behind it where its opacity is at least ½ and no light goes through it (docs/edges.md).
     bool wireframe;
-    // Surfaces hide lines, but are not drawn: the picture holds lines and points alone.
+    // Surfaces hide lines, but are not drawn: the picture contains only lines and points.
     bool no_surfaces;
     unsigned edges;                    // LAM_EDGES_…; 0: none
     lam_hidden_lines hidden_lines;     // of edges behind surfaces
@@ -330,8 +330,8 @@ typedef struct lam_frame_report {
     double total_ms; // the whole call
     // tiles_ms divided by work, in proportion to the times summed over the threads.
     double coverage_ms, lighting_ms, resolve_ms;
-    // The OpenGL device: making and sending buffers that are new or have changed (without lighting_ms, that of the
-    // stage `application`); drawing until done; reading back and encoding. vertices_ms to tiles_ms are 0 there.
+    // The OpenGL device: making and uploading new or changed buffers (without lighting_ms, the lighting of the stage
+    // `application`); drawing until done; reading back and encoding. vertices_ms to tiles_ms are 0 there.
     double upload_ms, draw_ms, read_ms;
     // The OpenGL device: vertices, colours, lights, materials and environment sent in this frame.
     uint64_t bytes_uploaded;
@@ -350,7 +350,7 @@ typedef struct lam_frame_report {
     bool ground;   // the camera sees a ground
     // With one: its height along the scene's up axis, and the side of a checker's squares, model units. Else 0.
     double ground_height, ground_square;
-    // Finding the edges that are drawn and what of them is in sight; hierarchy_ms apart.
+    // Finding the drawn edges and their visible parts; hierarchy_ms is separate.
     double edges_ms;
     uint64_t edges_drawn; // of meshes that are inside of the picture, hidden ones too
     uint64_t edge_rays;   // from points of edges to the eye
@@ -365,8 +365,8 @@ LAM_API bool lam_draw(lam_device *device, const lam_scene *scene, const lam_came
                       const lam_draw_params *params, lam_image *image, const lam_control *control, lam_error *error);
 
 // Finds the exposure, in stops, at which 95 % of the covered pixels of a frame are at most as bright as 0.8 (Rec. 709
-// luminance), rounded to thirds of a stop; 0 where there is no light. It draws the frame, with params->exposure taken as
-// 0, at most 512 pixels wide and high. Errors as lam_draw.
+// luminance), rounded to thirds of a stop; 0 without light. It draws the frame, with params->exposure taken as 0, at
+// most 512 pixels wide and high. Errors as lam_draw.
 LAM_API bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                               const lam_draw_params *params, int width, int height, const lam_control *control,
                               double *stops, lam_error *error);

@@ -25,12 +25,12 @@ typedef enum lam_cube_face {
     LAM_FACE_COUNT
 } lam_cube_face;
 
-// Makes an environment of six square pictures of one size, up to 8192 pixels on a side, which are copied. Each lies as
-// OpenGL's table of cube maps says, its first row at t = 0: seen from inside with y up, the four faces around stand
-// upright and are mirrored left to right.
+// Makes an environment of six square pictures of one size, up to 8192 pixels on a side, which are copied. Each face
+// follows OpenGL's table of cube maps, its first row at t = 0. Seen from inside with y up, the four faces around are
+// upright and mirrored left to right.
 //
-// LAM_RGBA8 is decoded from sRGB, or taken as it is with LAM_COLOR_RAW; LAM_RGBA32F is linear. What is not opaque lies
-// over black. NULL on failure: LAM_BAD_ARGUMENT (sizes; numbers below 0 or not finite), LAM_LIMIT.
+// LAM_RGBA8 is decoded from sRGB, or taken as it is with LAM_COLOR_RAW; LAM_RGBA32F is linear. Transparent pixels are
+// blended over black. NULL on failure: LAM_BAD_ARGUMENT (sizes; numbers below 0 or not finite), LAM_LIMIT.
 LAM_API lam_environment *lam_environment_make(const struct lam_image *const faces[LAM_FACE_COUNT], lam_color_mode color,
                                               lam_error *error);
 
@@ -46,8 +46,8 @@ LAM_API lam_environment *lam_environment_from_image(const struct lam_image *imag
                                                     lam_error *error);
 
 // The same from files of any format that lam_image_load_linear reads: six faces, or one picture. `control` may be NULL;
-// its memory limit counts each file while it is read, the pictures (16 bytes a pixel) and the faces (12). Errors: those
-// above and those of lam_image_load, LAM_UNSUPPORTED (a picture's size); every sentence names the file.
+// its memory limit counts each file while it is read, the pictures (16 bytes a pixel) and the faces (12). Errors: the
+// above and lam_image_load's, LAM_UNSUPPORTED (a picture's size); every sentence names the file.
 LAM_API lam_environment *lam_environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
                                                     const lam_control *control, lam_error *error);
 LAM_API lam_environment *lam_environment_load(const char *path, lam_color_mode color, const lam_control *control,
@@ -60,7 +60,7 @@ LAM_API lam_environment *lam_environment_built_in(const char *name, lam_error *e
 // The names of the built-in environments, from 0. Static strings; NULL out of range.
 LAM_API const char *lam_environment_built_in_name(int index);
 
-// Frees an environment; scenes that hold it keep it. NULL is fine.
+// Releases an environment; scenes that use it keep it. NULL is fine.
 LAM_API void lam_environment_free(lam_environment *environment);
 
 // Pixels on a side of each face.
@@ -71,11 +71,12 @@ LAM_API int lam_environment_size(const lam_environment *environment);
 // means of it, which the first frame that needs them makes and the environment keeps (docs/lighting/environment.md).
 LAM_API lam_rgb lam_environment_sample(const lam_environment *environment, lam_vec3 direction);
 
-// The light of an environment on physical materials as the texture `environment_light` of exported shaders (lambent/shader.h):
-// makes an LAM_RGBA32F picture 1024 texels wide, which the caller frees with lam_image_free. It holds the prefiltered levels
-// 1 to 11 and the irradiance divided by pi, each six faces in the order of lam_cube_face with a border of one texel, row by
-// row, one texel after the other across the rows of the picture; docs/lighting/environment.md lists sizes and roughnesses.
-// `control` may be NULL. Errors: LAM_BAD_ARGUMENT (NULL), LAM_LIMIT, LAM_CANCELLED.
+// The light of an environment on physical materials as the texture `environment_light` of exported shaders
+// (lambent/shader.h): makes an LAM_RGBA32F picture 1024 texels wide, which the caller frees with lam_image_free. It
+// contains the prefiltered levels 1 to 11 and the irradiance divided by pi. Each is six faces in the order of
+// lam_cube_face with a border of one texel, row by row, one texel after the other across the rows of the picture.
+// docs/lighting/environment.md lists sizes and roughnesses. `control` may be NULL. Errors: LAM_BAD_ARGUMENT (NULL),
+// LAM_LIMIT, LAM_CANCELLED.
 LAM_API bool lam_environment_light_image(const lam_environment *environment, struct lam_image *image,
                                          const lam_control *control, lam_error *error);
 

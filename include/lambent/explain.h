@@ -19,7 +19,7 @@ typedef struct lam_explained_light_layers {
     float S;            // of the base: π D V max(n·l, 0)
     float base_diffuse; // max(n·l, 0) (1 − max F) matt
     lam_rgb base;       // F S, F the mix of dielectric and metal
-    float sheen_left;   // what the sheen leaves of the light of the base; 1: no sheen
+    float sheen_left;   // the light that the sheen leaves to the base; 1: no sheen
     lam_rgb sheen;      // sheen_color π D V n·l of its fibres
     float coat;         // share S of the coat; 0: no coat
     LAM_RESERVED(4);
@@ -37,9 +37,9 @@ typedef struct lam_explained_light {
     // La, Ld, Ls: the colours of the light.
     lam_rgb ambient, diffuse, specular;
 
-    // Unit vectors, zero where there is none: to the light, its mirror image about n, and halfway between l and v.
+    // Unit vectors, zero if there is none: to the light, its mirror image about n, and halfway between l and v.
     lam_vec3 l, r, h;
-    // The angles between n and l, between r and v, and between n and h. NaN where one of the two is missing.
+    // The angles between n and l, between r and v, and between n and h. NaN if one of the two is missing.
     double theta_rad, phi_rad, psi_rad;
     float distance;                    // model units; 0: directional
     lam_attenuation attenuation_terms; // constant, linear, quadratic
@@ -48,7 +48,7 @@ typedef struct lam_explained_light {
     float cos_axis;                    // spot: cosine between −l and the axis; else 1
     float spot;                        // the cone's factor; 1: no cone
     float n_dot_l;                     // cosine between n and l
-    // The highlight is S = base^power where it is not gated; base 0…1.
+    // The highlight is S = base^power unless it is gated; base 0…1.
     float base, power;
     float D; // strength of the diffuse term
     float S; // strength of the specular term
@@ -75,10 +75,11 @@ typedef struct lam_explained_light {
     float distribution, visibility;
     // F, Fresnel's factor with the light that mirrors send to one another; ks_Ls = F ⊙ Ls. 0 of other models.
     lam_rgb fresnel;
-    // The factor of ambient occlusion, 1 − occluded (1 − unoccluded), which both terms hold; 1: none.
+    // The factor of ambient occlusion, 1 − occluded (1 − unoccluded), included in both terms; 1: none.
     float occlusion;
-    // How the layers of a physical material share the light; NULL: it has none. distribution, visibility and fresnel then are
-    // those of the base (the first two 0 where its highlight is stretched), and S is the largest channel of what all return.
+    // How the layers of a physical material share the light; NULL: it has none. distribution, visibility and fresnel
+    // then belong to the base (the first two are 0 if its highlight is stretched), and S is the largest channel of the
+    // reflected light of all layers.
     const lam_explained_light_layers *layers;
     LAM_RESERVED(1);
 } lam_explained_light;
@@ -120,7 +121,7 @@ typedef struct lam_explained_point {
     // Unit: the normal, the direction to the eye, and the tangent, which is zero where the reflection model has no use
     // for it.
     lam_vec3 n, v, t;
-    lam_rgb color;         // vertex colour; 1 where the mesh has none
+    lam_rgb color;         // vertex colour; 1 if the mesh has no colours
     lam_rgb ambient_light; // La_global + Σ La
     lam_rgb ambient_term;  // ka ⊙ ambient_light
     // The hemisphere lights of the scene and the rig.
@@ -147,8 +148,8 @@ typedef struct lam_explained_point {
     float environment_scale, environment_bias; // of the split sum
     lam_rgb irradiance, prefiltered;           // light that falls in, linear
     lam_rgb environment_diffuse;               // the part of the reflection term that `irradiance` gives
-    // The share of the light from all around that ambient occlusion lets through, of which the ambient and reflection
-    // terms are multiplied (a classic material's reflection is not); 1 without occlusion.
+    // The share of surrounding light that ambient occlusion lets pass; it multiplies the ambient and reflection terms
+    // (not a classic material's reflection); 1 without occlusion.
     float unoccluded;
     // The layers of a physical material; NULL: it has none.
     const lam_explained_layers *layers;
@@ -161,7 +162,8 @@ typedef struct lam_explained_map {
     const char *texture; // its name; NULL: unnamed
     int width, height;   // of the texture, texels
     float s, t;          // texture coordinates of the mesh
-    // Where they are in the texture, after the map's transform and wrapping: texels of level 0 from its upper left corner.
+    // The position in the texture, after the map's transform and wrapping: texels of level 0 from its upper left
+    // corner.
     float column, row;
     float level; // of detail; 0 and less: level 0, magnified
     // Filtered, before scale and offset. Of a bump map the heights one texel of level 0 before and behind the point, along
@@ -170,7 +172,7 @@ typedef struct lam_explained_map {
     LAM_RESERVED(4);
 } lam_explained_map;
 
-// The material at a fragment that is lit by itself (Phong shading).
+// The material at a separately lit fragment (Phong shading).
 typedef struct lam_explained_values {
     // The diffuse colour, or the base colour of a physical material: its own times maps and vertex colours.
     lam_rgb base_color;
@@ -179,14 +181,14 @@ typedef struct lam_explained_values {
     // Factor of ambient, hemisphere and environment light; 1: no map.
     float occlusion;
     float shininess; // of a classic material; else 0
-    // The interpolated normal before a map bends it, unit; and the mesh's tangent, of any length, zero where no map and no
+    // The interpolated normal before a normal map, unit; and the mesh's tangent, of any length, zero if no map and no
     // model reads it.
     lam_vec3 mesh_normal, tangent;
     float bitangent_sign; // the bitangent is this times n × t
     LAM_RESERVED(8);
 } lam_explained_values;
 
-// A point on its way from the mesh to the window, as a vertex shader and what follows it compute it.
+// A point on its way from the mesh to the window, as a vertex shader and the later stages compute it.
 typedef struct lam_explained_place {
     lam_vec3 mesh_position; // of the mesh's own space
     lam_vec3 eye_position;  // the eye at the origin, looking along −z
@@ -236,11 +238,12 @@ typedef struct lam_explained_fragment {
     lam_rgba color;                    // not premultiplied
     uint16_t sample_mask;              // bit s: sample s shows the triangle
     // For each sample that shows the triangle, the fraction of its light that the translucent triangles in front let
-    // through: 1 where there are none.
+    // pass: 1 without any.
     float transmittance[16];
     // Σ transmittance / samples of a pixel: the fragment's share of the pixel.
     float weight;
-    // Of what the mesh consists of: 3 triangles; 2 lines, 1 points, each drawn as two triangles, whose corners have the weights.
+    // The kind of the mesh: 3 triangles; 2 lines, 1 points, each drawn as two triangles, whose corners have the
+    // weights.
     int corners;
     // The maps that were read, in the order of reading.
     const lam_explained_map *maps;
@@ -254,8 +257,9 @@ typedef struct lam_explained_fragment {
     float received, unobstructed;
     // 4: the triangle's corners, and the point with the weights above. NULL: a line or a point, which has no corners in a mesh.
     const lam_explained_place *places;
-    // (x3−x2)(y1−y2) − (y3−y2)(x1−x2) of the corners' window positions: twice the area in square pixels, positive where
-    // they run counter-clockwise. A mirroring transform turns the winding of a front round. NaN where a corner lies behind the eye.
+    // (x3−x2)(y1−y2) − (y3−y2)(x1−x2) of the corners' window positions: twice the area in square pixels, positive if
+    // they are counter-clockwise. A mirroring transform turns the winding of a front round. NaN where a corner lies
+    // behind the eye.
     double winding;
     const lam_explained_matrices *matrices; // NULL if `places` is
     // n is the triangle's own normal, (p1 − p0) × (p2 − p0) of its corners, before maps. false: the normals of the corners, in
@@ -289,11 +293,11 @@ typedef struct lam_explanation {
     lam_rgba result;
     lam_rgb straight; // result / alpha
     lam_rgb encoded;  // `straight` sRGB-encoded, or clamped with LAM_COLOR_RAW
-    uint8_t bytes[4]; // what LAM_RGBA8 holds: floor(255·encoded + ½), and alpha
+    uint8_t bytes[4]; // the bytes of LAM_RGBA8: floor(255·encoded + ½), and alpha
     lam_tone tone;    // in use, never AUTO
     lam_rgb toned;    // `straight` after the tone curve, which is then encoded
-    // As in lam_draw_params, where it matters: the reflection terms of physical materials are sums over so many directions,
-    // and the members of the split sum are 0.
+    // As in lam_draw_params: with a value, the reflection terms of physical materials are sums over this many
+    // directions, and the members of the split sum are 0.
     int reference;
     // The point, directional and spot lights in the order of each point's, as they were given: with their cones.
     const lam_light *lights;
@@ -302,9 +306,9 @@ typedef struct lam_explanation {
 } lam_explanation;
 
 // Draws the part of the picture around pixel (x, y), counted from the upper left corner, and records every number of
-// that pixel. The code that draws pictures runs; the arguments are those of lam_draw, with the picture's size and
-// format in place of the picture. The device's next picture is not affected. The caller frees the result. NULL on
-// failure: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (not the CPU device), LAM_LIMIT, LAM_CANCELLED.
+// that pixel. The code that draws pictures runs; the arguments are lam_draw's, with the picture's size and format in
+// place of the picture. The device's next picture is not affected. The caller frees the result. NULL on failure:
+// LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (not the CPU device), LAM_LIMIT, LAM_CANCELLED.
 LAM_API lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                                      const lam_draw_params *params, int width, int height, lam_pixel_format format,
                                      int x, int y, const lam_control *control, lam_error *error);

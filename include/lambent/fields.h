@@ -18,7 +18,7 @@ typedef enum lam_field_type {
     LAM_FIELD_RGB,   // lam_rgb
     LAM_FIELD_RGBA,  // lam_rgba; the alpha lies in 0..1
     LAM_FIELD_POINT, // lam_vec3
-    // lam_vec3 of any length but 0; a default of 0 stands for a direction that the scene decides.
+    // lam_vec3 of any length but 0; a default of 0 means a direction that the scene decides.
     LAM_FIELD_DIRECTION,
     LAM_FIELD_TRIPLE, // three floats
 } lam_field_type;
@@ -32,7 +32,7 @@ typedef struct lam_field {
     const char *unit;    // NULL: none
     const char *summary; // one line
     lam_field_type type; // decides how many numbers it has
-    // The range of each number, INFINITY where there is no bound, and the default. Angles in degrees.
+    // The range of each number, INFINITY if it is unbounded, and the default. Angles in degrees.
     double min, max, standard[4];
     size_t offset; // in lam_material or lam_light
     // Bits 1 << lam_light_type: the lights that have it. 0: a material's.

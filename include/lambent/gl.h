@@ -19,7 +19,7 @@ typedef enum lam_gl_api {
 // A pointer to a function of OpenGL; its true type goes by its name.
 typedef void (*lam_gl_function)(void);
 
-// Returns the function of a name ("glDrawArrays"), NULL where there is none. For a window made by SDL, GLFW or GTK it
+// Returns the function of a name ("glDrawArrays"), NULL if there is none. For a window made by SDL, GLFW or GTK it
 // calls SDL_GL_GetProcAddress, glfwGetProcAddress or eglGetProcAddress.
 typedef lam_gl_function lam_gl_get_proc(void *user, const char *name);
 
@@ -40,10 +40,11 @@ typedef struct lam_gl_params {
     bool debug;
     // Path of the EGL library that is loaded without a window. NULL: "libEGL.so.1".
     const char *library;
-    // Draw with shaders of the lecture style (lam_shader_style); a draw fails with LAM_UNSUPPORTED where it does not have what
-    // the scene asks for.
+    // Draw with shaders of the lecture style (lam_shader_style); a draw fails with LAM_UNSUPPORTED if the style lacks a
+    // feature of the scene.
     bool lecture;
-    // A mistake of that style, by its id; a draw fails with LAM_UNSUPPORTED where its shader lacks what the mistake needs. NULL: none.
+    // A mistake of that style, by its id; a draw fails with LAM_UNSUPPORTED if its shader cannot contain the mistake.
+    // NULL: none.
     const char *mistake;
     // Textures are filtered by the graphics card, from texels of 8 bits where the picture has no more: faster, and by up to
     // some hundredths of the range away from the CPU device's picture (docs/opengl.md). By default the shader filters them, as
@@ -52,8 +53,8 @@ typedef struct lam_gl_params {
     LAM_RESERVED(5);
 } lam_gl_params;
 
-// Makes an OpenGL device; lam_device_free frees it. `params` may be NULL. NULL on failure: LAM_UNSUPPORTED where a
-// library, a driver or a version is missing (the sentence says which, and what to install), LAM_LIMIT.
+// Makes an OpenGL device; lam_device_free frees it. `params` may be NULL. NULL on failure: LAM_UNSUPPORTED if a
+// library, a driver or a version is missing (the sentence names it and the package to install), LAM_LIMIT.
 LAM_API lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error);
 
 // A device of this machine that OpenGL may run on without a window. Texts are "" where nothing is known.

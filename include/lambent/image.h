@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-// Formats of 8 bits hold sRGB-encoded numbers (or raw ones), the floats linear ones. RGBA8 and BGRA8 are not
+// Formats of 8 bits store sRGB-encoded numbers (or raw ones), the floats linear ones. RGBA8 and BGRA8 are not
 // premultiplied by alpha, RGBA32F is. Formats without alpha are opaque: a frame is drawn into them over its background,
 // and that over black. Converted to another format of 8 bits, they have alpha 255.
 typedef enum lam_pixel_format {
@@ -48,8 +48,8 @@ LAM_API void lam_image_free(lam_image *image);
 typedef enum lam_compress {
     // The default: some milliseconds for a million pixels. The bytes depend on the picture alone.
     LAM_COMPRESS_FAST,
-    // About a third smaller, some hundred times slower, by libdeflate, which is opened when it is used (LAM_UNSUPPORTED
-    // where it is not installed). The bytes depend on its version.
+    // About a third smaller, some hundred times slower, by libdeflate, which is loaded on demand (LAM_UNSUPPORTED if it
+    // is not installed). The bytes depend on its version.
     LAM_COMPRESS_BEST,
 } lam_compress;
 
@@ -57,7 +57,7 @@ typedef enum lam_compress {
 typedef struct lam_save_params {
     // Cancel flag and time limit, checked while encoding. NULL: none.
     const lam_control *control;
-    // Formats without alpha (PPM, JPEG) hold the picture over this colour, linear. Default black.
+    // Formats without alpha (PPM, JPEG) store the picture over this colour, linear. Default black.
     lam_rgb background;
     // Threads to encode with; 0: one for each processor. The bytes do not depend on it.
     int threads;
@@ -88,11 +88,12 @@ LAM_API bool lam_bytes_save(const lam_bytes *bytes, const char *path, lam_error 
 // The same, and it is on the disk when the call returns, as with lam_save_params.durable.
 LAM_API bool lam_bytes_save_durably(const lam_bytes *bytes, const char *path, lam_error *error);
 
-// Encodes a picture. `format` is "png", "ppm", "jpg" ("jpeg") or "webp" (from formats of 8 bits), "pfm" (from floats; RGB,
-// linear, bottom row first) or "exr" (from floats of 32 bits). "webp" and "exr" are LAM_UNSUPPORTED without libwebp and
-// OpenEXR. The same picture always gives the same bytes; those of "jpg", "webp" and "exr" depend on the version of the
-// library that makes them. WebP has at most 16383 pixels on a side (LAM_LIMIT). `params` may be NULL. Errors: LAM_BAD_ARGUMENT (bytes where the file holds floats, or floats where it holds
-// bytes), LAM_UNSUPPORTED (no such format), LAM_LIMIT.
+// Encodes a picture. `format` is "png", "ppm", "jpg" ("jpeg") or "webp" (from formats of 8 bits), "pfm" (from floats;
+// RGB, linear, bottom row first) or "exr" (from floats of 32 bits). "webp" and "exr" are LAM_UNSUPPORTED without
+// libwebp and OpenEXR. The same picture always gives the same bytes; for "jpg", "webp" and "exr" they depend on the
+// version of the library. WebP has at most 16383 pixels on a side (LAM_LIMIT). `params` may be NULL. Errors:
+// LAM_BAD_ARGUMENT (bytes for a file of floats, or floats for a file of bytes), LAM_UNSUPPORTED (no such format),
+// LAM_LIMIT.
 LAM_API bool lam_image_encode(const lam_image *image, const char *format, const lam_save_params *params, lam_bytes *out,
                               lam_error *error);
 
@@ -118,29 +119,29 @@ typedef struct lam_layer {
 LAM_API bool lam_image_encode_layers(const lam_layer *layers, int count, lam_bytes *out, lam_error *error);
 LAM_API bool lam_image_save_layers(const lam_layer *layers, int count, const char *path, lam_error *error);
 
-// The pixel format that a file name asks for: LAM_RGBA32F for .pfm and .exr, LAM_RGBA8 for .png, .ppm, .jpg,
-// .jpeg and .webp.
-// LAM_UNSUPPORTED for another ending, naming those that can be written.
+// The pixel format that a file name asks for: LAM_RGBA32F for .pfm and .exr, LAM_RGBA8 for .png, .ppm, .jpg, .jpeg and
+// .webp. LAM_UNSUPPORTED for another extension, with a list of the writable ones.
 LAM_API bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error);
 
-// The picture formats, from 0: the name, which is the ending of file names too ("png"); another ending (NULL: none); and one line
-// that says which numbers a file holds ("8 bits, sRGB, with alpha"; NULL: the format is only read). Every format is read. Static
-// strings; NULL out of range.
+// The picture formats, from 0: the name, which is also an extension ("png"); another extension (NULL: none); and one
+// line about the stored numbers ("8 bits, sRGB, with alpha"; NULL: the format is only read). Every format is read.
+// Static strings; NULL out of range.
 LAM_API const char *lam_image_format_name(int format);
 LAM_API const char *lam_image_format_alias(int format);
 LAM_API const char *lam_image_format_written(int format);
 
-// Reads a picture: PNG, JPEG (CMYK without its profile), WebP (LAM_UNSUPPORTED without libwebp), BMP, TGA and binary PPM into
-// LAM_RGBA8 (16 bits are cut to 8, grey and palettes become RGB), PFM, EXR (scanlines; the first part) and Radiance (.hdr)
-// into LAM_RGBA32F, with alpha 1 where the file has none. Content decides the format; of a TGA with a wrong header the ending
-// of its name. `path` is a regular file, or "-": standard input. `image` may hold anything before the call, which does not
-// free it; on failure it is zeroed. `control` may be NULL; its memory limit counts the file and the pixels. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535, more than 400 million pixels,
-// memory, time), LAM_CANCELLED.
+// Reads a picture: PNG, JPEG (CMYK without its profile), WebP (LAM_UNSUPPORTED without libwebp), BMP, TGA and binary
+// PPM into LAM_RGBA8 (16 bits are cut to 8, grey and palettes become RGB), PFM, EXR (scanlines; the first part) and
+// Radiance (.hdr) into LAM_RGBA32F, with alpha 1 where the file has none. Content decides the format; of a TGA with a
+// wrong header the ending of its name. `path` is a regular file, or "-": standard input. The call ignores the previous
+// contents of `image` and does not free them; on failure it is zeroed. `control` may be NULL; its memory limit counts
+// the file and the pixels. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535, more than 400
+// million pixels, memory, time), LAM_CANCELLED.
 LAM_API bool lam_image_load(lam_image *image, const char *path, const lam_control *control, lam_error *error);
 
 // Reads a picture of any of these formats into LAM_RGBA32F, linear and premultiplied. The numbers of PNG (all 16 bits
-// where it has them), JPEG, WebP, BMP, TGA and PPM are decoded from sRGB, or taken as they are, 0…1, with LAM_COLOR_RAW;
-// PFM, EXR and Radiance are linear already. Otherwise as lam_image_load.
+// if present), JPEG, WebP, BMP, TGA and PPM are decoded from sRGB, or used unchanged, 0…1, with LAM_COLOR_RAW; PFM, EXR
+// and Radiance are already linear. Otherwise as lam_image_load.
 LAM_API bool lam_image_load_linear(lam_image *image, const char *path, lam_color_mode color, const lam_control *control,
                                    lam_error *error);
 
@@ -165,11 +166,11 @@ typedef struct lam_difference {
 // Measures the difference of two pictures. False: LAM_BAD_ARGUMENT (sizes or formats differ).
 LAM_API bool lam_image_compare(const lam_image *a, const lam_image *b, lam_difference *difference, lam_error *error);
 
-// A picture of the differences of two pictures of the same size and format, LAM_RGBA8 or LAM_RGBA32F: each colour channel
-// is `gain` times the larger of the channel's own difference and alpha's, and alpha is 1. Black is equal. Bytes end at
-// 255; floats go on, and are infinite where lam_image_compare finds an infinite difference. `gain` ≥ 0 and finite. The
-// call makes `difference` (without freeing what it held), the caller frees it. Saved as PNG its numbers are raw
-// (lam_save_params). LAM_BAD_ARGUMENT, LAM_LIMIT.
+// A picture of the differences of two pictures of the same size and format, LAM_RGBA8 or LAM_RGBA32F: each colour
+// channel is `gain` times the larger of the channel's own difference and alpha's, and alpha is 1. Black is equal. Bytes
+// end at 255; floats continue, and are infinite if lam_image_compare finds an infinite difference. `gain` ≥ 0 and
+// finite. The call makes `difference` (without freeing its old contents), the caller frees it. Saved as PNG its numbers
+// are raw (lam_save_params). LAM_BAD_ARGUMENT, LAM_LIMIT.
 LAM_API bool lam_image_difference(const lam_image *a, const lam_image *b, float gain, lam_image *difference,
                                   lam_error *error);
 

@@ -40,13 +40,13 @@ typedef enum lam_light_frame {
     // The space of the whole scene as it was made. The light moves with lam_scene_transform.
     LAM_FRAME_MODEL,
     // The camera's axes, as in eye space, with the origin at the centre of the scene's box: the light keeps its side of
-    // the picture and its distance from the scene, wherever the camera stands.
+    // the picture and its distance from the scene for every camera.
     LAM_FRAME_VIEW,
 } lam_light_frame;
 
 // Attenuation with the distance d from the lit point to the light, in model units:
 //   1 / (constant + linear·d + quadratic·d²)
-// All three ≥ 0; all zero stands for 1, 0, 0. 0, 0, 1 is the inverse square law. Where the sum is 0, the light's terms
+// All three ≥ 0; all zero means 1, 0, 0. 0, 0, 1 is the inverse square law. Where the sum is 0, the light's terms
 // are 0.
 typedef struct lam_attenuation {
     float constant, linear, quadratic;
@@ -105,8 +105,8 @@ LAM_API bool lam_light_check(const lam_light *light, lam_error *error);
 
 // Ready-made sets of lights.
 typedef enum lam_rig {
-    // The scene's own lights. Where it has none: the studio, or if its materials are physical ones no light but its
-    // environment, and if it has none of those either the built-in environment "studio".
+    // The scene's own lights. Without own lights: the studio; or if its materials are physical, only its environment;
+    // or without one, the built-in environment "studio".
     LAM_RIG_AUTO = 0,
     LAM_RIG_NONE, // the scene's own lights only, even if it has none
     // The default look: a near key light, a fill and a rim light that turn with the camera, and a hemisphere light. Ambient

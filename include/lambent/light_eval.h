@@ -1,6 +1,6 @@
 // lambent/light_eval.h: the laws of light at single values, for plots and tables.
 //
-// The numbers are those that pixels are lit with: the same code, one value at a time.
+// The code that lights pixels computes the numbers, one value at a time.
 #ifndef LAMBENT_LIGHT_EVAL_H
 #define LAMBENT_LIGHT_EVAL_H
 

@@ -10,7 +10,7 @@ extern "C" {
 
 // Reflection models (docs/lighting.md has their equations and sources).
 typedef enum lam_reflection {
-    // The material's own: none where it is unlit, GGX where it is physical, else Blinn–Phong.
+    // The material's own: none if it is unlit, GGX if it is physical, otherwise Blinn–Phong.
     LAM_REFLECTION_AUTO = 0,
     LAM_REFLECTION_NONE,               // the diffuse colour, unlit
     LAM_REFLECTION_LAMBERT,            // diffuse only
@@ -32,7 +32,7 @@ typedef struct lam_reflection_info {
     // unless light from behind counts.
     const char *diffuse;
     const char *base; // of the highlight: "max(n·h, 0)"; NULL: no highlight
-    // It reads the mesh's tangents, or a direction field where there are none.
+    // It reads the mesh's tangents, or a direction field if there are none.
     bool tangents;
     // Whether light from behind the surface (n·l ≤ 0) counts: always, or where the material is a fibre.
     bool backlit, backlit_fibre;
@@ -44,10 +44,10 @@ typedef struct lam_reflection_info {
 // NULL: no such model.
 LAM_API const lam_reflection_info *lam_reflection_describe(lam_reflection model);
 
-// The maps of a material: what a texture changes from point to point (docs/textures.md). MTL's name and glTF's stand
+// The maps of a material: a texture changes a field from point to point (docs/textures.md). MTL's and glTF's names are
 // beside each.
 typedef enum lam_map {
-    // Multiplies ka. Where there is none, the diffuse map does.
+    // Multiplies ka. Without it, the diffuse map is used.
     LAM_MAP_AMBIENT, // map_Ka
     // Multiplies kd, or the base colour; its alpha multiplies the opacity.
     LAM_MAP_DIFFUSE, // map_Kd, baseColorTexture
@@ -96,10 +96,10 @@ LAM_API const char *lam_map_name(lam_map map);
 
 // How a point is drawn whose opacity (diffuse alpha × map × vertex colour) is below 1.
 typedef enum lam_alpha_mode {
-    LAM_ALPHA_BLEND = 0, // it covers what is behind it by that share
+    LAM_ALPHA_BLEND = 0, // it covers the surfaces behind it by that share
     // It is left out where the opacity is below lam_material.alpha_cutoff, and opaque elsewhere.
     LAM_ALPHA_MASK,
-    LAM_ALPHA_OPAQUE, // it is opaque all the same
+    LAM_ALPHA_OPAQUE, // it is opaque nevertheless
     LAM_ALPHA_COUNT
 } lam_alpha_mode;
 
@@ -142,7 +142,7 @@ typedef struct lam_material {
     // How the material reads its textures; NULL: it has no such map. Adding a material to a scene copies them; the scene
     // shares the textures.
     const lam_texture_map *maps[LAM_MAP_COUNT];
-    lam_alpha_mode alpha_mode; // what an opacity below 1 does
+    lam_alpha_mode alpha_mode; // the effect of an opacity below 1
     float alpha_cutoff;        // of LAM_ALPHA_MASK, 0..1
 
     // The layers of a physical material (docs/lighting/layers.md). The defaults leave them out.
@@ -155,7 +155,7 @@ typedef struct lam_material {
     // A clear coat of index 1.5 over everything else (KHR_materials_clearcoat).
     float clearcoat;           // share of the surface that has it, 0..1; default 0
     float clearcoat_roughness; // as `roughness`; default 0
-    // Fibres that stand up from the surface (KHR_materials_sheen).
+    // Fibres perpendicular to the surface (KHR_materials_sheen).
     lam_rgb sheen_color;   // 0..1; default 0: none
     float sheen_roughness; // how much they lean, 0..1; default 0
     // The highlight is stretched along the tangent, turned towards the bitangent (KHR_materials_anisotropy).
@@ -166,8 +166,8 @@ typedef struct lam_material {
     float iridescence_ior;           // of the film, ≥ 0; less than 1 is taken as 1; default 1.3
     float iridescence_thickness_min; // nanometres, where the map is 0; default 100
     float iridescence_thickness_max; // where the map is 1, and without a map; default 400
-    // The share of the light that enters the dielectric and goes on behind it, coloured by the base colour, instead of
-    // leaving on the side where it came in (KHR_materials_transmission). Nothing is bent or blurred.
+    // The share of the light that enters the dielectric and continues behind it, coloured by the base colour, instead
+    // of leaving on the side where it came in (KHR_materials_transmission). Nothing is bent or blurred.
     float transmission; // 0..1; default 0
     // The volume behind the surface (KHR_materials_volume): of white light, attenuation_color is left after
     // attenuation_distance.

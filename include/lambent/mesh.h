@@ -32,14 +32,15 @@ typedef struct lam_part {
     LAM_RESERVED(4);
 } lam_part;
 
-// A mesh of triangles, of lines or of points. Its arrays are borrowed: lam_scene_add_mesh copies them, and the scene owns its
-// copies.
+// A mesh of triangles, of lines or of points. Its arrays are borrowed: lam_scene_add_mesh copies them, and the scene
+// owns its copies.
 //
-// At most one of triangle_count, line_count and point_count is not 0. Statements about triangles hold for lines too, which
-// have two corners, and for points, which have one: corner c of line l has the number 2l + c, point p the number p; index
-// arrays have as many elements, and parts count lines or points. Lines are drawn lam_draw_params.line_width pixels wide and
-// points as squares of point_size; both face the eye, and are seen from all sides. They are lit by their normals if they have
-// any, which nobody makes for them; without, they have the diffuse colour and the emission, unlit.
+// At most one of triangle_count, line_count and point_count is not 0. Statements about triangles also apply to lines,
+// which have two corners, and to points, which have one. Corner c of line l has the number 2l + c, point p the number
+// p; index arrays have as many elements, and parts count lines or points. Lines are drawn lam_draw_params.line_width
+// pixels wide and points as squares of point_size; both face the eye, and are seen from all sides. They are lit by
+// their normals if they have any, which nobody makes for them; without, they have the diffuse colour and the emission,
+// unlit.
 //
 // Corner c of triangle t has the number i = 3t + c. Its position is element indices[i] of `positions`. Every other
 // attribute may have an index array of its own (3 per triangle), for files whose corners share positions but not
@@ -82,8 +83,8 @@ typedef struct lam_mesh {
     lam_rate colors_rate;            // LAM_PER_TRIANGLE: triangle t has element t
     const uint32_t *color_indices;   // 3 per triangle; NULL: `indices`
 
-    // The smoothing group of each triangle, for normals that the library makes: triangles of different groups, and
-    // those of group 0, do not share normals. NULL: the crease angle alone decides.
+    // The smoothing group of each triangle, for normals that the library computes: triangles of different groups, and
+    // triangles of group 0, do not share normals. NULL: the crease angle alone decides.
     const uint32_t *smoothing_groups;
 
     const lam_part *parts; // NULL: one unnamed part with the default material
@@ -126,7 +127,7 @@ LAM_API int lam_shape_find(const char *name);
 // A point of a parametric surface.
 typedef struct lam_surface_point {
     lam_vec3 p; // position
-    // The partial derivatives, whose cross product ∂p/∂u × ∂p/∂v points outward. Where one vanishes (at a pole), the
+    // The partial derivatives, whose cross product ∂p/∂u × ∂p/∂v points outward. If one vanishes (at a pole), the
     // direction of its limit, or zero: then the neighbours decide.
     lam_vec3 dp_du, dp_dv;
 } lam_surface_point;
@@ -146,16 +147,16 @@ typedef struct lam_parametric {
     LAM_RESERVED(8);
 } lam_parametric;
 
-// A surface that is written as text. docs/shapes.md describes the language. Normals are those of the symbolic derivatives.
+// A surface that is written as text. docs/shapes.md describes the language. Normals come from the symbolic derivatives.
 //
-// Parametric: "a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)". Ends of a range that meet are joined, and
-// a line of the grid along which the surface has a crease separates normals.
+// Parametric: "a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)". Ends of a range that meet are
+// joined, and a line of the grid along which the surface has a crease separates normals.
 //
-// Implicit: "a = 2; x^2 + y^2 + z^2 - a^2", the points where the expression is zero, or "x^2 + y^2 + z^2 = 4", where both
-// sides are equal. It is negative (the left side is the smaller one) inside.
+// Implicit: "a = 2; x^2 + y^2 + z^2 - a^2", the points where the expression is zero, or "x^2 + y^2 + z^2 = 4", where
+// both sides are equal. It is negative (the left side is the smaller one) inside.
 typedef struct lam_formula {
     const char *text; // at most 4096 bytes
-    // Parametric: the ranges of u and v, each two constant expressions: "0..2pi", which NULL stands for.
+    // Parametric: the ranges of u and v, each two constant expressions; NULL means "0..2pi".
     const char *u, *v;
     // Parametric: 1..16384; 0: 16..512, so that edges pass the surface by 1/4000 of its size at most.
     // Implicit: u_segments is the number of cells along the longest side of the box, 2..1024; 0: 96. v_segments is 0.

@@ -41,7 +41,7 @@ LAM_API const char *lam_color_name(int index);
 
 // Where normals come from.
 typedef enum lam_normals {
-    // The file's; smooth ones where it has none. STL's facet normals count as none.
+    // The file's; smooth ones if it has none. STL's facet normals count as none.
     LAM_NORMALS_FILE = 0,
     // Smooth ones, made even where the file has normals: faces are weighted by area × corner angle, and creased.
     LAM_NORMALS_SMOOTH,
@@ -64,14 +64,14 @@ typedef struct lam_load_params {
     const char *format;
     lam_up up;            // the up axis
     lam_color_mode color; // of the file's colours
-    // Scene files: true: `color` counts whatever the file says. false: the file's mode, and `color` where it has none.
+    // Scene files: true: `color` overrides the file. false: the file's mode, or else `color`.
     bool override_color;
     lam_normals normals; // where normals come from
     // Angle in radians, 0..π, above which neighbouring faces do not share a made normal. 0: 40°; for no smoothing at
     // all use LAM_NORMALS_FACET.
     double crease_angle_rad;
     int threads; // that load; 0: one for each processor
-    // Leaves normals that are not the file's to the CPU device, which makes those of the visible triangles each time
+    // Leaves normals that the file does not contain to the CPU device, which computes the visible triangles' each time
     // it draws: faster for a large model that is drawn once. lam_mesh.normals stays NULL; lam_scene_make_normals makes
     // all of them later. Not for scene files, and not for other devices.
     bool normals_when_drawn;
@@ -111,8 +111,8 @@ typedef struct lam_load_params {
 LAM_API lam_scene *lam_scene_load(const char *path, const lam_load_params *params, const lam_control *control,
                                   lam_error *error);
 
-// The same from memory. `name` stands for the file in messages, and its ending helps to find the format; it may be
-// NULL. The bytes are not kept.
+// The same from memory. Messages use `name` for the file, and its extension helps to find the format; it may be NULL.
+// The bytes are not kept.
 LAM_API lam_scene *lam_scene_load_memory(const void *bytes, size_t size, const char *name,
                                          const lam_load_params *params, const lam_control *control, lam_error *error);
 
@@ -131,7 +131,7 @@ LAM_API bool lam_scene_make_normals(lam_scene *scene, lam_normals normals, doubl
 LAM_API lam_scene *lam_scene_make(lam_error *error);
 LAM_API void lam_scene_free(lam_scene *scene); // NULL is fine
 
-// Add to a scene. Arrays and strings are copied. Each returns the index of what was added, −1 on failure:
+// Add to a scene. Arrays and strings are copied. Each returns the index of the added element, −1 on failure:
 // LAM_BAD_ARGUMENT (an index out of range, a number out of range or not finite), LAM_LIMIT. A mesh without normals gets
 // smooth ones, creased at 40°.
 LAM_API int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error);
@@ -160,8 +160,8 @@ LAM_API const char *lam_mesh_format(int index);
 // The triangles that are left out by the side they show.
 typedef enum lam_cull {
     LAM_CULL_NONE = 0, // none
-    LAM_CULL_BACK,     // those that show their back
-    LAM_CULL_FRONT,    // those that show their front
+    LAM_CULL_BACK,     // triangles that show their back
+    LAM_CULL_FRONT,    // triangles that show their front
 } lam_cull;
 
 // A mesh placed in the scene. Begin with lam_object_default().
@@ -170,7 +170,7 @@ typedef struct lam_object {
     int mesh;         // index of the mesh
     // From the mesh's space to the world's: affine (last row 0 0 0 1) and invertible.
     lam_mat4 transform;
-    int material;      // index of the material; −1: those of the mesh's parts
+    int material;      // index of the material; −1: the materials of the mesh's parts
     int back_material; // index of the material of back faces; −1: the front's
     // true: back faces are lit with n as it is and the front material; false: with −n.
     bool one_sided;
@@ -231,7 +231,7 @@ typedef enum lam_extension_support {
 typedef struct lam_file_extension {
     const char *name;              // "KHR_materials_unlit"
     bool required;                 // the file cannot be understood without it
-    lam_extension_support support; // what the load did about it
+    lam_extension_support support; // the reaction of the load
     LAM_RESERVED(4);
 } lam_file_extension;
 
@@ -240,7 +240,7 @@ typedef struct lam_file_animation {
     const char *name; // NULL: unnamed
     // Seconds from 0 to the last key, as the file states them; 0: it does not.
     double length_s;
-    int channel_count; // channels: what is moved
+    int channel_count; // channels: the animated property
     LAM_RESERVED(4);
 } lam_file_animation;
 
@@ -250,8 +250,8 @@ typedef struct lam_file_image {
     const char *file; // as written; NULL: its bytes are in the model
     // "png", "jpeg": as the model or the file's ending says; NULL: neither does.
     const char *format;
-    // What materials made of it, as colours and as numbers (lam_texture_values); NULL: no material reads it so, or it could
-    // not be read.
+    // Their uses in materials, as colours and as numbers (lam_texture_values); NULL: no material reads it so, or it
+    // could not be read.
     const lam_texture *textures[2];
     LAM_RESERVED(4);
 } lam_file_image;
@@ -271,7 +271,7 @@ typedef struct lam_file_info {
     int animation_count;                  // elements of `animations`
     const lam_file_image *images;         // in the file's order
     int image_count;                      // elements of `images`
-    // In the order of "extensionsUsed", then those that are only in "extensionsRequired".
+    // In the order of "extensionsUsed", then the ones only in "extensionsRequired".
     const lam_file_extension *extensions;
     int extension_count; // elements of `extensions`
     // Metres of a unit of the file's lengths: 1 of glTF's, 0.001 of millimetres; 0: the format does not say.
@@ -283,19 +283,20 @@ typedef struct lam_file_info {
 // files. NULL for a scene that is NULL.
 LAM_API const lam_file_info *lam_scene_file_info(const lam_scene *scene);
 
-// The bytes of memory that a scene holds: its arrays, names, lists and textures, also those that it shares, without its
-// environment. Drawing takes more.
+// The bytes of memory of a scene: its arrays, names, lists and textures, also shared ones, without its environment.
+// Drawing takes more.
 LAM_API uint64_t lam_scene_memory(const lam_scene *scene);
 
 // The warnings of a scene from 0, in order: one sentence for each problem that did not stop the load. NULL out
 // of range.
 LAM_API const char *lam_scene_warning(const lam_scene *scene, int index);
 
-// The paths of the files that loading the scene looked for, from 0: first the model's own, then those that it names (material
-// libraries, buffers, pictures, the models of a scene file), each once, in alphabetical order; also those that were not found,
-// since a load may give another scene once they are there. A path is the model's folder with the name in the file after it, as
-// it was opened; for files that lam_load_params.open opened, the name given to it. Scenes made by hand have none, models from
-// memory and from standard input none of their own. Valid until the scene is freed; NULL out of range.
+// The paths of the files that loading the scene looked for, from 0. First the model's own, then the files that it names
+// (material libraries, buffers, pictures, the models of a scene file), each once, in alphabetical order. Missing files
+// are included, because a load may give another scene once they exist. A path is the model's folder with the name in
+// the file after it, as it was opened; for files that lam_load_params.open opened, the name given to it. Scenes made by
+// hand have none, models from memory and from standard input none of their own. Valid until the scene is freed; NULL
+// out of range.
 LAM_API const char *lam_scene_file(const lam_scene *scene, int index);
 
 // Adds a warning, which is copied, unless the scene has the same sentence. After the 64th none is kept.
@@ -305,11 +306,11 @@ LAM_API void lam_scene_add_warning(lam_scene *scene, const char *text);
 LAM_API bool lam_scene_bounds(const lam_scene *scene, lam_vec3 *minimum, lam_vec3 *maximum);
 
 // The cameras that the model's file has, from 0 (lam_scene_camera in camera.h): their number, and their names, NULL for
-// one without a name or out of range. They stand where the file has them; lam_scene_transform does not move them.
+// one without a name or out of range. They keep the file's positions; lam_scene_transform does not move them.
 LAM_API int lam_scene_camera_count(const lam_scene *scene);
 LAM_API const char *lam_scene_camera_name(const lam_scene *scene, int index);
 
-// The number of the camera with this name, or with this number in digits where none has that name. −1: there is none.
+// The number of the camera with this name, or else with this number in digits. −1: there is none.
 LAM_API int lam_scene_find_camera(const lam_scene *scene, const char *name);
 
 // The up axis (LAM_UP_AUTO: y; a value out of range changes nothing). It turns the fitted camera, the rig and the
@@ -320,7 +321,7 @@ LAM_API void lam_scene_set_up(lam_scene *scene, lam_up up);
 
 // A sphere around the triangles of an object, in the object's own space, or (`object` −1) of the whole scene, in world
 // space. Its centre is the middle of their box, its radius the largest distance of a vertex from there. False, and all
-// zero, where there are no triangles or no such object.
+// zero, if there are no triangles or no such object.
 LAM_API bool lam_scene_sphere(const lam_scene *scene, int object, lam_vec3 *centre, double *radius);
 
 // Moves all objects: the transform of each becomes transform × its own. Lights stay, except in the frames of the model
@@ -334,26 +335,26 @@ LAM_API bool lam_scene_rotate(lam_scene *scene, lam_vec3 centre, lam_vec3 axis, 
 // LAM_RIG_AUTO decided.
 LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX]);
 
-// Makes tangents for every mesh that has texture coordinates and no tangents: MikkTSpace's, those that normal maps are
-// baked for (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008). ∂p/∂s of the triangles is averaged with
+// Makes tangents for every mesh that has texture coordinates and no tangents, by MikkTSpace, for which normal maps are
+// baked (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008). ∂p/∂s of the triangles is averaged with
 // their angles as weights over the triangles around a corner that are joined by edges, have the same orientation of the
 // mapping, and the same position, normal and texture coordinates there; it is unit and perpendicular to the normal. A
-// corner whose texture coordinates give no direction gets the tangent of meshes without them (docs/lighting/threads.md).
-// The texture coordinates are those of the normal map of the mesh's first part that has one, else the first set, and the
-// bitangent points up in the normal map's picture, else to where t grows. Loading a model does this for meshes with normal
-// maps; drawing does not. `control` may be NULL. On failure some meshes may have tangents and others not. Errors: LAM_LIMIT,
-// LAM_CANCELLED.
+// corner whose texture coordinates give no direction gets the tangent of meshes without them
+// (docs/lighting/threads.md). The texture coordinates are used by the normal map of the mesh's first part with one, or
+// else the first set. The bitangent points up in the normal map's picture, or else to where t grows. Loading a model
+// does this for meshes with normal maps; drawing does not. `control` may be NULL. On failure some meshes may have
+// tangents and others not. Errors: LAM_LIMIT, LAM_CANCELLED.
 LAM_API bool lam_scene_make_tangents(lam_scene *scene, const lam_control *control, lam_error *error);
 
 // Remembers the scene as it is, and brings it back to that as often as wanted: its meshes, materials, objects, lights,
-// ambient light and up axis, whatever was added or changed since. Environment and warnings stay as they are. For pictures
-// of one model that differ in a few things: the model is loaded once, and devices keep what they made of it. What was
-// added since takes memory until the scene is freed. A second mark takes the place of the first. False: LAM_BAD_ARGUMENT
-// (reset: nothing is marked), LAM_LIMIT.
+// ambient light and up axis, whatever was added or changed since. Environment and warnings stay as they are. For
+// pictures of one model that differ in a few options: the model is loaded once, and devices keep their data of it.
+// Elements added since use memory until the scene is freed. A second mark takes the place of the first. False:
+// LAM_BAD_ARGUMENT (reset: nothing is marked), LAM_LIMIT.
 LAM_API bool lam_scene_mark(lam_scene *scene, lam_error *error);
 LAM_API bool lam_scene_reset(lam_scene *scene, lam_error *error);
 
-// Light from everywhere, added to that of the ambient lights (La_global). Default 0.
+// Light from everywhere, added to the ambient lights' (La_global). Default 0.
 LAM_API void lam_scene_set_ambient(lam_scene *scene, lam_rgb ambient);
 LAM_API lam_rgb lam_scene_ambient(const lam_scene *scene);
 
@@ -365,7 +366,7 @@ LAM_API lam_rgb lam_scene_ambient(const lam_scene *scene);
 LAM_API bool lam_scene_set_environment(lam_scene *scene, const lam_environment *environment, double rotation_rad,
                                        lam_error *error);
 
-// The environment, NULL where there is none.
+// The environment, NULL if there is none.
 LAM_API const lam_environment *lam_scene_environment(const lam_scene *scene);
 
 // Sets the material of parts that name none, at first lam_material_default(). False: as lam_scene_add_material.

@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-// The settings that a scene file may have besides those of lam_draw_setting: bits of lam_picture_settings.present.
+// The settings that a scene file may have besides lam_draw_setting's: bits of lam_picture_settings.present.
 enum {
     LAM_SETTING_SIZE = 1 << 0,        // width, height
     LAM_SETTING_SAMPLES = 1 << 1,     // draw.samples
@@ -29,11 +29,11 @@ typedef struct lam_picture_settings {
     uint64_t draw_present;
     int width, height; // pixels
     lam_camera camera; // as lam_draw takes it
-    // The settings above that begin with "draw.", and those of draw_present. `rig` is LAM_RIG_NONE where
+    // The settings above that begin with "draw.", and the ones of draw_present. `rig` is LAM_RIG_NONE where
     // LAM_SETTING_LIGHTS is present.
     lam_draw_params draw;
     // The environment in one of three forms, NULL for the others. Paths can be opened from the current folder, except
-    // those of a scene file in memory, which are as written. The strings live as long as the scene.
+    // the paths of a scene file in memory, which are as written. The strings live as long as the scene.
     const char *environment_faces[6]; // six pictures: +x −x +y −y +z −z
     const char *environment_picture;  // one picture: equirectangular or a cross
     const char *environment_built_in; // the name of a built-in environment
@@ -46,9 +46,9 @@ LAM_API bool lam_scene_picture_settings(const lam_scene *scene, lam_picture_sett
 
 // Writes a scene file from which lam_scene_load (with models_anywhere if a file lies outside of the folder of `path`)
 // and lam_scene_picture_settings make the same picture again. It has models by their names relative to that folder,
-// shapes, materials, transforms, all lights (those of settings->draw.rig one by one), and the settings present in
-// `settings` (NULL: none). Either the whole file appears or none. Errors: LAM_UNSUPPORTED (a mesh that neither came from a file nor is a built-in shape),
-// LAM_CANNOT_WRITE, LAM_LIMIT.
+// shapes, materials, transforms, all lights (also of settings->draw.rig), and the settings present in `settings` (NULL:
+// none). Either the whole file appears or none. Errors: LAM_UNSUPPORTED (a mesh that neither came from a file nor is a
+// built-in shape), LAM_CANNOT_WRITE, LAM_LIMIT.
 LAM_API bool lam_scene_save(const lam_scene *scene, const lam_picture_settings *settings, const char *path,
                             lam_error *error);
 
@@ -57,8 +57,8 @@ LAM_API bool lam_scene_save(const lam_scene *scene, const lam_picture_settings *
 LAM_API bool lam_scene_encode(const lam_scene *scene, const lam_picture_settings *settings, const char *path,
                               lam_bytes *out, lam_error *error);
 
-// Writes the lights of a scene and a rig (LAM_RIG_AUTO: the studio where the scene has none) as the keys "ambient" and
-// "lights" of a scene file. The caller frees `out` with lam_bytes_free. Errors: LAM_LIMIT.
+// Writes the lights of a scene and a rig (LAM_RIG_AUTO: the studio if the scene has no lights) as the keys "ambient"
+// and "lights" of a scene file. The caller frees `out` with lam_bytes_free. Errors: LAM_LIMIT.
 LAM_API bool lam_lights_encode(const lam_scene *scene, lam_rig rig, lam_bytes *out, lam_error *error);
 
 #ifdef __cplusplus

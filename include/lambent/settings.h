@@ -24,10 +24,10 @@ typedef enum lam_setting_type {
     LAM_SETTING_WORDS, // an int of bits, each a word of lam_setting.word
 } lam_setting_type;
 
-// A setting of lam_draw_params. A member of 0 stands for the default.
+// A setting of lam_draw_params. A member of 0 means the default.
 typedef struct lam_setting {
     const char *key;       // in scene files; an option has - in place of _
-    lam_setting_type type; // what the member is
+    lam_setting_type type; // the type of the member
     size_t offset;         // of the member in lam_draw_params
     // The range of WHOLE, NUMBER and ANGLE, and the default; a default below `min`: it depends on the scene.
     double min, max, standard;

@@ -34,9 +34,9 @@ typedef enum lam_shader_lights {
 // How a shader's text is written.
 typedef enum lam_shader_style {
     LAM_SHADER_STYLE_FULL = 0, // the equations of this library, for all that it draws
-    // Plain lines, as a lecture would show them: about six in a vertex shader that lights nothing, thirty to forty in the stage
-    // that does. Same uniforms, same picture within 1/255. It has the reflection models Lambert, Phong, Blinn-Phong and
-    // Kajiya-Kay, all kinds of lights, and all shading methods; what it does not have is LAM_UNSUPPORTED.
+    // Plain lines, as a lecture would show them: about six in a vertex shader that lights nothing, thirty to forty in
+    // the stage that does. Same uniforms, same picture within 1/255. It has the reflection models Lambert, Phong,
+    // Blinn-Phong and Kajiya-Kay, all kinds of lights, and all shading methods; other features are LAM_UNSUPPORTED.
     LAM_SHADER_STYLE_LECTURE,
     LAM_SHADER_STYLE_COUNT
 } lam_shader_style;
@@ -44,7 +44,7 @@ typedef enum lam_shader_style {
 // A known mistake that can be introduced into a shader of the lecture style. Strings are static.
 typedef struct lam_shader_mistake {
     const char *id;    // "no-gate", as lam_check_mistake has it
-    const char *looks; // a sentence: what one sees in the picture
+    const char *looks; // a sentence: the visible effect in the picture
     const char *needs; // of the shader: "a light with attenuation"; NULL: none
     LAM_RESERVED(4);
 } lam_shader_mistake;
@@ -69,7 +69,8 @@ typedef struct lam_shader_params {
 // A vertex attribute.
 typedef struct lam_shader_attribute {
     const char *name, *type; // "position", "vec3"
-    // Its location. The text declares it, except in GLSL 120, where it is bound before linking (glBindAttribLocation).
+    // Its location. The text declares it, except in GLSL 120, in which it is bound before linking
+    // (glBindAttribLocation).
     int location;
     const char *meaning; // one line
     LAM_RESERVED(4);
@@ -114,7 +115,7 @@ typedef struct lam_shader_draw {
     // constant value 1, 1, 1, 1.
     bool has_colors, has_tangents;
     double origin[3];                   // attribute `position` is the mesh's position minus this
-    const lam_shader_uniform *uniforms; // those of this run
+    const lam_shader_uniform *uniforms; // the values of this run
     int uniform_count;                  // elements of `uniforms`
     LAM_RESERVED(8);
 } lam_shader_draw;

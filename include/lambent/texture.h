@@ -22,8 +22,8 @@ typedef enum lam_texture_values {
     LAM_TEXTURE_NUMBERS, // taken as they are: normals, roughness
 } lam_texture_values;
 
-// Makes a texture of a picture, which is copied: up to 16384 pixels on a side. `name` stands for it in reports; NULL:
-// none. The caller frees it with lam_texture_free. NULL on failure: LAM_BAD_ARGUMENT (the picture; a number that is not
+// Makes a texture of a picture, which is copied: up to 16384 pixels on a side. Reports use `name` for it; NULL: none.
+// The caller frees it with lam_texture_free. NULL on failure: LAM_BAD_ARGUMENT (the picture; a number that is not
 // finite), LAM_LIMIT (size, memory).
 LAM_API lam_texture *lam_texture_make(const struct lam_image *image, lam_texture_values values, const char *name,
                                       lam_error *error);
@@ -51,7 +51,7 @@ typedef enum lam_wrap {
 // How texels make a value.
 typedef enum lam_filter {
     LAM_FILTER_LINEAR = 0, // the four around the point, weighted by their nearness
-    LAM_FILTER_NEAREST,    // the one that holds the point
+    LAM_FILTER_NEAREST,    // the texel that contains the point
     LAM_FILTER_COUNT
 } lam_filter;
 
@@ -71,7 +71,7 @@ typedef struct lam_texture_map {
     int texcoords;              // set of the mesh's texture coordinates, 0 or 1
     lam_wrap wrap_s, wrap_t;    // beyond the picture's edges, each way
     lam_filter magnify, minify; // where the picture is made larger, smaller
-    lam_mip mip;                // where it is made smaller
+    lam_mip mip;                // if it is minified
     // The channel of a map of single numbers (shininess, opacity, metallic, roughness, occlusion, bump): 0 red … 3 alpha.
     int channel;
     // From the mesh's texture coordinates to the picture's, whose (0, 0) is the upper left corner and (1, 1) the lower

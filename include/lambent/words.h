@@ -1,7 +1,7 @@
 // lambent/words.h: materials and lights as people write them: the values of the options of `lambent`.
 //
-// A text is at most 1023 bytes long. Errors are LAM_BAD_ARGUMENT, and the sentence says what was found and what was
-// expected. lam_color_parse (scene.h) and lam_camera_parse (camera.h) belong here too.
+// A text is at most 1023 bytes long. Errors are LAM_BAD_ARGUMENT, and the sentence states the text found and the
+// expected one. lam_color_parse (scene.h) and lam_camera_parse (camera.h) belong here too.
 #ifndef LAMBENT_WORDS_H
 #define LAMBENT_WORDS_H
 
@@ -45,7 +45,7 @@ typedef struct lam_light_text_params {
 //   frame=world|camera|object|object:NAME, name=…
 // Angles are in degrees. A number with r, "2r", is in radii of the scene's sphere: in positions and targets from its
 // centre, in ranges and in the second and third number of an attenuation as a length. A point or spot light without a
-// position stands at 1r/2r/3r (turned to the scene's up axis), in the camera's frame at the eye.
+// position is at 1r/2r/3r (rotated to the scene's up axis), in the camera's frame at the eye.
 //
 // Returns the light's index, −1 on failure. `params` may be NULL. `scene` NULL: the text is checked, and 0 is returned.
 LAM_API int lam_scene_add_light_text(lam_scene *scene, const char *text, const lam_light_text_params *params,

@@ -19,7 +19,7 @@
 
 // --- preparation
 
-// A scene as the shaders can express it, without what its terms do not show.
+// A scene as the shaders can express it, without features that its terms do not show.
 static struct reference_scene visible_scene(const struct run *r, int index)
 {
     struct reference_scene s = shader_interface_scene(&r->interface, &reference_scenes[index]);
@@ -191,11 +191,10 @@ static bool draw(struct run *r, unsigned scenes, lam_error *error)
     snprintf(r->report->driver, sizeof r->report->driver, "%s", r->drawn.driver);
     if (r->drawn.state == DRAWN_SLOW) {
         r->report->verdict = LAM_CHECK_ENDLESS;
-        diagnostics_add(
-            &r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-            "scene '%.30s' took %.2g s of processor time, where a correct shader takes milliseconds: is there "
-            "an endless loop? Some drivers leave it after many iterations, others hang",
-            r->drawn.log, r->drawn.seconds);
+        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
+                        "scene '%.30s' took %.2g s of processor time, but a correct shader takes milliseconds: is "
+                        "there an endless loop? Some drivers leave it after many iterations, others hang",
+                        r->drawn.log, r->drawn.seconds);
     } else if (r->drawn.state != DRAWN_PICTURES) {
         r->report->verdict = LAM_CHECK_REFUSED;
         diagnostics_add_refusal(&r->diagnostics, &r->drawn, &r->interface, p);
@@ -210,8 +209,8 @@ static const uint64_t matrices_and_zero = BIT(SEMANTIC_MODEL_VIEW) | BIT(SEMANTI
                                           BIT(SEMANTIC_MODEL) | BIT(SEMANTIC_VIEW) | BIT(SEMANTIC_VIEW_PROJECTION) |
                                           BIT(SEMANTIC_ZERO) | BIT(SEMANTIC_ONE) | BIT(SEMANTIC_EYE_POSITION);
 
-// Whether the shaders' names are those of the contract: no verdict is honest where an input has no value. Names that are only
-// misspelt are mistakes, which the report names; those that differ in nothing but case and underscores are another course's.
+// Whether the shaders' names are the contract's: a verdict needs a value for every input. Misspelt names are mistakes,
+// which the report names; names that differ only in case and underscores belong to another course.
 static bool suits_contract(const struct run *r)
 {
     bool drawn_here = !r->texts.vertex;
@@ -251,10 +250,10 @@ static bool fail_unknown(struct run *r, const char *reason, lam_error *error)
     if (r->drawn.types_count)
         snprintf(types, sizeof types, "%s%.120s", names[0] ? "; " : "", r->drawn.types[0]);
     const char *nearest = interface->contract && (names[0] || types[0]) ? interface->contract->name : NULL;
-    return fail(error, LAM_BAD_ARGUMENT,
-                "no verdict: %s%s%s%s%s%s%s; --contract FILE says what each input is (docs/check/contract-file.md)",
-                reason, nearest ? "; the contract " : "", nearest ? nearest : "", nearest ? " has no " : "", names,
-                types, "");
+    return fail(
+        error, LAM_BAD_ARGUMENT,
+        "no verdict: %s%s%s%s%s%s%s; --contract FILE states the role of each input (docs/check/contract-file.md)",
+        reason, nearest ? "; the contract " : "", nearest ? nearest : "", nearest ? " has no " : "", names, types, "");
 }
 
 static void forget_scenes(struct run *r)
@@ -311,9 +310,10 @@ static bool run_inferred(struct run *r, const struct contract *nearest, lam_erro
     lam_error unread = {0};
     bool ok = p->vertex != NULL, done = false;
     if (!ok)
-        return fail_unknown(
-            r, "the names are of no known contract, and a fragment shader alone does not tell what its inputs are",
-            error);
+        return fail_unknown(r,
+                            "the names fit no known contract, and a fragment shader without its vertex shader does not "
+                            "show the role of its inputs",
+                            error);
     ok = (engine ? prefix_add(engine, p->vertex, p->fragment, &texts, error)
                  : (texts = (struct complete_texts){.vertex = p->vertex, .fragment = p->fragment}, true)) &&
          prefix_read(&texts, true, &sides[0], error) && prefix_read(&texts, false, &sides[1], error);

@@ -1,4 +1,5 @@
-// check_compare.c: compares the shader's pictures with the references, and finds what explains a difference.
+// check_compare.c: compares the shader's pictures with the references, and finds the mistakes that explain a
+// difference.
 #include "check_run.h"
 
 #include <stdio.h>
@@ -65,7 +66,7 @@ static uint64_t count_not_numbers(const float *pixels, size_t count)
 
 static float decode(float encoded) { return (float)srgb_linear((double)encoded); }
 
-// Whether the shader encodes its colours as sRGB, as those of `lambent shader` do: the constant 12.92 of the encoding
+// Whether the shader encodes its colours as sRGB, like shaders of `lambent shader`: the constant 12.92 of the encoding
 // occurs in its text. Its pictures are then decoded before they are compared.
 static bool is_encoded(const struct run *r)
 {
@@ -157,8 +158,8 @@ static bool is_dark(const struct scene_comparison *scene, const float *picture)
     return true;
 }
 
-// A black picture of a scene that is black proves nothing: it earns no point in a shader that does not pass, and a shader of
-// which nothing else is asked gets no verdict.
+// A black picture of a black scene proves nothing: it earns no point in a shader that does not pass, and a shader with
+// no other scenes gets no verdict.
 static bool weigh_darkness(struct run *r, lam_error *error)
 {
     bool lit = false;
@@ -170,9 +171,8 @@ static bool weigh_darkness(struct run *r, lam_error *error)
     }
     return lit || r->report->verdict == LAM_CHECK_NOT_NUMBER || r->interface.printed_model == LAM_REFLECTION_NONE ||
            fail(error, LAM_BAD_ARGUMENT,
-                "no verdict: the shader declares no colour, strength or light of the contract %s, so that nothing is "
-                "to be "
-                "lit; a contract says by `undeclared` what its numbers are (docs/check/contract-file.md)",
+                "no verdict: the shader declares no colour, strength or light of the contract %s, so nothing can be "
+                "lit; `undeclared` in a contract states the numbers (docs/check/contract-file.md)",
                 r->interface.contract->name);
 }
 
@@ -236,7 +236,7 @@ static void report_findings(struct run *r, const struct fault_search *s)
 {
     lam_check_report *report = r->report;
     if (s->count && !s->certain && s->found[s->count - 1].after > max_left * s->before)
-        return; // what remains is too much for a name
+        return; // too much remains for a name
     report->findings = arena_alloc_zeroed(r->arena, MAX_FOUND_FAULTS * sizeof *report->findings);
     for (int i = 0; report->findings && i < s->count; i++) {
         char explanation[400], correction[400];

@@ -1,5 +1,5 @@
-// check_describe.c: what the scenes show of a difference that no known mistake explains, in one sentence, and the line of a mistake
-// that the text alone shows.
+// check_describe.c: describes in one sentence a difference that no known mistake explains, and finds the line of a
+// mistake that only the text shows.
 #include "check_run.h"
 
 #include <string.h>
@@ -74,8 +74,8 @@ static bool has_two_sides(const struct run *r, int i) { return r->scenes[i].row-
 static bool is_translucent(const struct run *r, int i) { return r->scenes[i].alpha; }
 static bool is_glossy(const struct run *r, int i) { return scene_of(r, i)->shininess > 30; }
 
-// A property of scenes. Where all that differ have it, and others without it match, it says where to look; of several the one
-// that the fewest scenes have.
+// A property of scenes. If all differing scenes have it, and others without it match, it states a hint; of several
+// properties the rarest is used.
 static const struct {
     const char *sentence;
     bool (*has)(const struct run *r, int scene);
@@ -84,17 +84,16 @@ static const struct {
     {"only the diffuse term differs: scenes without it match", shows_diffuse},
     {"only the specular term differs: scenes without it match", shows_specular},
     {"right with one light, wrong with several", has_lights},
-    {"right with even scales, and different where the model is scaled unevenly: look at the normals and their matrix",
+    {"right with even scales, and different if the model is scaled unevenly: look at the normals and their matrix",
      is_uneven},
-    {"right at the vertices of small triangles, and different between those of large ones: each fragment has to "
-     "compute what "
-     "is interpolated here",
+    {"right at the vertices of small triangles, and different between the vertices of large ones: compute the "
+     "interpolated value in each fragment",
      is_coarse},
     {"only directional lights differ", has_direction},
     {"only point lights differ", has_point},
     {"only spots differ", has_spot},
-    {"different where the light is attenuated, and right where it is not", is_attenuated},
-    {"different where the light comes from behind, and right where it comes from the front", is_lit_from_behind},
+    {"different if the light is attenuated, and right if it is not", is_attenuated},
+    {"different if the light comes from behind, and right if it comes from the front", is_lit_from_behind},
     {"only scenes with a normal map differ that is not flat: look at tangent, bitangent and the texel", has_bumps},
     {"only flat shading differs", is_flat},
     {"only the scene of back faces differs", has_two_sides},

@@ -1,4 +1,4 @@
-// check_expect.c: draws the reference pictures of what the shaders are expected to compute.
+// check_expect.c: draws the reference pictures of the result expected from the shaders.
 #include "check_run.h"
 
 #include <stdio.h>
@@ -23,7 +23,7 @@ static double gamma_encoded(double x)
     return x > 0 ? y : 0;
 }
 
-// What shaders with metalness and roughness write for the light that leaves a point.
+// The light of a point as shaders with metalness and roughness write it.
 static void display(const struct physical_convention *c, float *pixels, size_t count)
 {
     for (size_t i = 0; i < 4 * count; i++)
@@ -102,8 +102,8 @@ static bool draw_reference(struct run *r, lam_device *device, struct scene_compa
     return ok;
 }
 
-// A browser's GPU may round corners to 1/16 of a pixel (WebGL: SUBPIXEL_BITS is at least 4), the CPU device to 1/256: where
-// the surface turns within a pixel, as at edges of what stands before other parts, colours differ and prove nothing.
+// A browser's GPU may round corners to 1/16 of a pixel (WebGL: SUBPIXEL_BITS is at least 4), the CPU device to 1/256.
+// If the surface turns within a pixel, for example at edges in front of other parts, colours differ and prove nothing.
 static bool leave_out_turns(struct run *r, lam_device *device, struct scene_comparison *scene, lam_error *error)
 {
     if (!r->painter.es_only || !is_of_device(r))
@@ -127,7 +127,7 @@ static bool leave_out_turns(struct run *r, lam_device *device, struct scene_comp
     return ok;
 }
 
-// What the shaders may be expected to compute: bits of enum expectation, and numbers.
+// Possible expectations of the shaders: bits of enum expectation, and numbers.
 struct candidate {
     unsigned expectation;
     struct contract_defaults numbers;
@@ -160,10 +160,10 @@ static bool try_candidate(struct run *r, lam_device *device, int scene_count, st
     return true;
 }
 
-// Where the exercise has a number in place of a name, and the text does not say which of its numbers that is, all are
-// tried on the first scene, which shows every term. Numbers with which it is right are kept in `best`. If there are none
-// the shader has a mistake, and whichever come nearest prove little: then a number of the contract is kept where the
-// text has it, or nothing else, and no number of the text serves twice.
+// If the exercise has a number in place of a name, and the text does not show which of its numbers it is, all are tried
+// on the first scene, which shows every term. Numbers with which it is right are kept in `best`. If there are none the
+// shader has a mistake, and whichever come nearest prove little: then a number of the contract is kept where the text
+// has it, or nothing else, and no number of the text serves twice.
 enum { MAX_OPEN = 4, MAX_TRIES = 512 };
 static const double same_pictures = 1e-5; // mean difference
 

@@ -1,9 +1,10 @@
-// check_fit.c: compares a shader whose strengths and colours are its own with sums of an ambient, a diffuse and a specular term.
+// check_fit.c: compares a shader whose strengths and colours are its own with sums of an ambient, a diffuse and a
+// specular term.
 //
-// The fault shader draws each term of a scene in a channel of its own (shader_interface_scene). A reading is a highlight, an
-// exponent, and forms or a fault. The factors of its terms, the same in every scene, are those of the least squares. The shader
-// passes if some reading of a correct shader explains every scene, and differs if one with a single known mistake does.
-// Otherwise there is no verdict: what the check does not understand may well be right.
+// The fault shader draws each term of a scene in a channel of its own (shader_interface_scene). A reading is a
+// highlight, an exponent, and forms or a fault. The factors of its terms, the same in every scene, are found by least
+// squares. The shader passes if some reading of a correct shader explains every scene, and differs if one with a single
+// known mistake does. Otherwise there is no verdict: a shader that the check does not understand may be right.
 #include "readings.h"
 
 #include <stdio.h>
@@ -244,7 +245,7 @@ static int by_mean(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// The readings with which faults are tried: those that differ from the nearest one in the highlight and its forms alone. Where
+// The readings with which faults are tried: they differ from the nearest one only in the highlight and its forms. If
 // the text has reflect(), the highlight is Phong's.
 static int choose_bases(const struct run *r, struct reading *readings, int count, const struct reading *best)
 {
@@ -317,7 +318,7 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
     if (!find_inside(r, &missing, error))
         return false;
     if (missing > 0.02) {
-        snprintf(reason, capacity, "%.0f %% of the model is not drawn where the check expects it", missing * 100);
+        snprintf(reason, capacity, "%.0f %% of the expected model is not drawn", missing * 100);
         return true;
     }
     struct reading *readings = arena_array(r->arena, MAX_READINGS, sizeof *readings), best = {.mean = 1e9};
@@ -358,7 +359,7 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
     else if ((explained || plain) == (r->report->verdict == LAM_CHECK_PASSES))
         *outcome = FIT_UNKNOWN; // the full pictures say something else
     if (*outcome == FIT_UNKNOWN)
-        snprintf(reason, capacity, "its pictures are near to those of a right shader, and not the same");
+        snprintf(reason, capacity, "its pictures are close to a correct shader's, but not equal");
     else if (explained)
         report_faults(r, &best, before);
     if (*outcome == FIT_DIFFERS)

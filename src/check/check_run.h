@@ -14,16 +14,16 @@ struct run {
     struct arena *arena;
     struct diagnostics diagnostics;
     lam_check_painter painter;                  // that draws
-    lam_check_contract *shipped[MAX_CONTRACTS]; // read where none is given
+    lam_check_contract *shipped[MAX_CONTRACTS]; // read if none is given
     int shipped_count;
-    lam_check_contract *inferred; // where none has the shaders' names
+    lam_check_contract *inferred; // if none has the shaders' names
     struct complete_texts texts;
     struct shader_interface interface;
     int size;
     double tolerance;
     lam_light_frame frame; // of the first light
     lam_reflection reflection;
-    char *vertex;    // generated, where none was given
+    char *vertex;    // generated, if none was given
     lam_bytes bytes; // the drawing process's message, which `drawn` points into
     struct draw_result drawn;
     struct scene_comparison *scenes;
@@ -47,7 +47,7 @@ enum fit_outcome { FIT_UNKNOWN, FIT_RIGHT, FIT_EXPLAINED, FIT_DIFFERS };
 bool check_fit(struct run *run, bool writes, enum fit_outcome *outcome, char *reason, size_t capacity,
                lam_error *error);
 
-// Says of a shader that differs, and gets no name, what its scenes show.
+// Describes the scenes of a shader that differs and gets no name.
 void check_describe(struct run *run);
 
 // Compares the pictures of `drawn` with the reference scenes `scenes` (bits), and fills the report: scenes, verdict,

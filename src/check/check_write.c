@@ -1,4 +1,4 @@
-// check_write.c: writes a contract as a file for people: an entry a line, and beside each one what it means and what to correct.
+// check_write.c: writes a contract as a file for readers: one entry per line, with its meaning and what to correct.
 #include <lambent/check.h>
 
 #include <jansson.h>
@@ -32,7 +32,7 @@ static const struct {
 
 static const char *const root_comment[] = {
     "Written by `lambent check --write-contract`; docs/check/contract-file.md explains every key and every role.",
-    "Correct `name` and `title` first, then `space`: eye or world, where the shaders light.",
+    "Correct `name` and `title` first, then `space`: eye or world, the space of the lighting.",
     "\"strengths\": \"any\" accepts every colour and strength. With \"given\", each name needs a role, and mistakes in "
     "colours are found.",
     "If the exercise demands them, add \"gate\": \"required\", \"unit_normals\": \"required\", \"bare_ambient\": "
@@ -56,7 +56,7 @@ static json_t *comment_of(const json_t *entry)
     return json_sprintf("%s%s%s", role ? meaning_of(role) : "", correct ? "; " : "", correct ? correct : "");
 }
 
-// Adds a comment to each entry that has none, and gives names of the fixed state back their own.
+// Adds a comment to each entry without one, and restores names of the fixed state.
 static json_t *comment_entries(const json_t *entries)
 {
     json_t *out = json_object();
@@ -166,7 +166,7 @@ static bool write_contract(const char *contract, const char *found, lam_bytes *o
     if (undeclared && !json_object_get(undeclared, "comment"))
         json_object_set_new(
             undeclared, "comment",
-            json_string("values of what a shader has no name for, because the exercise writes it as a number"));
+            json_string("values that a shader does not declare, because the exercise writes them as numbers"));
     size_t i = 0, count = json_object_size(root);
     put(&t, "{\n", 2);
     json_object_foreach(root, key, value)

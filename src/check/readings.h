@@ -1,4 +1,4 @@
-// readings.h: the readings of a shader whose strengths and colours are its own: what its text permits it to compute.
+// readings.h: the readings of a shader with its own strengths and colours: the calculations that its text permits.
 #ifndef READINGS_H
 #define READINGS_H
 

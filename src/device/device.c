@@ -38,8 +38,8 @@ static bool find_edges(lam_device *device, struct call_control *call, lam_error 
     return true;
 }
 
-// Draws the frame, and edges over it. Where surfaces are not drawn, they hide edges all the same: the frame is built once
-// with them and once without.
+// Draws the frame, and edges over it. Surfaces that are not drawn still hide edges: the frame is built once with them
+// and once without.
 static bool draw_frame(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                        const lam_draw_params *params, lam_image *target, struct call_control *call, lam_error *error)
 {
@@ -77,7 +77,7 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
     call_start(&call, control);
     call.input_bytes = scene->input_bytes;
     call.control.expansion_limit = UINT64_MAX; // drawing takes memory for the picture more than for the files
-    // Memory that the device holds already counts towards the budget.
+    // The device's existing memory counts towards the budget.
     uint64_t held = device->type->memory(device) + own_memory(device);
     memset(&device->report, 0, sizeof device->report);
     if (!call_charge(&call, held))
@@ -92,10 +92,9 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
     device->report.depth_near = (double)device->frame.depth_near;
     device->report.depth_far = (double)device->frame.depth_far;
     if (ok && device->frame.makes_normals && !device->type->makes_normals)
-        ok =
-            fail(error, LAM_UNSUPPORTED,
-                 "lam_draw: meshes of the scene have no normals (normals_when_drawn), which this device does not make; "
-                 "lam_scene_make_normals does");
+        ok = fail(error, LAM_UNSUPPORTED,
+                  "lam_draw: meshes of the scene have no normals (normals_when_drawn), and this device cannot compute "
+                  "them; call lam_scene_make_normals");
     const struct frame_ground *ground = &device->frame.ground;
     if (ok && ground->kind && !params->no_surfaces) {
         device->report.ground = true;

@@ -1,4 +1,4 @@
-// encode_values.c: pixels that hold values of the surfaces in place of colours, encoded in 8 bits as lam_output in
+// encode_values.c: pixels with values of the surfaces in place of colours, encoded in 8 bits as lam_output in
 // lambent/device.h defines. Plain C, the same code for all devices.
 #include "encode_values.h"
 
@@ -11,7 +11,7 @@ static float clamped(float x, float low, float high) { return x > high ? high : 
 
 static uint8_t code_byte(float x) { return (uint8_t)(clamped(x, 0, 1) * 255.0f + 0.5f); }
 
-// A colour that distinguishes neighbouring triangles; each channel at least 48, to stand out from black.
+// A colour that distinguishes neighbouring triangles; each channel is at least 48, unlike black.
 static void color_of_ids(const float v[3], uint8_t out[4])
 {
     uint64_t h = ((uint64_t)v[1] << 40 | (uint64_t)v[2] << 24 | (uint64_t)v[0]) + 1;

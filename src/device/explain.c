@@ -56,7 +56,7 @@ static double angle_between(lam_vec3 a, lam_vec3 b)
     return math_atan2(v3_length(v3_cross(a, b)), v3_dot(a, b));
 }
 
-// A point of eye space in world space and in that of an object's mesh; the rectangles of lines and points lie in eye space.
+// A point of eye space in world space and in an object's mesh; the rectangles of lines and points lie in eye space.
 static void leave_eye_space(const lam_camera *camera, const lam_object *object, lam_explained_point *point)
 {
     lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up), to_world, to_mesh;
@@ -221,7 +221,7 @@ static void complete(struct recorder *recorder, const lam_scene *scene, const la
     }
 }
 
-// The explanation and the arena that holds it.
+// The explanation and its arena.
 struct explanation {
     lam_explanation values; // first
     struct arena arena;
@@ -269,8 +269,8 @@ static bool check_place(const lam_device *device, const lam_draw_params *params,
                     (int)format);
     if (x < 0 || y < 0 || x >= width || y >= height)
         return fail(error, LAM_BAD_ARGUMENT,
-                    "pixel %d,%d lies outside of the picture of %d×%d pixels, expected 0,0 to %d,%d", x, y, width,
-                    height, width - 1, height - 1);
+                    "pixel %d,%d is outside the picture of %d×%d pixels, expected 0,0 to %d,%d", x, y, width, height,
+                    width - 1, height - 1);
     return true;
 }
 

@@ -9,7 +9,7 @@
 enum { RECORDER_POINTS = 3 }; // maximum of one fragment
 
 struct recorder {
-    struct arena arena;   // holds the explanation
+    struct arena arena;   // owns the explanation
     lam_explanation *out; // with the pixel's coordinates, set before drawing
     lam_explained_fragment *fragments;
     int capacity;

@@ -44,12 +44,12 @@ static double straightness(const struct edge_measure *measures, uint32_t a, uint
     double ax = m->x[a & 1] - m->x[~a & 1], ay = m->y[a & 1] - m->y[~a & 1];
     double bx = n->x[~b & 1] - n->x[b & 1], by = n->y[~b & 1] - n->y[b & 1];
     double size = m->length * n->length;
-    // A line seen from its end has no direction: it goes on with any other.
+    // A line seen from its end has no direction: it continues any other.
     return size > 1e-6 ? (ax * bx + ay * by) / size : 1;
 }
 
-// Pairs the ends at one corner, the straightest pair first. Two lines that meet alone go on whatever the turn: silhouettes of a
-// fine mesh zigzag.
+// Pairs the ends at one corner, the straightest pair first. Two lines without others at a vertex continue each other at
+// any turn: silhouettes of a fine mesh zigzag.
 static void link_corner(struct edge_measure *measures, const struct end *ends, uint32_t count)
 {
     if (count > TOGETHER_MAX)

@@ -1,4 +1,4 @@
-// edge_lines.c: pieces of work of the edges: which are drawn, what of them is in the picture, and what of that is in sight.
+// edge_lines.c: tasks of the edges: selects drawn edges, clips them to the picture, and finds their visible parts.
 #include "edge_pieces.h"
 
 #include "fail.h"
@@ -10,7 +10,7 @@
 enum {
     POINTS_PER_LINE = 32768,
     POINTS = 2 * POINTS_PER_LINE,
-    HALVINGS = 4, // where a line goes out of sight is found to 1/32 of a pixel
+    HALVINGS = 4, // the end of a visible part is found to 1/32 of a pixel
 };
 
 // Of one thread.
@@ -18,7 +18,7 @@ struct scratch {
     struct edge_line lines[EDGE_PIECE];
     struct edge_point points[POINTS];
     uint8_t hidden[POINTS];
-    // Where a line goes in or out of sight: between the shares from and to.
+    // The border of a visible part: between the shares from and to.
     struct change {
         double from, to;
         uint8_t hidden; // at `from`
@@ -89,7 +89,7 @@ static int style_of(const struct edge_piece *piece, const struct mesh_edge *edge
     return kinds & (unsigned)settings->edges ? EDGE_STYLE_FEATURE : plain;
 }
 
-// --- what of them is in the picture
+// --- clipping to the picture
 
 // Cuts a line off where a·q falls below 0; `a` at its two ends. False: nothing is left of 0 … 1.
 static bool cut(double at_0, double at_1, double range[2])
@@ -132,8 +132,8 @@ static double height_over(const struct edge_piece *piece, uint32_t corner, const
     return (across < 0 ? -across : across) / line->length;
 }
 
-// Where both triangles at an edge of the wireframe are narrower than FADE widths, the line is drawn thinner, in proportion, down to
-// the share 1/FADE: a fine mesh is an even grey, and not a black that hides the surface.
+// If both triangles at an edge of the wireframe are narrower than FADE widths, the line is drawn thinner, in
+// proportion, down to the share 1/FADE: a fine mesh is an even grey, and not a black that hides the surface.
 enum { FADE = 5 };
 static double half_width(const struct edge_piece *piece, const struct mesh_edge *edge, const struct edge_line *line)
 {
@@ -182,7 +182,7 @@ static bool set_line(const struct edge_piece *piece, const struct mesh_edge *edg
     return true;
 }
 
-// --- what of that is in sight
+// --- visible parts
 
 static bool add_part(struct edge_piece *piece, const struct edge_line *line, double from, double to)
 {

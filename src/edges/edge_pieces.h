@@ -1,4 +1,4 @@
-// edge_pieces.h: a piece of work of the edges: some edges of one draw, from the mesh to strokes.
+// edge_pieces.h: a task of the edges: some edges of one draw, from the mesh to strokes.
 #ifndef EDGE_PIECES_H
 #define EDGE_PIECES_H
 
@@ -9,7 +9,7 @@ struct edge_measure {
     double x[2], y[2], length; // in the window, within the picture; pixels
     int style;                 // −1: it is not drawn
     bool whole[2];             // nothing is cut off at that end
-    uint32_t link[2];          // the end that goes on from that end: twice the number of its edge, and 0 or 1; NO_LINK
+    uint32_t link[2];          // the end that continues that end: twice the number of its edge, and 0 or 1; NO_LINK
     bool placed;
     double start;  // length of the chain before it
     bool reversed; // the chain runs from its end 1 to its end 0
@@ -35,7 +35,7 @@ size_t edge_scratch_bytes(void);
 // False: out of memory, or the call must end.
 bool edge_piece_draw(struct edge_piece *piece, void *scratch);
 
-// Fills the measures of a piece, but for those of its chains.
+// Fills the measures of a task, except for its chains.
 void edge_piece_measure(struct edge_piece *piece);
 
 // Links the measured edges of a draw to chains, and places them there: through each corner two lines of one style that meet

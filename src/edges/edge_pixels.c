@@ -1,9 +1,9 @@
 // edge_pixels.c: strokes to coverage, and their colour over the picture.
 //
-// A stroke covers of a pixel the area that a strip of its width covers of the square: seen across the strip, the square is a
-// trapezoid, the convolution of two boxes of the widths |cos| and |sin| of the strip's angle. So the sum of a line's coverage along any row or
-// column that crosses it is its width there, wherever it lies. Where strokes meet, the greatest counts: edges that two triangles share, and corners,
-// are no darker than the rest.
+// A stroke covers of a pixel the area that a strip of its width covers of the square: seen across the strip, the square
+// is a trapezoid, the convolution of two boxes of the widths |cos| and |sin| of the strip's angle. So the sum of a
+// line's coverage along any row or column that crosses it is its width there, wherever it lies. At a crossing the
+// greatest coverage counts: edges that two triangles share, and corners, are no darker than the rest.
 #define LANES 1
 #include "edge_lines.h"
 

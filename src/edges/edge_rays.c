@@ -1,8 +1,9 @@
-// edge_rays.c: which points of edges are hidden, by LANES rays at a time to the eye. Compiled for several instruction sets.
+// edge_rays.c: which points of edges are hidden, by LANES rays at a time to the eye. Compiled for several instruction
+// sets.
 //
-// An edge lies in the planes of its own triangles, and of others where faces touch. They must not hide it: a triangle hides a
-// point only if its plane is farther from the point than positions in files are rounded. So no line breaks where it runs along
-// a surface, and none is drawn through one.
+// An edge lies in the planes of its own triangles, and of others where faces touch. They must not hide it: a triangle
+// hides a point only if its plane is farther from the point than positions in files are rounded. So a line along a
+// surface has no gaps, and none is drawn through a surface.
 #include "edge_lines.h"
 
 #include "layer_kinds.h"
@@ -16,7 +17,7 @@
 #define JOIN_(a, b) a##_##b
 #define JOIN(a, b)  JOIN_(a, b)
 
-// Whether the triangle hides what is behind it where the ray of this lane crosses it: it is not culled, and it is opaque.
+// Whether the triangle hides points behind it at the crossing with this lane's ray: it is not culled, and it is opaque.
 static bool is_solid(const struct edge_view *view, const struct ray_triangle *triangle, const struct ray_lanes *ray,
                      const struct ray_view *seen, int lane, double facing)
 {

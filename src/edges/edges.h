@@ -1,7 +1,7 @@
 // edges.h: edges of surfaces as lines over a finished picture: wireframes and feature edges.
 //
-// Both devices draw the same lines: what is in sight is decided by rays from points of an edge to the eye (edge_rays.c), and
-// a line's coverage of a pixel by the distance from its centre. docs/edges.md has the rules.
+// Both devices draw the same lines: rays from points of an edge to the eye decide the visible parts (edge_rays.c), and
+// the distance from a pixel's centre decides a line's coverage of it. docs/edges.md has the rules.
 #ifndef EDGES_H
 #define EDGES_H
 
@@ -18,7 +18,7 @@ struct edge_strokes {
 
 // Kept from frame to frame.
 struct edge_memory {
-    // The edges of the draws' meshes, in the order of the draws, and of which meshes.
+    // The edges of the draws' meshes, in the order of the draws, and their meshes.
     struct buffer edges, sources;
     int source_count;
     struct scene_token *token; // held; NULL: none are listed

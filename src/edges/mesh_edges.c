@@ -1,5 +1,5 @@
-// mesh_edges.c: the edges of a mesh. Corners are welded into vertices by position; the edges from a vertex to higher ones, in
-// both directions, are sorted by the other end, so that those of one edge follow each other.
+// mesh_edges.c: the edges of a mesh. Corners are welded into vertices by position. The edges from a vertex to higher
+// ones, in both directions, are sorted by the other end, so that equal edges are adjacent.
 #include "mesh_edges.h"
 
 #include "corner_weld.h"

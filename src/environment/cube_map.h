@@ -38,7 +38,7 @@ static inline size_t cube_bytes(int size)
     return ((size_t)size + 2) * ((size_t)size + 2) * LAM_FACE_COUNT * 3 * sizeof(float);
 }
 
-// Opens the file of picture `index`; the caller releases it. *name stands for it in messages.
+// Opens the file of picture `index`; the caller releases it. Messages use *name for it.
 struct call_control;
 struct file_bytes;
 struct picture_source {

@@ -1,5 +1,5 @@
-// cube_sums.c: cubes of which every texel is a weighted mean of all texels of a small copy of an environment, for weights
-// that change slowly.
+// cube_sums.c: cubes whose texels are weighted means of all texels of a small copy of an environment, for weights that
+// change slowly.
 #include "environment_kernels.h"
 #include "fail.h"
 
@@ -41,7 +41,7 @@ struct cube_sums *cube_sums_make(const struct cube_chain *chain, lam_error *erro
     for (int face = 0; face < LAM_FACE_COUNT; face += 2)
         for (int t = 0; t < n; t++)
             for (int s = 0; s < n; s++, out++) {
-                // On the opposite face the rows run the other way; on that of −y the columns do (cube_direction).
+                // On the opposite face the rows run the other way; on the face −y the columns do (cube_direction).
                 bool upper = face == LAM_FACE_PY;
                 const float *light = cube_texel(cube, face, s, t);
                 const float *behind = cube_texel(cube, face + 1, upper ? n - 1 - s : s, upper ? t : n - 1 - t);

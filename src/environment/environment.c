@@ -49,9 +49,8 @@ static bool copy_face(struct lam_environment *cube, int face, const struct piece
                 (const float *)piece->image->pixels + ((size_t)y * (size_t)piece->image->width + (size_t)x) * 4;
             for (int channel = 0; channel < 3; channel++)
                 if (!(from[channel] >= 0 && from[channel] <= 3e38f))
-                    return fail(error, LAM_BAD_ARGUMENT,
-                                "%s: pixel %d, %d holds %g, expected light of at least 0, finite", name, x, y,
-                                (double)from[channel]);
+                    return fail(error, LAM_BAD_ARGUMENT, "%s: pixel %d, %d is %g, expected light of at least 0, finite",
+                                name, x, y, (double)from[channel]);
             memcpy(cube_texel(cube, face, s, t), from, 3 * sizeof(float));
         }
     }
@@ -99,7 +98,8 @@ static struct lam_environment *cube_of_faces(const lam_image *faces, const char 
 typedef float pixel __attribute__((vector_size(16)));
 typedef float pixel_memory __attribute__((vector_size(16), aligned(4), may_alias));
 
-// Where longitudes and latitudes lie in the picture, in pixels from the centre of the first. Longitude 0 is −z, latitude 0 +y.
+// The positions of longitudes and latitudes in the picture, in pixels from the centre of the first. Longitude 0 is −z,
+// latitude 0 +y.
 static double column_of(const lam_image *image, double longitude)
 {
     return (0.5 + longitude / (2 * PI)) * image->width - 0.5;
@@ -180,9 +180,8 @@ static bool check_light(const lam_image *image, const char *name, struct call_co
         for (int x = 0; x < image->width; x++, at += 4)
             for (int channel = 0; channel < 3; channel++)
                 if (!(at[channel] >= 0 && at[channel] <= 3e38f))
-                    return fail(error, LAM_BAD_ARGUMENT,
-                                "%s: pixel %d, %d holds %g, expected light of at least 0, finite", name, x, y,
-                                (double)at[channel]);
+                    return fail(error, LAM_BAD_ARGUMENT, "%s: pixel %d, %d is %g, expected light of at least 0, finite",
+                                name, x, y, (double)at[channel]);
     }
     return true;
 }

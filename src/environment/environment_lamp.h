@@ -16,8 +16,8 @@ struct environment_lamp {
 bool environment_lamp(const struct lam_environment *cube, struct environment_lamp *lamp, struct call_control *call,
                       lam_error *error);
 
-// As environment_light, but the irradiance is that without the lamp: with the light of the lamp, max(n.l, 0) times its colour, it is the
-// whole again. What mirrors show is left as it is.
+// As environment_light, but the irradiance is that without the lamp: with the light of the lamp, max(n.l, 0) times its
+// colour, it is the whole again. Reflections do not change.
 const struct environment_light *environment_light_without_lamp(const struct lam_environment *cube, unsigned needed,
                                                                struct pool *pool, struct call_control *call,
                                                                lam_error *error);

@@ -1,8 +1,8 @@
-// environment_light.c: the environment prefiltered for each roughness, and what holds it and the irradiance.
+// environment_light.c: the environment prefiltered for each roughness, and the storage for it and the irradiance.
 //
-// A texel is a sum over samples: GGX's lobe around the texel's direction is cut into rings and these into cells about as
-// broad as high; each cell takes the light from that copy of the chain whose texels are about as large as the cell. The
-// cells of a level are the same for all texels.
+// A texel is a sum over samples: GGX's lobe around the texel's direction is cut into rings and these into cells about
+// as broad as high; each cell takes the light from that copy of the chain whose texels are about as large as the cell.
+// The cells of a level are the same for all texels.
 #include "environment_light.h"
 
 #include "call_control.h"
@@ -79,7 +79,7 @@ static void cut_lobe(struct lobe_cells *cells, int level, const struct cube_chai
     double far_l = FAR_TEXELS * PI / 2 / far_size(level); // radians
     cells->near = cells->count = 0;
     for (int ring = 0; inner < 1; ring++) {
-        if (outer * growth > 1) // mirrors at 45° or more show what is below the axis' horizon
+        if (outer * growth > 1) // mirrors at 45° or more show directions below the axis' horizon
             outer = 1;
         add_ring(cells, alpha, inner, outer, ring, chain, &total);
         if (2 * inner < far_l)
@@ -110,7 +110,7 @@ static size_t rows_of(const struct making *work, int level, int (*size)(int leve
     return work->parts >> level & 1 ? (size_t)size(level) * LAM_FACE_COUNT : 0;
 }
 
-// Finds the level and the row of its faces that a piece of work is.
+// Finds the level and the row of a task.
 static int level_of(const struct making *work, size_t *index, int (*size)(int level))
 {
     int level = 1;
@@ -154,7 +154,7 @@ static void make_row(void *user, size_t index, int thread)
         work->kernels->cube_sums_row(work->sums, roughness * roughness, cube, face, t);
 }
 
-// Makes the cells of the levels with rings, and the cubes of what is far.
+// Makes the cells of the levels with rings, and the cubes of distant cells.
 static bool set_up(struct making *work, const struct cube_chain *chain, lam_error *error)
 {
     size_t bytes = CUBE_TEXELS_AFTER;
@@ -238,7 +238,7 @@ int environment_light_rows(void)
     return (texels + ENVIRONMENT_LIGHT_WIDTH - 1) / ENVIRONMENT_LIGHT_WIDTH;
 }
 
-// A light of which nothing is made but level 0.
+// A light with only level 0.
 static struct environment_light *start(const struct lam_environment *cube, lam_error *error)
 {
     struct environment_light *light = calloc(1, sizeof *light);

@@ -33,9 +33,9 @@ enum { ENVIRONMENT_LIGHT_ALL = (2 << ENVIRONMENT_LEVELS) - 1 };
 unsigned environment_light_parts(float first, float last);
 
 int prefiltered_size(int level); // texels on a side of levels 1 and up
-// Levels 1 and up and the irradiance, each six faces with their borders (cube_map.h), lie one after the other in `texels`:
+// Levels 1 and up and the irradiance, each six faces with their borders (cube_map.h), follow each other in `texels`:
 // the number of the first texel of a level, of the irradiance for ENVIRONMENT_LEVELS, and the rows of a texture of
-// ENVIRONMENT_LIGHT_WIDTH texels that hold all of them.
+// ENVIRONMENT_LIGHT_WIDTH texels with all of them.
 enum { ENVIRONMENT_LIGHT_WIDTH = 1024 };
 int environment_light_first(int level);
 int environment_light_rows(void);

@@ -64,11 +64,11 @@ static void sky_row(int face, int t, float *texels)
     }
 }
 
-// A room, a cube about the origin, for the default picture of physical materials. The brightest lamp, at the ceiling, lights the tops and
-// casts short soft shadows on a ground; a large one in front and above lights the sides that are seen first, a dim one at the right
-// the third, so that the three faces of a cube differ. Metals mirror the bright horizon between a dark floor and a dim wall; the lamp
-// behind brightens the rims of black things. A level white surface has 1.1 (irradiance / π), of which the tone curve makes 0.9. A
-// face of the cube map is a wall of the room.
+// A room, a cube about the origin, for the default picture of physical materials. The brightest lamp, at the ceiling,
+// lights the tops and casts short soft shadows on a ground; a large one in front and above lights the sides that are
+// seen first, a dim one at the right the third, so that the three faces of a cube differ. Metals mirror the bright
+// horizon between a dark floor and a dim wall; the lamp behind brightens the rims of black things. A level white
+// surface has 1.1 (irradiance / π), which the tone curve maps to 0.9. A face of the cube map is a wall of the room.
 struct lamp {
     double intensity;
     struct rgb color;

@@ -61,8 +61,8 @@ struct drawing {
     double *rows, *weights, total; // of the small copy: brightness of each row, of the texels of one row, of all
 };
 
-// Draws the directions towards light. The first coordinate of the point set chooses the row, the second the texel in it; what
-// is left of both is the place in the texel.
+// Draws the directions towards light. The first coordinate of the point set chooses the row, the second the texel in
+// it; the remainders of both are the position in the texel.
 static void draw_lights(const struct drawing *d, struct environment_samples *out)
 {
     int size = d->small->size, row = 0, weighed = -1;

@@ -32,8 +32,8 @@ struct environment_samples {
 
 enum { ENVIRONMENT_SAMPLES_MIN = 16, ENVIRONMENT_SAMPLES_MAX = 1 << 20 };
 
-// Draws `count` directions. `to_environment` turns the caller's axes, of a rotation, into the environment's. The storage holds
-// the samples. `call` may be NULL.
+// Draws `count` directions. `to_environment` turns the caller's axes, of a rotation, into the environment's. The
+// storage contains the samples. `call` may be NULL.
 bool environment_samples_make(struct environment_samples *samples, const struct lam_environment *cube,
                               const float to_environment[3][3], int count, struct buffer *storage,
                               struct call_control *call, lam_error *error);

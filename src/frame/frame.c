@@ -113,7 +113,7 @@ static void build_draw(struct frame_draw *draw, const lam_mesh *mesh, const lam_
 
 static int material_index(int scene_index) { return scene_index < 0 ? 0 : scene_index + 1; }
 
-// Whether some point of a material lets through what is behind it, or is left out. `varies`: by the mesh's colours.
+// Whether some point of a material is translucent or masked. `varies`: by the mesh's colours.
 static bool sees_through(const lam_material *material, bool varies)
 {
     varies |= material->maps[LAM_MAP_OPACITY] || texture_map_translucent(material->maps[LAM_MAP_DIFFUSE]);
@@ -262,7 +262,7 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
     return true;
 }
 
-// Whether an output holds the light of the environment.
+// Whether an output contains the light of the environment.
 static bool shows_reflection(lam_output output) { return output_is_picture(output) || output == LAM_OUTPUT_REFLECTION; }
 
 // Whether physical materials are lit as such.
@@ -293,7 +293,8 @@ static bool build_environment(struct frame *frame, const lam_scene *scene, const
     return true;
 }
 
-// Normals of facets need not be made before the picture is lit, where each is only read for the points of its own triangle.
+// Normals of facets need not be made before the picture is lit, if each is only read for the points of its own
+// triangle.
 static void leave_facets(struct frame *frame)
 {
     if (!frame->makes_normals || frame->settings.shading != LAM_SHADING_PHONG || frame_has_rays(frame))
@@ -310,7 +311,7 @@ static void leave_facets(struct frame *frame)
 // Of the cavity, as a share of half the diagonal of the scene's box.
 #define CAVITY_RADIUS 0.05
 
-// Whether a texture gives a colour to what is drawn.
+// Whether a texture colours the drawn surfaces.
 static bool has_color_maps(const struct frame *frame)
 {
     for (int i = 0; i < frame->range_count; i++)

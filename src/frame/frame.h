@@ -34,7 +34,7 @@ struct frame_draw {
     // The mesh is the ground's, made for this frame in world space (frame_ground.h): its object is −1. It casts no shadows.
     bool ground;
     lam_cull cull;
-    // > 0: the mesh has no normals; the device computes those that it needs, with this crease angle.
+    // > 0: the mesh has no normals; the device computes the needed ones, with this crease angle.
     double crease_rad;
     // The same with a crease at every edge, where each point has its facet's normal and nothing else reads it.
     bool facets;
@@ -86,8 +86,8 @@ struct frame_ground {
     lam_ground kind; // NONE: there is none, or its under side is seen
     // World space: the place under the middle of the scene, and unit vectors.
     lam_vec3 middle, right, up, front;
-    double whole, end; // distances from the middle up to which it is whole, and where it has faded out
-    double square;     // the side of a square
+    double whole, end;                          // distances from the middle at which fading begins and ends
+    double square;                              // the side of a square
     float eye_middle[3], eye_up[3], eye_height; // eye space: the plane's points p have p·eye_up = eye_height
     lam_mesh mesh;
     lam_material material;
@@ -130,7 +130,7 @@ struct frame {
     bool makes_normals;     // a draw has a crease_rad, and the output needs its normals
     // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.
     float near_plane, far_plane;
-    // LAM_OUTPUT_DEPTH: the range of distances that 8 bits spread over, that of the scene's vertices between the planes.
+    // LAM_OUTPUT_DEPTH: the range of distances for 8 bits: the scene's vertices between the planes.
     float depth_near, depth_far;
 
     struct frame_draw *draws;
@@ -182,10 +182,10 @@ static inline bool frame_has_rays(const struct frame *frame)
     return frame->settings.shadows || frame->settings.occlusion == LAM_OCCLUSION_RAYS;
 }
 
-// Fills in what rays need of draws and lights, once those are built, and whether any light casts shadows.
+// Fills in the data of draws and lights that rays need, once those are built, and whether any light casts shadows.
 void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view);
 
-// Decides about edges, and fills in what they need; `pixel`: eye space to pixels.
+// Decides about edges, and fills in their data; `pixel`: eye space to pixels.
 void frame_edges_build(struct frame *frame, const lam_mat4 *view, const lam_mat4 *pixel);
 
 // Whether shadow rays meet a draw's triangles.
@@ -234,7 +234,7 @@ static inline bool output_is_one_light(lam_output output)
     return output == LAM_OUTPUT_LIGHT || output == LAM_OUTPUT_N_L || output == LAM_OUTPUT_N_H;
 }
 
-// Outputs of which a pixel has the value of its nearest surface, whatever the opacity of that; masked surfaces leave their holes out.
+// Outputs whose pixels show the value of their nearest surface, whatever its opacity; masked surfaces keep their holes.
 static inline bool output_is_value(lam_output output)
 {
     return !lam_output_is_light(output) && output != LAM_OUTPUT_CLIPPED;
@@ -252,7 +252,7 @@ static inline bool output_is_material(lam_output output)
     return output >= LAM_OUTPUT_BASE_COLOR && output <= LAM_OUTPUT_LOD;
 }
 
-// The maps of which LAM_OUTPUT_LOD shows the first that a material has.
+// The maps in the order in which LAM_OUTPUT_LOD selects a material's first.
 enum { LOD_MAPS = 9 };
 extern const lam_map frame_lod_maps[LOD_MAPS];
 

@@ -5,7 +5,8 @@
 #include "up_axis.h"
 #include "view_extents.h"
 
-// In radii of the scene's sphere: up to where the ground is opaque, and where it ends. A catcher shows its shadow alone.
+// In radii of the scene's sphere: the distances at which the ground begins to fade and ends. A catcher shows its shadow
+// alone.
 #define WHOLE       3.0
 #define END         6.0
 #define CATCHER_END 4.0

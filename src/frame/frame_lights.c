@@ -1,4 +1,4 @@
-// frame_lights.c: the lights of a frame in eye space: those of the scene, of the rig, and the environment's lamp.
+// frame_lights.c: the lights of a frame in eye space: the scene's, the rig's, and the environment's lamp.
 #include "frame_lights.h"
 
 #include "environment_lamp.h"

@@ -31,7 +31,7 @@ static lam_material converted(const lam_material *material, lam_reflection model
     if (frame_is_physical(model))
         return lam_material_as_physical(material);
     lam_material classic = lam_material_as_classic(material);
-    if (lobe_properties((int)model) & LOBE_MIRRORED) // its highlight at α/4 looks like that of the half vector at α
+    if (lobe_properties((int)model) & LOBE_MIRRORED) // its highlight at α/4 looks like the half vector's at α
         classic.shininess /= 4;
     return classic;
 }
@@ -71,7 +71,7 @@ void frame_materials_build(struct frame *frame, const lam_scene *scene)
     }
 }
 
-// Repeats the list of materials, so that it holds all of them `times` times.
+// Repeats the list of materials, so that it contains all of them `times` times.
 static void repeat_materials(struct frame *frame, int times)
 {
     for (; frame->material_count < times * frame->scene_material_count; frame->material_count++)
@@ -93,7 +93,7 @@ int frame_back_material(struct frame *frame, int front, int back)
     return second;
 }
 
-// Whether nobody chose the colour of a material: the default one of a scene, or that of a glTF primitive without one.
+// Whether nobody chose the colour of a material: a scene's default, or the default of a glTF primitive without one.
 static bool is_unchosen(const struct frame *frame, int front)
 {
     const lam_material *m = frame->materials[front];

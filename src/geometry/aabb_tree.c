@@ -75,7 +75,7 @@ static void box_of_boxes(const box_of_six *below, size_t count, box_of_six box)
         widen(box, below[i], below[i] + 3);
 }
 
-// Makes the boxes `first` to `end` of a level from those of the level below.
+// Makes the boxes `first` to `end` of a level from the level below.
 static void box_level(const struct boxing *boxing, int level, size_t first, size_t end)
 {
     const struct aabb_tree *tree = boxing->tree;

@@ -16,8 +16,8 @@ enum {
 // Minimum and maximum, relative to the mesh's origin.
 typedef float box_of_six[6];
 
-// Box i of the lowest level holds `block` used vertices from number i · block on, one of the next level
-// BOX_CHILDREN of those below. The topmost level has at most BOX_CHILDREN.
+// Box i of the lowest level contains `block` used vertices from number i · block on, one of the next level BOX_CHILDREN
+// boxes below. The topmost level has at most BOX_CHILDREN.
 struct aabb_tree {
     const box_of_six *boxes; // level after level from the lowest; NULL: no vertices
     size_t block;

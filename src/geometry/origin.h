@@ -2,9 +2,9 @@
 //
 // Positions are floats, good to 2⁻²⁴ of their size. A part that lies far from zero (survey coordinates, a car in its
 // factory) would lose its detail, so a mesh carries an `origin` in double, and its positions are rounded to float after
-// the origin was subtracted. Readers whose file holds more than floats do so themselves. For all others scene_measure
-// subtracts it from the floats, which is exact: what is drawn then has the detail that the floats have, and loses no
-// more of it in the arithmetic of drawing.
+// the origin was subtracted. Readers of files with more precision than floats do so themselves. For all others
+// scene_measure subtracts it from the floats, which is exact: the drawing then has the detail of the floats, and its
+// arithmetic loses no more of it.
 #ifndef ORIGIN_H
 #define ORIGIN_H
 
@@ -45,7 +45,7 @@ static inline bool origin_choose(const double minimum[3], const double maximum[3
         memcpy(&bits, &size, sizeof bits);
         bits &= UINT64_C(0x7ff0000000000000);
         memcpy(&step, &bits, sizeof step);
-        // Adding and taking away 1.5 · 2⁵² rounds to a whole number below 2⁵¹; from there on the middle is one already,
+        // Adding and subtracting 1.5 · 2⁵² rounds to a whole number below 2⁵¹; from there on the middle is one already,
         // as it is for a model without size, or one smaller than the smallest normal double.
         double steps = step > 0.0 ? middle / step : 0x1p52;
         if (steps > -0x1p51 && steps < 0x1p51)

@@ -32,13 +32,13 @@ enum level {
 
 struct corner {
     int32_t x, y;
-    uint32_t previous, next; // around what is left of the polygon
+    uint32_t previous, next; // around the rest of the polygon
     uint32_t earlier, later; // in the queue of its level
     uint32_t slot;           // in the tree; NONE: not in it
     uint8_t level;           // LEVELS: in no queue
 };
 
-// A node's box around its points, of which `count` are left.
+// A node's box around its points; `count` of them are left.
 struct box {
     int32_t min_x, min_y, max_x, max_y;
     uint32_t count;
@@ -415,7 +415,7 @@ static bool clip_ears(struct clip *clip, uint32_t count, struct call_control *ca
         left--;
     }
     uint32_t i = 0;
-    while (clip->corners[i].level == LEVELS) // what was cut is in no queue
+    while (clip->corners[i].level == LEVELS) // removed corners are in no queue
         i++;
     triples[0] = clip->corners[i].previous;
     triples[1] = i;

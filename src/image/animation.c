@@ -47,7 +47,7 @@ static bool check(int width, int height, const lam_animation_params *p, lam_erro
         return fail(error, LAM_BAD_ARGUMENT, "animation: %g frames a second, expected 0.1 to 240",
                     p->frames_per_second);
     if (p->loops < 0 || p->loops > 65535)
-        return fail(error, LAM_BAD_ARGUMENT, "animation: %d loops, expected 0 (for ever) to 65535", p->loops);
+        return fail(error, LAM_BAD_ARGUMENT, "animation: %d loops, expected 0 (forever) to 65535", p->loops);
     return true;
 }
 
@@ -145,7 +145,7 @@ bool lam_animation_finish(lam_animation *animation, const lam_control *control, 
 {
     if (!animation || !out)
         return fail(error, LAM_BAD_ARGUMENT, "animation: %s needed",
-                    animation ? "a place for the bytes is" : "an animation is");
+                    animation ? "a pointer for the bytes is" : "an animation is");
     *out = (lam_bytes){0};
     if (animation->finished || animation->count == 0)
         return fail(error, LAM_BAD_ARGUMENT, "animation: it %s", animation->count ? "is finished" : "has no frame");

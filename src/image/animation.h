@@ -11,7 +11,7 @@
 struct animation_settings {
     int width, height;
     double frames_per_second;
-    int loops;              // 0: for ever
+    int loops;              // 0: forever
     lam_save_params frames; // without a control
 };
 
@@ -27,7 +27,7 @@ struct animation_codec {
     // Makes the file's bytes. Called once, after at least one frame.
     bool (*finish)(void *state, const lam_save_params *params, lam_bytes *out, lam_error *error);
 
-    // Bytes of the encoded frames that the writer holds, where it knows them: libwebpmux does not tell.
+    // Bytes of the encoded frames in the writer, if it knows them: libwebpmux does not report them.
     uint64_t (*held)(const void *state);
 
     void (*free)(void *state);

@@ -24,7 +24,7 @@ struct bmp {
     const struct picture_file *file;
     uint32_t width, height, bits, compression;
     size_t header; // bytes of the header after the file's own 14
-    size_t pixels; // where they begin
+    size_t pixels; // their position
     bool top_down;
     uint32_t colors; // of the palette
     uint8_t palette[256][4];
@@ -61,7 +61,7 @@ static bool read_mask(struct bmp *bmp, int index, uint32_t bits, lam_error *erro
     return true;
 }
 
-// The masks stand after a header of 40 bytes, and within a longer one.
+// The masks follow a header of 40 bytes, and are within a longer one.
 static bool read_masks(struct bmp *bmp, lam_error *error)
 {
     static const uint32_t usual[2][MASKS] = {{0x7c00, 0x3e0, 0x1f, 0}, {0xff0000, 0xff00, 0xff, 0}};
@@ -119,7 +119,7 @@ static bool check_kind(const struct bmp *bmp, bool os2, lam_error *error)
 {
     const char *name = bmp->file->name;
     if (bmp->compression == BI_JPEG || bmp->compression == BI_PNG)
-        return fail(error, LAM_UNSUPPORTED, "%s: BMP that holds a %s, expected pixels or run lengths", name,
+        return fail(error, LAM_UNSUPPORTED, "%s: BMP that contains a %s, expected pixels or run lengths", name,
                     bmp->compression == BI_JPEG ? "JPEG" : "PNG");
     if (bmp->compression > BI_ALPHABITFIELDS || (os2 && bmp->compression > BI_RLE4))
         return fail(error, LAM_UNSUPPORTED, "%s: BMP with compression %u, expected %s", name, bmp->compression,

@@ -262,7 +262,7 @@ bool lam_text_draw(lam_image *image, lam_font *font, double x, double y, double 
     if (!(size_px >= 1 && size_px <= 1000))
         return fail(error, LAM_BAD_ARGUMENT, "text: the size is %g pixels, expected 1 to 1000", size_px);
     if (!(x > -1e6 && x < 1e6 && y > -1e6 && y < 1e6))
-        return fail(error, LAM_BAD_ARGUMENT, "text: its place is %g, %g, expected pixels of the picture", x, y);
+        return fail(error, LAM_BAD_ARGUMENT, "text: its position is %g, %g, expected pixels of the picture", x, y);
     walk(image, font, x, y, size_px, color, text);
     return true;
 }

@@ -11,7 +11,7 @@
 struct picture_file {
     const uint8_t *bytes;
     size_t size;
-    const char *name;          // stands for the file in messages
+    const char *name;          // the file's name in messages
     struct call_control *call; // checked while decoding, and charged for the pixels; may be NULL
 };
 
@@ -19,7 +19,7 @@ struct codec {
     const char *name;  // "png"; also the file-name ending, without its dot
     const char *title; // for messages: "PNG"
     const char *alias; // another file-name ending; NULL: none
-    // One line for lists: the numbers that a file holds. NULL: this format is only read, and `write` is NULL too.
+    // One line for lists: the stored numbers. NULL: this format is only read, and `write` is NULL too.
     const char *written;
     lam_pixel_format pixels;
     // Its files begin with no signature: it is tried after all others, and by the ending of a file's name.
@@ -80,7 +80,7 @@ bool picture_make_larger(const struct picture_file *file, uint32_t width, uint32
 // Frees a picture and refunds its bytes. `call` may be NULL; an empty picture is fine.
 void picture_free(struct call_control *call, lam_image *image);
 
-// Whether decoding goes on with row `y`; false: the error is filled.
+// Whether decoding continues with row `y`; false: the error is filled.
 static inline bool picture_continues(const struct picture_file *file, int64_t y, lam_error *error)
 {
     return y % 16 != 0 || call_should_continue(file->call) || call_error(file->call, error);

@@ -65,7 +65,7 @@ static const char *instead_of(const char *word)
         const char *words[12], *instead;
     } rows[] = {
         {{"mp4", "mov", "avi", "mkv", "webm", "m4v", "mpg", "mpeg", "ogv", "gif", "apng"},
-         "webp, which holds animations"},
+         "webp, which contains animations"},
         {{"bmp", "tga", "tif", "tiff", "heic", "avif", "jp2", "svg", "pdf", "eps", "ico"}, "png"},
         {{"hdr", "rgbe"}, "exr"},
         {{"obj", "stl", "ply", "gltf", "glb", "3mf", "json", "step", "fbx"}, "png"}, // models
@@ -99,7 +99,7 @@ static const struct codec *codec_for(const char *path, lam_error *error)
     if (!codec && *ending)
         fail_unknown(error, path, ".", ending);
     else if (!codec)
-        fail(error, LAM_UNSUPPORTED, "%s: the name has no ending for a picture format, expected %s", path,
+        fail(error, LAM_UNSUPPORTED, "%s: the name has no extension of a picture format, expected %s", path,
              list_names(".", list));
     return codec;
 }
@@ -155,7 +155,7 @@ bool lam_image_encode(const lam_image *image, const char *format, const lam_save
                       lam_error *error)
 {
     if (!out || !format)
-        return fail(error, LAM_BAD_ARGUMENT, "encode: a format and a place for the bytes are needed");
+        return fail(error, LAM_BAD_ARGUMENT, "encode: a format and a pointer for the bytes are needed");
     *out = (lam_bytes){0};
     const struct codec *codec = codec_named(format);
     if (!codec)
@@ -213,7 +213,7 @@ bool lam_bytes_save_durably(const lam_bytes *bytes, const char *path, lam_error 
 bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error)
 {
     if (!path || !format)
-        return fail(error, LAM_BAD_ARGUMENT, "format: a path and a place for the result are needed");
+        return fail(error, LAM_BAD_ARGUMENT, "format: a path and a pointer for the result are needed");
     const struct codec *codec = codec_for(path, error);
     if (codec)
         *format = codec->pixels;

@@ -7,7 +7,7 @@
 // Composes channels over a background: in linear light, unless the numbers are raw.
 struct compose {
     double linear[256];   // of a byte
-    double from[256];     // for i > 0 the smallest linear number that is rounded to byte i: that of (i − ½)/255
+    double from[256];     // for i > 0 the smallest linear number that is rounded to byte i: the value of (i − ½)/255
     double background[3]; // linear
     uint8_t clear[3];     // where alpha is 0
 };

@@ -275,7 +275,7 @@ static int place_of(const char *name)
     return found ? (int)(found - letters) : strcmp(name, "Y") == 0 ? 0 : -1;
 }
 
-// Whether every chunk is there, before memory is taken for the picture.
+// Whether every chunk is present, before memory is allocated for the picture.
 static exr_result_t find_chunks(const struct core *core, exr_context_t file, int top, int64_t height)
 {
     int32_t rows = 1;
@@ -354,8 +354,8 @@ static bool read_part(const struct core *core, exr_context_t file, const struct 
             continue;
         if (c->x_sampling != 1 || c->y_sampling != 1 || c->pixel_type == EXR_PIXEL_UINT)
             return fail(error, LAM_UNSUPPORTED,
-                        "%s: the EXR channel %s is subsampled or holds integers, expected floats for each pixel", name,
-                        shown_name(c->name.str, shown));
+                        "%s: the EXR channel %s is subsampled or contains integers, expected floats for each pixel",
+                        name, shown_name(c->name.str, shown));
         grey |= strcmp(c->name.str, "Y") == 0;
         found |= 1u << place;
     }
@@ -444,7 +444,7 @@ static bool exr_write(const lam_image *image, const lam_save_params *params, str
 bool lam_image_encode_layers(const lam_layer *layers, int count, lam_bytes *out, lam_error *error)
 {
     if (!layers || count < 1 || count > MAX_CHANNELS || !out)
-        return fail(error, LAM_BAD_ARGUMENT, "layers: expected 1 to %d, and a place for the bytes", MAX_CHANNELS);
+        return fail(error, LAM_BAD_ARGUMENT, "layers: expected 1 to %d, and a pointer for the bytes", MAX_CHANNELS);
     *out = (lam_bytes){0};
     for (int i = 0; i < count; i++) {
         const lam_image *image = layers[i].image, *first = layers[0].image;

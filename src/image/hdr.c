@@ -22,7 +22,7 @@ static bool hdr_probe(const uint8_t *bytes, size_t size)
 struct header {
     int width, height;
     bool up, left; // rows run upwards, pixels to the left
-    size_t pixels; // where they start
+    size_t pixels; // their start
 };
 
 // The end of the line that starts at `at`; NULL: the file ends within the line.
@@ -159,7 +159,7 @@ static void fill_scale(float scale[256])
         scale[exponent] = exponent > 10 ? (float)value : 0.0f;
 }
 
-// A file is small for its picture where a byte of it stands for more pixels: uncompressed ones take four bytes.
+// A file is small for its picture if each byte represents more pixels: uncompressed ones need four bytes.
 enum { PIXELS_OF_A_BYTE = 2 };
 
 static bool read_rows(const struct picture_file *file, const struct header *header, uint8_t *row, lam_image *image,

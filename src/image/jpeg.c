@@ -83,8 +83,9 @@ static bool charge_coefficients(struct reader *reader, lam_error *error)
     return reader->charged || call_memory_error(call, bytes, error);
 }
 
-// Cyan, magenta, yellow and black inks of one row to RGBA, without a colour profile: what an ink and black let through,
-// multiplied. 255 is no ink in files with Adobe's marker, which Photoshop began and every program follows, else 0.
+// Cyan, magenta, yellow and black inks of one row to RGBA, without a colour profile: the products of the light that an
+// ink and black transmit. 255 is no ink in files with Adobe's marker, which Photoshop began and every program follows,
+// else 0.
 static void mix_inks(uint8_t *row, size_t width, bool inverted)
 {
     const unsigned flip = inverted ? 0 : 255;
@@ -96,7 +97,7 @@ static void mix_inks(uint8_t *row, size_t width, bool inverted)
     }
 }
 
-// The part that libjpeg may jump out of (longjmp): it changes nothing but what its pointers lead to.
+// The part that libjpeg may jump out of (longjmp): it changes only memory behind its pointers.
 static bool decode(struct reader *reader, lam_image *image, lam_error *error)
 {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;
@@ -117,7 +118,7 @@ static bool decode(struct reader *reader, lam_image *image, lam_error *error)
     jpeg->do_fancy_upsampling =
         TRUE; // colours at half the size are interpolated linearly: integers, the same everywhere
     jpeg->do_block_smoothing = FALSE; // only matters to files that lack scans, which are refused
-    // The picture first: where there is no memory for it, the coefficients need none.
+    // The picture first: without memory for it, the coefficients need none.
     if (!picture_make(file, jpeg->image_width, jpeg->image_height, format, image, error) ||
         !charge_coefficients(reader, error))
         return false;

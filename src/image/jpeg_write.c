@@ -36,7 +36,7 @@ static void ignore_message(j_common_ptr jpeg, int level) { (void)jpeg, (void)lev
 
 static void print_nothing(j_common_ptr jpeg) { (void)jpeg; }
 
-// The part that libjpeg may jump out of (longjmp): it changes nothing but what its pointer leads to.
+// The part that libjpeg may jump out of (longjmp): it changes only memory behind its pointer.
 static bool encode(struct writer *writer, lam_error *error)
 {
     struct jpeg_compress_struct *jpeg = &writer->jpeg;

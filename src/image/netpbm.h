@@ -7,7 +7,7 @@
 struct netpbm_header {
     int width, height; // 1 … 65535
     double last;       // PPM: the largest value; PFM: the scale, whose sign is the byte order
-    size_t pixels;     // where they start
+    size_t pixels;     // their start
 };
 
 // Reads the header of a file whose first two bytes have been recognised: width, height and one more number, separated

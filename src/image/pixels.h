@@ -32,12 +32,12 @@ bool image_make_larger(lam_image *image, int width, int height, lam_pixel_format
 // Whether a picture of the caller's can be used: its pixels, size, format and stride. `what` begins the sentence.
 bool image_check(const lam_image *image, const char *what, lam_error *error);
 
-// `count` pixels from a format to its working format, and back. `raw`: luminance is that of the numbers as they are.
+// `count` pixels from a format to its working format, and back. `raw`: luminance of the unchanged numbers.
 void pixels_to_working(lam_pixel_format format, const void *from, int count, void *to);
 void pixels_from_working(lam_pixel_format format, bool raw, const void *from, int count, void *to);
 
-// The picture in its working format, without padding: itself where it is, else a copy. The caller frees `out`, which
-// frees a copy only.
+// The picture in its working format, without padding: itself if it has it, otherwise a copy. The caller frees `out`,
+// which frees a copy only.
 bool image_working(const lam_image *image, lam_image *out, lam_error *error);
 
 // A copy in its working format, in any case.

@@ -125,7 +125,7 @@ static bool fail_end(const struct tga *tga, const char *within, lam_error *error
                 within);
 }
 
-// A packet is a byte, and then one pixel that is repeated (bit 7) or several; it holds 1 to 128. Version 2 of the format
+// A packet is a byte, followed by one pixel that is repeated (bit 7) or by several, 1 to 128. Version 2 of the format
 // ends packets with their row, older files do not.
 static bool put_pixels(const struct tga *tga, const uint8_t *at, const lam_image *image, lam_error *error)
 {

@@ -1,7 +1,6 @@
 // webp.c: WebP, lossy and lossless with alpha, through libwebp, which is opened (dlopen) when a file is at hand and not
-// before. Read piece by piece, so that a long decoding can be stopped. Animations are not read. The bytes that are written
-// depend on the library's version.
-// https://developers.google.com/speed/webp/docs/riff_container
+// before. Read chunk by chunk, so that a long decoding can be stopped. Animations are not read. The bytes that are
+// written depend on the library's version. https://developers.google.com/speed/webp/docs/riff_container
 #include "codec.h"
 #include "dynamic_library.h"
 #include "fail.h"
@@ -72,7 +71,7 @@ static bool fail_status(const struct picture_file *file, int status, lam_error *
     }
 }
 
-// The file piece by piece; after each, all rows that it completes are there.
+// The file chunk by chunk; after each, all completed rows are available.
 static bool decode(const struct webp_library *webp, const struct picture_file *file, lam_image *image, lam_error *error)
 {
     size_t stride = 4 * (size_t)image->width;

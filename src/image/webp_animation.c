@@ -1,5 +1,5 @@
-// webp_animation.c: animated WebP, through libwebpmux, which is opened (dlopen) when an animation begins. The library stores
-// of each frame what changed; the bytes depend on its version.
+// webp_animation.c: animated WebP, through libwebpmux, which is opened (dlopen) when an animation begins. The library
+// stores the changes of each frame; the bytes depend on its version.
 #include "animation.h"
 #include "dynamic_library.h"
 #include "fail.h"
@@ -95,7 +95,7 @@ static bool animation_add(void *state, const lam_image *frame, const lam_save_pa
     struct call_control call;
     if (!webp_configure(webp, frame, params, &call, &config, &picture, error))
         return false;
-    picture.use_argb = 1; // what the encoder of animations takes
+    picture.use_argb = 1; // the input of the encoder of animations
     bool ok =
         call_should_continue(&call) && webp->WebPPictureImportRGBA(&picture, frame->pixels, 4 * frame->width) &&
         animation->WebPAnimEncoderAdd(animation->encoder, &picture, time_of(animation, animation->count), &config);

@@ -1,4 +1,4 @@
-// webp_library.h: libwebp, which webp.c opens, for what else encodes with it.
+// webp_library.h: libwebp, which webp.c loads, for other encoders.
 #ifndef WEBP_LIBRARY_H
 #define WEBP_LIBRARY_H
 

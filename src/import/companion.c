@@ -153,7 +153,7 @@ static bool open_beside(const struct import_source *source, const char *name, bo
         return fail(error, LAM_CANNOT_READ, "%s: leads out of the folder %s%s", out->shown, *root ? root : ".", advice);
     if (!real && errno == ENOMEM)
         return fail_memory(error, COMPANION_NAME_SIZE);
-    // The path that was checked is the one that is read. For a path that leads nowhere, reading reports why.
+    // The path that was checked is the one that is read. For a broken path, reading reports why.
     out->real = real ? arena_string(arena, real) : out->path;
     length = real && confined ? length : 0;
     free(real);
@@ -200,7 +200,7 @@ bool companion_open_of_scene(const struct import_source *source, const char *nam
         return open_by_caller(source, inside, arena, out, error);
     }
     return open_beside(source, name, !source->params->models_anywhere,
-                       ", where the files of a scene must lie (--files-inside)", arena, out, error);
+                       ", which must contain the files of a scene (--files-inside)", arena, out, error);
 }
 
 bool companions_of_model(const struct import_source *scene, const char *name, const struct companion *model,

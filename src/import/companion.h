@@ -20,7 +20,7 @@ struct companion {
     struct file_bytes file;
     const char *path;  // opens it; NULL: it came from the caller's function
     const char *real;  // the same for every way to name the file: its path without links, or its name for the function
-    const char *shown; // stands for it in messages: the folder, and the name cut by shown_name
+    const char *shown; // its name in messages: the folder, and the name shortened by shown_name
 };
 
 // import_source.open. The name is confined first (companion_name); the file must lie in the model's folder or below, or in one

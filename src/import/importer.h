@@ -39,12 +39,12 @@ struct importer {
     lam_up up;              // the format's up axis
     bool up_is_habit;       // the format has none: `up` is what most programs write, and a terrain may tell otherwise
     bool is_scene_file;     // names other models, whose normals and origins it prepares itself
-    bool flat_normals;      // the format says that meshes without normals have those of their triangles
+    bool flat_normals;      // the format demands that meshes without normals use their triangles'
     // Whether the bytes are of this format: 0 no, 1 possibly (the file's extension decides), 2 certainly.
     int (*probe)(const uint8_t *bytes, size_t size);
     // Fills an empty scene: meshes, materials, one object per mesh. On failure the caller frees the scene.
     bool (*load)(const struct import_source *source, struct lam_scene *scene, lam_error *error);
-    // Optional. Loads a large file part by part; the source holds its first FILE_HEAD bytes. False if the layout is
+    // Optional. Loads a large file part by part; the source contains its first FILE_HEAD bytes. False if the layout is
     // not supported or the file has an error: the caller then runs `load` with an empty scene and the whole file.
     bool (*load_stream)(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
 };
@@ -56,7 +56,7 @@ struct importer {
 IMPORTERS(IMPORTER)
 #undef IMPORTER
 
-// The crease angle for scene_prepare, of a load with these parameters (0: the default). Flat normals are those of facets.
+// The crease angle for scene_prepare, of a load with these parameters (0: the default). Flat normals are facet normals.
 static inline double importer_crease(const struct importer *importer, lam_normals normals, double crease_angle_rad)
 {
     return importer->flat_normals && normals == LAM_NORMALS_FILE && crease_angle_rad == 0 ? FACET_CREASE_RAD

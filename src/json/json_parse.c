@@ -233,7 +233,7 @@ static json_t *read_number(struct parser *p)
     else if (number_double(from, to, &number) == to && number - number == 0)
         value = json_real(number);
     else
-        fail_found(p, "a number that a double can hold");
+        fail_found(p, "a number within the range of a double");
     if (!value)
         return number - number == 0 ? no_memory(p, NULL) : NULL;
     p->at = at;
@@ -279,6 +279,13 @@ static json_t *read_list(struct parser *p, int depth)
     return drop(list);
 }
 
+static void fail_twice(struct parser *p, const char *start, const char *key)
+{
+    char text[128];
+    snprintf(text, sizeof text, "the key '%.60s' is given twice", key);
+    fail_at(p, start, text);
+}
+
 // One pair of key and value.
 static bool read_pair(struct parser *p, json_t *object, int depth)
 {
@@ -292,7 +299,7 @@ static bool read_pair(struct parser *p, json_t *object, int depth)
         return false;
     json_t *value = NULL;
     if (json_object_get(object, key))
-        fail_at(p, start, "the key is given twice");
+        fail_twice(p, start, key);
     else if (!accept(p, ':'))
         fail_found(p, "':'");
     else

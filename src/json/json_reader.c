@@ -118,7 +118,9 @@ bool json_number_of(const struct json_reader *r, const struct place *place, cons
         *out = number;
         return true;
     }
-    if (min > -1e30 && max < 1e30)
+    if (min == max)
+        snprintf(expected, sizeof expected, "%.10g", min);
+    else if (min > -1e30 && max < 1e30)
         snprintf(expected, sizeof expected, "a number from %.10g to %.10g", min, max);
     else if (min > -1e30)
         snprintf(expected, sizeof expected, "a number of at least %.10g", min);

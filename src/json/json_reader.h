@@ -1,5 +1,5 @@
-// json_reader.h: values of a JSON file, checked as they are taken: each error names the file, the place in it, what was
-// found and what is expected. Scene files and contracts of shaders are read with it.
+// json_reader.h: values of a JSON file, checked on access: each error names the file, the position in it, the value
+// found and the expected one. Scene files and contracts of shaders are read with it.
 #ifndef JSON_READER_H
 #define JSON_READER_H
 
@@ -44,7 +44,7 @@ bool json_unexpected(const struct json_reader *r, const struct place *place, con
 enum { JSON_KIND_SIZE = SHOWN_NAME_SIZE + 2 };
 const char *json_kind(const json_t *value, char out[JSON_KIND_SIZE]);
 
-// Keys that may stand in an object; another one is an error that names the nearest. The list ends with NULL.
+// Allowed keys of an object; another one is an error that names the nearest. The list ends with NULL.
 bool json_check_keys(const struct json_reader *r, const struct place *place, const json_t *object,
                      const char *const *keys);
 

@@ -1,4 +1,4 @@
-// clear_models.h: scenes of which a picture would show nothing, because all of it is fully transparent.
+// clear_models.h: makes a scene visible whose picture would be empty because everything is fully transparent.
 #ifndef CLEAR_MODELS_H
 #define CLEAR_MODELS_H
 

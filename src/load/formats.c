@@ -53,7 +53,7 @@ static bool has_ending(const struct importer *importer, const char *ending)
     return false;
 }
 
-// Content decides. Where content is ambiguous, the name's ending does.
+// Content decides. If the content is ambiguous, the extension decides.
 const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
                                     lam_error *error)
 {

@@ -9,7 +9,7 @@ enum { FORMAT_LIST_SIZE = 128 };
 const char *format_list(char out[FORMAT_LIST_SIZE]);
 
 // The importer for these bytes: by content, else by the name's ending; `wanted`: by this name of a format. NULL and the
-// reason where there is none.
+// reason if there is none.
 const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
                                     lam_error *error);
 

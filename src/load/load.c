@@ -36,7 +36,7 @@ static bool check_not_empty(const struct lam_scene *scene, const char *name, lam
     uint64_t items = 0;
     for (int i = 0; i < scene->meshes.count; i++)
         items += mesh_items(scene_mesh(scene, i));
-    return items || fail(error, LAM_CANNOT_READ, "%s: holds no triangles, lines or points", name);
+    return items || fail(error, LAM_CANNOT_READ, "%s: contains no triangles, lines or points", name);
 }
 
 static struct lam_scene *start_scene(const struct import_source *source, const struct importer *importer,

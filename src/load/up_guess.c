@@ -1,4 +1,4 @@
-// up_guess.c: the up axis of a model whose format has none, where its shape leaves no doubt.
+// up_guess.c: the up axis of a model whose format has none, if its shape is unambiguous.
 #include "up_guess.h"
 
 #include "linear.h"
@@ -7,11 +7,11 @@
 
 // A terrain: a surface that is much thinner along z than along x and y, and nearly all of which faces +z.
 #define THIN     0.3
-#define NOT_FLAT 0.01 // a flat picture may well stand upright
+#define NOT_FLAT 0.01 // a flat picture is often upright
 #define FACING   0.6
 #define EVEN     0.999 // cards that lie over one another have no slopes
 
-// Adds the areas of a mesh's triangles: of all, and with the sign of z of those that lie across z.
+// Adds the areas of a mesh's triangles: of all, and, with the sign of z, of triangles perpendicular to z.
 static void add_areas(const lam_mesh *mesh, double *all, double *facing)
 {
     for (size_t t = 0; t < mesh->triangle_count; t++) {

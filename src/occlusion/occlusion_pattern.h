@@ -1,6 +1,6 @@
 // occlusion_pattern.h: the rays of ambient occlusion that every lit point sends.
 //
-// Directions are those of the points of a disc over which the hemisphere stands (Malley's method: each then has an equal share
+// Directions come from points of a disc below the hemisphere (Malley's method: each then has an equal share
 // of the cosine-weighted integral); the disc has the spiral of Vogel (1979), as lights with a size have it
 // (light_pattern.h). Every lit point turns the disc by an angle of its own, so that the steps become fine grain. A surface at the distance d occludes by the share
 //     w(d) = clamp((radius − d) / (OCCLUSION_FADING radius), 0, 1)

@@ -6,8 +6,8 @@
 
 enum { LANES_MAX = 16 };
 
-// Rows have LANES_MAX floats more at either end, planes of cells stand in front of those of pixels.
-// In pieces, by all threads: first use of the memory of a large picture takes seconds, in which the call may be stopped.
+// Rows have LANES_MAX floats more at either end, and planes of cells precede the planes of pixels. In pieces, by all
+// threads: first use of the memory of a large picture takes seconds, in which the call may be stopped.
 enum { PIECE = 1 << 17, CELL_PLANES = 5 };
 struct emptying {
     float *at;

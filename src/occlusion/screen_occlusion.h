@@ -29,16 +29,16 @@ struct screen_occlusion {
     float radius;        // within which surfaces occlude, eye units; 0: there is none of this size
     float cavity_radius; // the same of the cavity (lam_cavity)
     bool ridges;         // the cavity's ridges are lighter
-    // Distance in front of the eye of the surface at each pixel, SCREEN_EMPTY where there is none: a plane for each pixel of
-    // a cell (screen_pixel). To be filled by the caller, with SCREEN_EMPTY beside the picture (screen_occlusion_start
-    // does that).
+    // Distance in front of the eye of the surface at each pixel, SCREEN_EMPTY if there is none: a plane for each pixel
+    // of a cell (screen_pixel). To be filled by the caller, with SCREEN_EMPTY beside the picture
+    // (screen_occlusion_start does that).
     float *depth;
     float *cell_depth; // of each cell: the first of its pixels that shows a surface
     // Of the surface of each cell, found with its occlusion: how the distance grows from cell to cell.
     float *slope_x, *slope_y;
     float *noisy, *smoothed; // before the filter, and after its first pass
-    // The result, in the order of `depth` and, with step 2, in its place: 1 where all light from around arrives … 0 where none does,
-    // and more than 1 on ridges.
+    // The result, in the order of `depth` and, with step 2, in its memory: 1 if all light from around arrives … 0 if
+    // none does, and more than 1 on ridges.
     float *unoccluded;
 };
 
@@ -58,7 +58,7 @@ static inline size_t screen_pixel(const struct screen_occlusion *o, int x, int y
            (size_t)(x >> half);
 }
 
-// The distance of a frame's ground at a pixel's centre, SCREEN_EMPTY where it is not seen.
+// The distance of a frame's ground at a pixel's centre, SCREEN_EMPTY if it is not visible.
 static inline float screen_ground_depth(const struct frame *frame, int x, int y)
 {
     const struct frame_ground *ground = &frame->ground;
@@ -80,8 +80,9 @@ static inline float screen_ground_depth(const struct frame *frame, int x, int y)
     return seen && (dx * dx + dy * dy) + dz * dz < end * end ? depth : SCREEN_EMPTY;
 }
 
-// Sets up a picture's rows in `storage`, without any surface, by several threads (`pool` NULL: one). `lent` is memory, if any,
-// that nothing else uses from screen_occlusion_find on until the result has been read; the cells lie there where it is large enough.
+// Sets up a picture's rows in `storage`, without any surface, by several threads (`pool` NULL: one). `lent` is memory,
+// if any, that nothing else uses from screen_occlusion_find on until the result has been read; the cells lie there if
+// it is large enough.
 bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct scratch_memory lent,
                             struct buffer *storage, struct pool *pool, struct call_control *call, lam_error *error);
 

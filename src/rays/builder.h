@@ -8,8 +8,8 @@
 // Triangles are prepared, and the largest ranges divided, in pieces of this many.
 enum { RAY_PIECE = 4096 };
 
-// The box of a triangle. low[3] holds the bits of its number, high[3] those of 1. Or that of a cell's triangles (cells.c), of
-// which low[3] has the first and high[3] the count.
+// The box of a triangle. low[3] contains the bits of its number, high[3] the bits of 1. Or of a cell's triangles
+// (cells.c): low[3] is the first and high[3] the count.
 struct primitive {
     _Alignas(16) float low[4];
     float high[4];
@@ -50,8 +50,8 @@ struct builder {
 // Fills primitives, and the hierarchy's centre and scale.
 bool ray_triangles_prepare(struct builder *builder, lam_error *error);
 
-// The nodes below a range of so many triangles, at most. A node with fewer than NODE_CHILDREN children has leaves alone, and
-// more than LEAF_MIN triangles; hence, by induction, (2 count − 1)/7.
+// The largest number of nodes below a range of this many triangles. A node with fewer than NODE_CHILDREN children has
+// leaves alone, and more than LEAF_MIN triangles; hence, by induction, (2 count − 1)/7.
 static inline uint32_t ray_nodes_below(uint32_t count) { return count ? (uint32_t)((2 * (uint64_t)count - 1) / 7) : 0; }
 
 // Divides the primitives into nodes and leaves.

@@ -1,10 +1,10 @@
 // cells.c: divides large ranges of a hierarchy's triangles, and hands the small ones out.
 //
-// The middles of a large range's triangles are sorted into the cells of a grid, and the range is divided by the boxes of
-// its cells in place of the triangles', of which there are many times more. A part of few triangles leaves its cells and is
-// divided by one thread (splits.c); so is one that fills a cell, within a grid of its own where it is large.
-// Pieces of work follow from the number of triangles, and a range's nodes have a place that follows from its triangles
-// alone, so neither the threads nor their number matter.
+// The middles of a large range's triangles are sorted into the cells of a grid, and the range is divided by the boxes
+// of its cells in place of the far more numerous triangles. A range of few triangles leaves its cells and is divided by
+// one thread (splits.c); so is one that fills a cell, within a grid of its own if it is large. Tasks follow from the
+// number of triangles, and a range's nodes have a position that follows only from its triangles, so neither the threads
+// nor their number matter.
 #include "ranges.h"
 
 #include "fail.h"
@@ -38,7 +38,7 @@ struct large {
     struct grid grid;
     uint32_t piece, pieces;  // triangles sorted together
     uint16_t *keys;          // of each triangle, its cell
-    uint32_t *places;        // of each piece and cell: how many triangles, then where the next one goes
+    uint32_t *places;        // of each task and cell: the number of triangles, then the position of the next one
     struct primitive *cells; // those with triangles
     uint32_t used_cells;
     struct box *boxes;          // of each piece: of its triangles, and of twice their middles

@@ -1,8 +1,8 @@
 // hierarchy.h: a bounding volume hierarchy over all triangles of a frame, for rays.
 //
 // Whether a ray meets a triangle is decided by one test in double (ray_lanes.h), so the answer to "does anything lie in
-// the way?" does not depend on the hierarchy: its boxes are only conservative. It is built from fixed pieces of work and
-// is the same for any number of threads, all the same, since what is drawn by OpenGL reads it too.
+// the way?" does not depend on the hierarchy: its boxes are only conservative. It is built from fixed tasks and is
+// identical for any number of threads; OpenGL also reads it.
 #ifndef HIERARCHY_H
 #define HIERARCHY_H
 
@@ -20,7 +20,7 @@ struct ray_triangle {
 // A node: the boxes of its children, conservative floats. Four cache lines.
 enum { NODE_CHILDREN = 8 };
 struct ray_node {
-    _Alignas(64) float planes[2][3][NODE_CHILDREN]; // low and high, by axis; where there is no child, 3e38 and −3e38
+    _Alignas(64) float planes[2][3][NODE_CHILDREN]; // low and high, by axis; without a child, 3e38 and −3e38
     uint32_t child[NODE_CHILDREN];                  // count 0: the number of a node; else the first triangle
     uint32_t count[NODE_CHILDREN];                  // triangles of a leaf
 };
@@ -34,15 +34,15 @@ struct hierarchy {
     // From world space: p → (p − centre) scale, so that all corners lie within −1…1. The scale is a power of two.
     double centre[3], scale;
     const struct ray_node *nodes;         // the root first
-    const struct ray_triangle *triangles; // in the order of the leaves; one more may stand behind them
-    uint32_t node_count;                  // entries of `nodes`, of which some are not used, and 0
+    const struct ray_triangle *triangles; // in the order of the leaves; one more may follow them
+    uint32_t node_count;                  // entries of `nodes`, some unused, and 0
     uint32_t triangle_count;
     const uint32_t *twins; // of each triangle of the frame, as ray_triangle.twin
     // How far, along each axis, rounding may have moved a corner from where its file means it, and a point of its triangle.
     double rounding[3];
 };
 
-// The hierarchy that a device keeps from frame to frame, and what it was built from.
+// The hierarchy that a device keeps from frame to frame, and its input.
 struct hierarchy_memory {
     struct hierarchy hierarchy;
     struct buffer nodes, triangles, twins, scratch, sources;

@@ -23,8 +23,8 @@ struct light_rays {
     uint64_t sent; // rays
 };
 
-// A ray through an edge crosses both of its triangles, which an opaque surface does not mind. Of translucent ones it counts
-// for one: that which has the edge on one side, seen along the ray, as coverage has it.
+// A ray through an edge crosses both of its triangles, which an opaque surface does not mind. Of translucent ones it
+// counts for one: the one with the edge on one side, seen along the ray, as in coverage.
 static bool owns_edges(const struct ray_triangle *triangle, const double origin[3], const double d[3],
                        const double weights[3])
 {
@@ -45,7 +45,8 @@ static bool owns_edges(const struct ray_triangle *triangle, const double origin[
     return true;
 }
 
-// Notes what a translucent triangle lets through, and returns the rays that it ends. The side that the light falls on counts.
+// Records the light that a translucent triangle lets pass, and returns the rays that it ends. The side that the light
+// falls on counts.
 static unsigned filter_ray(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
                            const struct ray_view *view, unsigned lanes)
 {
@@ -242,7 +243,7 @@ LANE_FN void rays_to_light(struct ray_lanes *ray, const struct light_rays *r, co
     }
 }
 
-// The share of a light that reaches LANES points, those of `active`; for each of passed_channels.
+// The share of a light that reaches LANES points, the `active` ones; for each of passed_channels.
 LANE_FN void trace_light(struct light_rays *r, const struct ray_starts *from, const struct frame_light *light,
                          unsigned active, float passed[3][LANES])
 {

@@ -1,4 +1,4 @@
-// opacity.h: what a triangle keeps of the light that crosses it, and what it lets through.
+// opacity.h: the shares of crossing light that a triangle blocks and lets pass.
 #ifndef OPACITY_H
 #define OPACITY_H
 
@@ -8,8 +8,9 @@
 // level 0. A masked surface has 0 or 1. `back`: of its back side.
 float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b1, float b2);
 
-// The light that such a point lets through, red, green, blue: 1 − opacity, and of the opaque share what goes on behind a
-// surface that transmits: transmission (1 − metallic) · base. The boundary of a volume counts where light enters it.
+// The light that such a point lets pass, red, green, blue: 1 − opacity, and of the opaque share the light that
+// continues behind a transmitting surface: transmission (1 − metallic) · base. The boundary of a volume counts where
+// light enters it.
 void ray_transmittance(const struct frame *frame, uint32_t number, bool back, float b1, float b2, float out[3]);
 
 // The translucent triangles in the way of rays that travel together.

@@ -22,7 +22,7 @@ enum {
     BALANCED_AT = 48 // nodes above one that is divided in the middle
 };
 
-// Four floats of which the last means nothing.
+// Four floats; the last is unused.
 struct box {
     num low, high;
 };
@@ -45,13 +45,13 @@ static inline float half_area(struct box b)
     return lane(d, 0) * lane(d, 1) + lane(d, 1) * lane(d, 2) + lane(d, 2) * lane(d, 0);
 }
 
-// Primitives of which nodes are to be made.
+// Primitives that become nodes.
 struct range {
     uint32_t first, count; // triangles
     uint32_t node;         // the first of ray_nodes_below(count) nodes that it may use
     int depth;
     bool sorted;                     // the middles are the same; the primitives lie in the order of sort_group
-    uint32_t first_cell, cell_count; // the cells that hold the triangles; none: builder.primitives does
+    uint32_t first_cell, cell_count; // the cells that contain the triangles; none: builder.primitives does
     struct box box, middles;         // of the primitives or cells; of twice the middles of their boxes
     float area;                      // half of the box's
     uint32_t *child, *child_count;   // where its node or leaf is entered; NULL: it is the root
@@ -74,7 +74,7 @@ static inline void halves_of(struct range *r, uint32_t left, const struct box bo
     r->area = half_area(boxes[0]);
 }
 
-// The part with the largest box of those that are `open` to be divided; −1: none is.
+// The part with the largest box among the ones `open` to division; −1: none is.
 static inline int widest_part(const struct range *parts, const bool *open, int count)
 {
     int widest = -1;
@@ -205,13 +205,13 @@ static inline uint32_t partition(struct primitive *p, uint32_t count, const stru
 // The box of a range's primitives and of twice their middles.
 void range_measure(const struct primitive *p, uint32_t count, struct box *box, struct box *middles);
 
-// Divides a range in two: itself, and *right. False: it is to be a leaf, or there is no memory.
+// Divides a range in two: itself, and *right. False: it becomes a leaf, or there is no memory.
 bool range_halve(struct builder *builder, struct range *range, struct range *right);
 
 // Enters the node of a range that was divided into `parts`, and says where theirs go.
 void range_enter_node(struct builder *builder, const struct range *range, struct range *parts, int count);
 
-// Makes the nodes of a range, or a leaf where it is not divided. The root is a node always.
+// Makes the nodes of a range, or a leaf if it is not divided. The root is a node always.
 void range_divide(struct builder *builder, const struct range *range);
 
 #endif

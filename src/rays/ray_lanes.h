@@ -33,9 +33,9 @@ struct ray_lanes {
     double point[3][LANES]; // that the ray leaves: its origin, unless that was moved off the surface
 };
 
-// Rays seen along their directions d, of which component k is the largest: x = p_i − (d_i/d_k) p_k, y = p_j − (d_j/d_k) p_k
-// and z = p_k/d_k with i, j after k. One of the three factors of a row is 1 and one 0, which are exact: rays of different k
-// can go through the same operations, and those that have k in common through fewer, with the same results.
+// Rays seen along their directions d with k as the largest component: x = p_i − (d_i/d_k) p_k, y = p_j − (d_j/d_k) p_k
+// and z = p_k/d_k with i, j after k. One of the three factors of a row is 1 and one 0, which are exact: rays of
+// different k can go through the same operations, and those that have k in common through fewer, with the same results.
 struct ray_view {
     _Alignas(64) double x[3][LANES], y[3][LANES], z[3][LANES];
     unsigned of_k[3]; // the rays with each k
@@ -175,7 +175,7 @@ struct box_rays {
     _Alignas(64) float low[3][LANES], high[3][LANES]; // the origin, to be taken from a box's low and high planes
     float direction[3][LANES], inverse[3][LANES], end[LANES];
     unsigned down[3]; // the rays that meet the high plane of an axis first
-    unsigned proper;  // those that go anywhere: not from a light to itself, which meets nothing
+    unsigned proper;  // rays with a direction: not from a light to itself, which meets nothing
 };
 
 LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
@@ -300,7 +300,7 @@ LANE_FN unsigned meets_child(const struct box_rays *b, const struct ray_bundle *
 
 // --- the walk
 
-// Decides about the rays that a triangle is in the way of: returns those of `lanes` that end there.
+// Decides about the rays that a triangle may block: returns the `lanes` that end there.
 typedef unsigned ray_filter(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
                             const struct ray_view *view, unsigned lanes);
 
@@ -327,7 +327,7 @@ LANE_FN unsigned walk_bundle(const struct hierarchy *h, const struct ray_lanes *
         int i = __builtin_ctz(children);
         uint32_t child = node->child[i], count = node->count[i];
         children &= children - 1;
-        if (children) { // what comes next
+        if (children) { // the next node
             int next = __builtin_ctz(children);
             __builtin_prefetch(node->count[next] ? (const void *)&h->triangles[node->child[next]]
                                                  : (const void *)&h->nodes[node->child[next]]);

@@ -1,7 +1,7 @@
 // ray_triangles.c: the triangles of a frame in the hierarchy's space, and their boxes.
 //
-// Corners are computed where they are needed, which is three times: for the extent of everything, for boxes, and for the
-// leaves. To store them first would take more time, most of it for memory.
+// Corners are computed on demand, three times: for the total extent, for boxes, and for the leaves. To store them first
+// would take more time, most of it for memory.
 #include "ray_triangles.h"
 
 #include "fail.h"

@@ -185,7 +185,7 @@ static void sort_corners(double p[3][3])
     }
 }
 
-// More triangles than a leaf holds, all with the same middle: sorts them, and finds twins. Any halves will do then.
+// More triangles than fit into a leaf, all with the same middle: sorts them, and finds twins. Any halves will do then.
 static bool sort_group(struct builder *b, const struct range *r)
 {
     struct placement place = {0};
@@ -220,16 +220,15 @@ static bool sort_group(struct builder *b, const struct range *r)
     return true;
 }
 
-// Divides a range of few triangles at the middle between the outermost middles, which is hardly worse there than the best of
-// many boundaries, and much sooner found. False: it is to be a leaf.
+// Divides a range of few triangles at the middle between the outermost middles, which is hardly worse there than the
+// best of many boundaries, and much sooner found. False: it becomes a leaf.
 static bool halve_few(struct primitive *p, struct range *r, int axis, struct range *right)
 {
     struct primitive sorted[MIDDLE_MAX];
     float low = lane(r->middles.low, axis), high = lane(r->middles.high, axis), middle = 0.5f * low + 0.5f * high;
     float boundary = middle > low ? middle : high; // both sides have triangles
     uint32_t left = 0, end = r->count;
-    for (uint32_t i = 0; i < r->count;
-         i++) { // without branches: to the front and to the back, of which one place is kept
+    for (uint32_t i = 0; i < r->count; i++) { // without branches: to the front and to the back; one of both is kept
         bool on_left = p[i].low[axis] + p[i].high[axis] < boundary;
         sorted[left] = sorted[end - 1] = p[i];
         left += on_left;
@@ -277,7 +276,7 @@ bool range_halve(struct builder *b, struct range *r, struct range *right)
     return true;
 }
 
-// Makes the nodes of a range, or a leaf where it is not divided. The root is a node always.
+// Makes the nodes of a range, or a leaf if it is not divided. The root is a node always.
 static void divide(struct builder *b, const struct range *r, struct placement *place)
 {
     struct range parts[NODE_CHILDREN];

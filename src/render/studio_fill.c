@@ -6,7 +6,8 @@
 
 #include <stdio.h>
 
-// The luminance below which a pixel counts as black, and that of a surface which could be seen if it were lit.
+// The luminance below which a pixel counts as black, and the luminance of a surface that would be visible if it were
+// lit.
 #define BLACK 0.01
 #define DARK  0.05
 

@@ -191,7 +191,7 @@ static bool holds(const struct fitting *fitting, const lam_camera *camera, const
            extents.value[EXTENT_BOTTOM] <= -y + extents.ky * z + half_height;
 }
 
-// Replaces the camera where it does not hold the scene at every angle by one that does.
+// Replaces the camera, if it does not show the whole scene at every angle, by one that does.
 static void fit_turning(const struct fitting *fitting, const lam_scene *scene, lam_vec3 centre, lam_vec3 axis,
                         lam_camera *camera)
 {
@@ -208,12 +208,12 @@ static void fit_turning(const struct fitting *fitting, const lam_scene *scene, l
                                      .back = mat4_vector(&turn, fitting->axes.back),
                                      .centre = centre};
     }
-    // A quarter of the margin is left, which is more than what lies between two angles.
+    // A quarter of the margin remains, which is more than the difference between two angles.
     if (!holds(fitting, camera, &points, fitting->fill + 0.75 * (1 - fitting->fill)))
         *camera = fit(fitting, &points, fitting->fill);
 }
 
-// lam_camera_fit, or with an axis lam_camera_fit_turning, with this fill where the view has none.
+// lam_camera_fit, or with an axis lam_camera_fit_turning, with this fill if the view sets none.
 static lam_camera fit_view(const lam_scene *scene, int width, int height, const lam_view *view, lam_vec3 centre,
                            const lam_vec3 *axis, double fill)
 {

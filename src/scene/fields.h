@@ -26,9 +26,9 @@ struct material_field {
     // field appears only within those products.
     const char *product, *product_summary;
     enum field_reader reader;
-    bool optional; // a scene file leaves it out where it is 0, which is the default
+    bool optional; // a scene file omits it if it is 0, the default
     bool physical; // only physical materials have it: writing it makes a material physical
-    int layer;     // of FIELD_LAYER: LAYER_… that reads it; a scene file leaves it out where it is the default
+    int layer;     // of FIELD_LAYER: LAYER_… that reads it; a scene file omits it if it is the default
 };
 const struct material_field *material_field(int index); // NULL past the end
 
@@ -39,7 +39,7 @@ int map_layer(lam_map map);
 
 struct light_field {
     lam_field field;                              // first
-    bool optional;                                // a scene file leaves it out where it is 0
+    bool optional;                                // a scene file omits it if it is 0
     enum { ANY_CONE, HARD_CONE, SOFT_CONE } cone; // a spot has the fields of one law: soft where outer_rad > 0
 };
 const struct light_field *light_field(int index);

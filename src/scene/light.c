@@ -82,15 +82,15 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
     return light;
 }
 
-// The default rig. The key stands near, 3.2 halves of the box's diagonal from the centre, in front and to the left, so that the
+// The default rig. The key light is near, 3.2 halves of the box's diagonal from the centre, in front and to the left, so that the
 // light changes across a flat face: from 1.3 times its strength on the side of the model that faces it to 0.75 on the other.
-// The rim light stands above and behind: tops are brightest, sides that face left are darker, those that face right darkest,
+// The rim light comes from above and behind: tops are brightest, sides that face left darker, sides that face right darkest,
 // and the three faces of a cube differ from each azimuth. A point reflects ka or kd times at most
 //
 //   0.64·1.33 (key) + 0.19 (sky, there) = 1.04
 //
 // at the corner of the box that is nearest to the key. Where shadows are cast (--shadows, --ground), the key alone
-// casts them, soft ones: the others stand for large surfaces, whose shadows are ambient occlusion.
+// casts them, soft ones: the others represent large surfaces, whose shadows are ambient occlusion.
 static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = lam_light_default(LAM_LIGHT_POINT);

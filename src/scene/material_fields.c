@@ -45,7 +45,7 @@ static const struct material_field rows[] = {
                .summary = "exponent of the highlight"},
      .reader = FIELD_LOBE},
     {.field = {MEMBER(reflectivity), .symbol = "kr", .type = LAM_FIELD_RGB, .max = UNBOUNDED,
-               .summary = "kr: share of the environment that is mirrored"},
+               .summary = "kr: share of the environment that the material reflects"},
      .reader = FIELD_ENVIRONMENT},
     {.field = {.name = "diffuse.a",
                .key = "opacity",
@@ -83,7 +83,7 @@ static const struct material_field rows[] = {
     LAYER(clearcoat, CLEARCOAT, .max = 1, .summary = "share of the surface under a clear coat"),
     LAYER(clearcoat_roughness, CLEARCOAT, .max = 1, .summary = "of the coat, as roughness"),
     LAYER(sheen_color, SHEEN, .type = LAM_FIELD_RGB, .max = 1,
-          .summary = "colour of fibres that stand up from the surface: velvet"),
+          .summary = "colour of fibres perpendicular to the surface: velvet"),
     LAYER(sheen_roughness, SHEEN, .max = 1, .summary = "how much these fibres lean"),
     LAYER(anisotropy, ANISOTROPY, .max = 1, .summary = "how much the highlight is stretched: brushed metal"),
     {.field = {.name = "anisotropy_rotation_rad",
@@ -105,12 +105,12 @@ static const struct material_field rows[] = {
     LAYER(iridescence_thickness_max, IRIDESCENCE, .max = 1e6, .standard = {400}, .unit = "nm",
           .summary = "thickness of the film where its map is 1, or without a map"),
     LAYER(transmission, TRANSMISSION, .max = 1,
-          .summary = "share of the light in a dielectric that goes on behind it: glass"),
+          .summary = "share of the light in a dielectric that continues behind it: glass"),
     LAYER(thickness, VOLUME, .max = UNBOUNDED, .summary = "of the volume behind the surface; 0: none"),
     LAYER(attenuation_distance, VOLUME, .max = UNBOUNDED,
           .summary = "after which attenuation_color is left of white light; 0: infinite"),
     LAYER(attenuation_color, VOLUME, .type = LAM_FIELD_RGB, .max = 1, .standard = GREY(1),
-          .summary = "what the volume leaves of white light"),
+          .summary = "white light after it has passed the volume"),
 };
 enum { COUNT = sizeof rows / sizeof *rows };
 _Static_assert((int)COUNT <= LAM_FIELDS_MAX, "more fields than LAM_FIELDS_MAX");

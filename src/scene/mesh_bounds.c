@@ -128,7 +128,7 @@ static void shift_piece(void *user, size_t index, int thread)
 
 // Gives a mesh that lies far from zero an origin, so that drawing, which computes in floats, keeps the detail that its
 // positions have. The new positions are exact: they and the origin are multiples of the old ones' last places, and
-// smaller. The mesh's arrays are the scene's own; where meshes share them, the mesh gets an array of its own. False: out
+// smaller. The mesh's arrays are the scene's own; if meshes share them, the mesh gets an array of its own. False: out
 // of memory.
 static bool move_origin(struct lam_scene *scene, lam_mesh *mesh, struct aabb_tree *boxes, struct pool *pool,
                         lam_error *error)

@@ -85,7 +85,7 @@ struct lam_scene {
     lam_material default_material;   // of parts without a material
     lam_environment *environment;    // shared with others; NULL: none
     double environment_rotation_rad; // about the up axis
-    struct lazy_environment *studio; // the light where there is none (scene_lit_by_environment)
+    struct lazy_environment *studio; // the light if there is no other (scene_lit_by_environment)
     lam_color_mode color;            // the interpretation of the file's colours
     const char *format;
     lam_file_info file; // of a glTF file
@@ -102,8 +102,8 @@ struct lam_scene {
 struct lam_scene *scene_make(struct call_control *call, lam_error *error);
 void scene_built(struct lam_scene *scene);
 
-// Whether a scene has no lights, and a physical material of its own that is lit: the environment is then its light, or
-// where it has none the built-in studio, in place of a rig.
+// Whether a scene has no lights, and a lit physical material of its own: the environment is then its light, or without
+// one the built-in studio, in place of a rig.
 bool scene_lit_by_environment(const struct lam_scene *scene);
 
 struct scene_token *scene_token_hold(struct scene_token *token);
@@ -148,22 +148,21 @@ void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double cr
 // Whether some mesh has a material with a normal map and no tangents.
 bool scene_needs_tangents(const struct lam_scene *scene);
 
-// Gives surfaces with colours of their own and no material a white one, so that the colours are what they return; the
-// neutral grey would darken them. For a scene that was just read. False: out of memory.
+// Gives surfaces with colours of their own and no material a white one, so that they reflect their colours; the neutral
+// grey would darken them. For a scene that was just read. False: out of memory.
 bool scene_give_colors_white(struct lam_scene *scene, lam_error *error);
-// Gives each such mesh, or with `all` every mesh, that has normals, texture coordinates and no tangents those of MikkTSpace,
-// for the texture coordinates of the normal map. Charged to `call`.
+// Gives MikkTSpace's tangents to each such mesh, or with `all` to every mesh, that has normals, texture coordinates and
+// no tangents, for the texture coordinates of the normal map. Charged to `call`.
 bool scene_make_tangents(struct lam_scene *scene, bool all, struct call_control *call, lam_error *error);
 
-// Computes the extents of new meshes, and gives those that lie far from zero an origin (origin.h), which changes their
-// positions in place. Every public function that adds meshes ends with it, so that read access never writes. False: out
-// of memory.
+// Computes the extents of new meshes, and gives distant meshes an origin (origin.h), which changes their positions in
+// place. Every public function that adds meshes ends with it, so that read access never writes. False: out of memory.
 bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error);
 
 // The largest distance of a triangle's vertex from a point, in world space.
 double scene_radius(const struct lam_scene *scene, lam_vec3 centre);
 
-// Whether a mesh consists of lines or points: what makes normals or follows surfaces passes over it.
+// Whether a mesh consists of lines or points: functions that make normals or follow surfaces skip it.
 static inline bool mesh_is_strokes(const lam_mesh *mesh) { return mesh->line_count || mesh->point_count; }
 
 // The number of triangles, of lines or of points, and of their corners.

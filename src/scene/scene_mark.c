@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-// The lists that come back, and the size of their items. Cameras and origins are those of files: only added to.
+// The lists that come back, and the size of their items. Cameras and origins come from files and are only added.
 static const struct {
     size_t list, item;
 } lists[] = {
@@ -79,7 +79,7 @@ bool lam_scene_reset(lam_scene *scene, lam_error *error)
     if (!scene || !scene->mark)
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_reset: %s", scene ? "no state is marked" : "the scene is NULL");
     const struct scene_mark *mark = scene->mark;
-    for (int i = 0; i < LISTS; i++) { // lists only grow, so each has space for what it had
+    for (int i = 0; i < LISTS; i++) { // lists only grow, so each has space for its earlier elements
         struct scene_list *list = list_of(scene, i);
         list->count = mark->saved[i].count;
         if (list->count)

@@ -31,7 +31,7 @@ struct named_value {
 WORDS(shading_words, {"flat", LAM_SHADING_FLAT, "one colour for each triangle"},
       {"gouraud", LAM_SHADING_GOURAUD, "one colour for each vertex, interpolated"},
       {"smooth", LAM_SHADING_GOURAUD, "another name of gouraud"},
-      {"phong", LAM_SHADING_PHONG, "normals interpolated, light evaluated for each pixel"},
+      {"phong", LAM_SHADING_PHONG, "interpolated normals, light evaluated for each pixel"},
       {"normal", LAM_SHADING_PHONG, "another name of phong"})
 WORDS(stage_words, {"auto", LAM_STAGE_AUTO, NULL},
       {"application", LAM_STAGE_APPLICATION, "before drawing (flat, gouraud)"},
@@ -40,28 +40,29 @@ WORDS(stage_words, {"auto", LAM_STAGE_AUTO, NULL},
 WORDS(viewer_words, {"local", LAM_VIEWER_LOCAL, "the eye is at the camera"},
       {"infinite", LAM_VIEWER_INFINITE, "the eye is infinitely far away: one direction for every point"})
 WORDS(flat_normal_words, {"face", LAM_FLAT_NORMAL_FACE, "the triangle's own"},
-      {"vertex", LAM_FLAT_NORMAL_VERTEX, "its last vertex's, as OpenGL does"})
+      {"vertex", LAM_FLAT_NORMAL_VERTEX, "the last vertex's, as in OpenGL"})
 WORDS(occlusion_words,
-      {"auto", LAM_OCCLUSION_AUTO, "screen with the studio's lights and with environment light, else off"},
-      {"off", LAM_OCCLUSION_OFF, "all light from around arrives everywhere"},
-      {"screen", LAM_OCCLUSION_SCREEN, "from the distances of what the picture shows around each pixel"},
+      {"auto", LAM_OCCLUSION_AUTO, "screen with the studio's lights and with environment light, otherwise off"},
+      {"off", LAM_OCCLUSION_OFF, "no occlusion"},
+      {"screen", LAM_OCCLUSION_SCREEN, "from the depths of the visible surfaces around each pixel"},
       {"rays", LAM_OCCLUSION_RAYS,
-       "by `--ao-samples` rays from each point, past all surfaces: slower, on the CPU device alone"})
-WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on where `--ao auto` is screen"},
-      {"off", LAM_CAVITY_OFF, "neither darker valleys nor lighter ridges"},
-      {"on", LAM_CAVITY_ON, "valleys are darker and, on models without textures, ridges lighter"})
+       "by `--ao-samples` rays from each point, which also find hidden surfaces: slower, only on the CPU device"})
+WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if `--ao auto` selects screen"},
+      {"off", LAM_CAVITY_OFF, "valleys and ridges keep their light"},
+      {"on", LAM_CAVITY_ON, "valleys are darker; ridges of models without textures are lighter"})
 WORDS(ground_words, {"off", LAM_GROUND_NONE, "none"},
-      {"shadow", LAM_GROUND_SHADOW, "clear: it holds the shadows and the occlusion, black with their share as alpha"},
-      {"checker", LAM_GROUND_CHECKER, "squares, whose side is 1, 2 or 5 times a power of ten in the model's units"},
+      {"shadow", LAM_GROUND_SHADOW,
+       "a transparent plane with the shadows and the occlusion: black, with their share as alpha"},
+      {"checker", LAM_GROUND_CHECKER, "squares with a side of 1, 2 or 5 times a power of ten in the model's units"},
       {"color", LAM_GROUND_COLOR, NULL})
-WORDS(edges_words, {"crease", LAM_EDGES_CREASE, "where faces meet at an angle"},
-      {"boundary", LAM_EDGES_BOUNDARY, "where a surface ends"},
-      {"silhouette", LAM_EDGES_SILHOUETTE, "between front and back"})
+WORDS(edges_words, {"crease", LAM_EDGES_CREASE, "edges at which two faces meet at an angle"},
+      {"boundary", LAM_EDGES_BOUNDARY, "edges at which a surface ends"},
+      {"silhouette", LAM_EDGES_SILHOUETTE, "edges between front and back faces"})
 WORDS(hidden_lines_words, {"remove", LAM_HIDDEN_LINES_REMOVE, "left out"}, {"dash", LAM_HIDDEN_LINES_DASH, "dashed"},
-      {"show", LAM_HIDDEN_LINES_SHOW, "as if the surfaces were not there"})
-WORDS(surfaces_words, {"on", 0, "they are drawn"}, {"off", 1, "lines and points alone are"})
-WORDS(terminator_words, {"on", 0, "shadow rays start where the normals say that the curved surface lies"},
-      {"off", 1, "shadow rays start on the flat triangles: the terminator of a coarse smooth mesh shows them"})
+      {"show", LAM_HIDDEN_LINES_SHOW, "as if no surface were there"})
+WORDS(surfaces_words, {"on", 0, "they are drawn"}, {"off", 1, "only lines and points"})
+WORDS(terminator_words, {"on", 0, "shadow rays start on the curved surface that the normals describe"},
+      {"off", 1, "shadow rays start on the flat triangles, which shows the terminator of a coarse smooth mesh"})
 
 static const char *reflection_words(int index, int *value)
 {
@@ -85,9 +86,9 @@ static const lam_setting rows[] = {
     {"viewer", MEMBER(WORD, viewer), WORDS_OF(viewer_words), .expected = "stage, viewer or flat_normal",
      .summary = "The eye's position for highlights: local or infinite."},
     {"stage", MEMBER(WORD, stage), WORDS_OF(stage_words), .expected = "stage, viewer or flat_normal",
-     .summary = "Where lighting is evaluated: application, vertex or fragment."},
+     .summary = "The stage that evaluates the lighting: application, vertex or fragment."},
     {"flat_normal", MEMBER(WORD, flat_normal), WORDS_OF(flat_normal_words), .expected = "stage, viewer or flat_normal",
-     .summary = "The normal of flat shading: face, or vertex (the last one's)."},
+     .summary = "The normal of flat shading: the face's, or its last vertex's."},
     {"match_highlights", MEMBER(FLAG, match_highlights),
      .summary = "Multiply Blinn-Phong's shininess by 4, so that it looks like Phong."},
     {"single_scattering", MEMBER(FLAG, single_scattering),
@@ -95,44 +96,44 @@ static const lam_setting rows[] = {
     {"gl1", MEMBER(FLAG, gl1), .summary = "Light as OpenGL 1: colours clamped, shininess to 128, ambient attenuated."},
     {"shadows", MEMBER(FLAG, shadows), .summary = "Cast shadows."},
     {"shadow_terminator", MEMBER(NOT_FLAG, flat_terminator), WORDS_OF(terminator_words),
-     .summary = "Whether shadows follow the curved surface that the normals stand for: on or off."},
+     .summary = "Whether shadows follow the curved surface that the normals describe: on or off."},
     {"shadow_samples", MEMBER(WHOLE, shadow_samples), .min = 1, .max = 256, .standard = 112, .expected = "0 to 256",
      .summary = "Shadow rays to a light with a radius from each point in its penumbra."},
     {"ground", MEMBER(WORD, ground), WORDS_OF(ground_words), .expected = "lam_ground",
-     .summary = "A ground at the model's lowest point: shadow (where nothing follows), checker, a colour or off."},
+     .summary = "A ground at the model's lowest point: shadow, checker, a colour or off. Alone: shadow."},
     {"ground_color", MEMBER(RGB, ground_color),
-     .summary = "Of the ground color, and of the bright squares of checker. Default: black, and of checker 0.6."},
+     .summary = "The ground's colour, or the colour of its bright squares. Default: black; with checker 0.6."},
     {"anisotropy", MEMBER(WHOLE, anisotropy), .min = 1, .max = 16, .standard = 1, .expected = "0 to 16",
-     .summary = "Probes of a texture where it is seen at a slant, 1 to 16: more are sharper."},
+     .summary = "Texture probes on slanted surfaces, 1 to 16: more are sharper."},
     {"reference", MEMBER(WHOLE, reference), .min = 16, .max = 1 << 20, .zero = true,
      .expected = "0 or 16 to 1048576 directions",
-     .summary = "Sum the environment's light on physical materials by N directions at each point, 16 to 1048576; 0: "
-                "split sum."},
+     .summary = "Integrate the environment's light on physical materials over N directions per point, 16 to 1048576; "
+                "0: split sum."},
     {"ao", MEMBER(WORD, occlusion), WORDS_OF(occlusion_words), .expected = "lam_occlusion",
      .summary = "Ambient occlusion: auto, off, screen or rays."},
     {"cavity", MEMBER(WORD, cavity), WORDS_OF(cavity_words), .expected = "lam_cavity",
      .summary = "Darken small valleys and lighten ridges: auto, off or on."},
     {"ao_radius", MEMBER(NUMBER, occlusion_radius), .min = 0.001, .max = 10, .standard = 0.1,
      .expected = "more than 0, up to 10",
-     .summary = "How far away surfaces occlude, as a share of half the diagonal of the scene's box."},
+     .summary = "The largest distance at which surfaces occlude, as a share of half the diagonal of the scene's box."},
     {"ao_samples", MEMBER(WHOLE, occlusion_samples), .min = 1, .max = 1024, .standard = 64, .expected = "0 to 1024",
-     .summary = "Rays from each lit point with `--ao rays`; more of them make its grain finer."},
+     .summary = "Rays from each lit point with `--ao rays`; more give a finer grain."},
     {"light_cutoff", MEMBER(NUMBER, light_cutoff), .max = 1, .standard = 0.5 / 255, .zero_is_negative = true,
      .expected = "at most 1",
      .summary = "The largest error from skipping weak lights; 0 evaluates every light everywhere."},
     {"line_width", MEMBER(NUMBER, line_width), .min = 0.01, .max = 1000, .standard = 1.5,
-     .expected = "pixels from 0 to 1000", .summary = "The width of the lines that a model has."},
+     .expected = "pixels from 0 to 1000", .summary = "The width of the model's own lines."},
     {"point_size", MEMBER(NUMBER, point_size), .min = 0.01, .max = 1000, .expected = "pixels from 0 to 1000",
-     .summary = "The diameter of the points that a model has: by default larger the fewer there are."},
+     .summary = "The diameter of the model's own points: by default larger for fewer points."},
     {"wireframe", MEMBER(FLAG, wireframe), .summary = "Draw the edges of all faces as lines over the picture."},
     {"wireframe_width", MEMBER(NUMBER, wireframe_width), .min = 0.01, .max = 1000, .standard = 1,
      .expected = "pixels from 0 to 1000", .summary = "The width of the wireframe's lines."},
     {"wireframe_color", MEMBER(RGBA, wireframe_color),
      .summary = "The colour of the wireframe: by default black, or white without surfaces over a dark background."},
     {"edges", MEMBER(WORDS, edges), WORDS_OF(edges_words), .expected = "edges or hidden_lines",
-     .summary = "Draw feature edges as lines: all, or some of crease,boundary,silhouette."},
+     .summary = "Draw feature edges as lines: all, none, or some of crease,boundary,silhouette."},
     {"edge_angle", MEMBER(ANGLE, edge_angle_rad), .min = 0.001, .max = 180, .standard = 40, .expected = "0° to 180°",
-     .summary = "Creases are edges whose faces meet at more than this."},
+     .summary = "An edge is a crease if its faces meet at more than this angle."},
     {"edge_width", MEMBER(NUMBER, edge_width), .min = 0.01, .max = 1000, .standard = 1.5,
      .expected = "pixels from 0 to 1000", .summary = "The width of feature edges."},
     {"edge_color", MEMBER(RGBA, edge_color),
@@ -140,7 +141,7 @@ static const lam_setting rows[] = {
     {"hidden_lines", MEMBER(WORD, hidden_lines), WORDS_OF(hidden_lines_words), .expected = "edges or hidden_lines",
      .summary = "Edges behind surfaces: remove, dash or show."},
     {"surfaces", MEMBER(NOT_FLAG, no_surfaces), WORDS_OF(surfaces_words),
-     .summary = "Whether surfaces are drawn: on, or off for lines alone."},
+     .summary = "Whether surfaces are drawn: on, or off for lines only."},
 };
 _Static_assert(COUNT_OF(rows) <= LAM_SETTINGS_MAX, "more rows than lam_picture_settings.draw_present has bits");
 

@@ -17,8 +17,8 @@ static const lam_texture_map *normal_map_at(const struct lam_scene *scene, int m
                                                : m->maps[LAM_MAP_ANISOTROPY];
 }
 
-// The map that reads a mesh's tangents: that of its first part which has one, else of the first object that gives it a material with one.
-// NULL: none.
+// The map that reads a mesh's tangents: the first one of its parts, or else of the first object that gives it a
+// material with one. NULL: none.
 static const lam_texture_map *normal_map_of(const struct lam_scene *scene, int mesh)
 {
     const lam_mesh *m = scene_mesh(scene, mesh);
@@ -56,7 +56,7 @@ static bool transformed_texcoords(lam_mesh *seen, const lam_texture_map *map, st
     return out != NULL;
 }
 
-// Gives a mesh tangents of its own, for the texture coordinates of the map that reads them; the first ones where there is none.
+// Gives a mesh its own tangents, for the texture coordinates of the map that reads them, or else for the first ones.
 static bool make_tangents(struct lam_scene *scene, lam_mesh *mesh, const lam_texture_map *map,
                           struct call_control *call, lam_error *error)
 {

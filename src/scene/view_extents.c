@@ -165,7 +165,7 @@ static void search_object(const lam_scene *scene, const lam_object *object, cons
     search_level(&s, s.extent->boxes.levels - 1, 0);
 }
 
-// Sets the extents of a direction to those of a ball around the centre.
+// Sets the extents of a direction to a ball's around the centre.
 static void find_ball(double radius, struct view_extents *extents, int d)
 {
     lam_vec3 direction[EXTENT_DIRECTIONS];

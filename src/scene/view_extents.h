@@ -15,7 +15,7 @@ struct view_axes {
 // The points that extents are of.
 struct view_points {
     const lam_scene *scene;
-    // The scene's vertices as seen along each of these axes: a scene that turns, seen from where it is fixed.
+    // The scene's vertices as seen along each of these axes: for a scene that rotates, seen from its fixed position.
     const struct view_axes *axes;
     int axes_count;
     double ball_radius; // > 0: a ball around the axes' centre in place of the scene

@@ -16,7 +16,7 @@ static int take_chunk(const char *bytes, size_t size, void *user)
 
 static size_t flags(int digits) { return JSON_ENCODE_ANY | JSON_REAL_PRECISION(digits); }
 
-// On one line. Fifteen digits where they are enough for this value, else sixteen or seventeen: 0.1, not
+// On one line. Fifteen digits if they are enough for this value, otherwise sixteen or seventeen: 0.1, not
 // 0.10000000000000001.
 static void add_line(struct text *text, const json_t *value)
 {

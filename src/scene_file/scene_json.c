@@ -13,7 +13,7 @@ enum { FORMULA_OPERATIONS = 200000000 };
 
 // --- is it one?
 
-// An object whose first kilobytes hold the key "lambent".
+// An object whose first kilobytes contain the key "lambent".
 static int scene_probe(const uint8_t *bytes, size_t size)
 {
     static const char key[] = "\"lambent\"";
@@ -269,7 +269,7 @@ static bool read_root(struct scene_reader *r, const json_t *root)
         return fail(r->error, LAM_UNSUPPORTED, "%s: lambent: the format's version is %d, this program reads version 1",
                     r->source->name, version);
     r->has_lights = json_object_get(root, "lights");
-    // The order matters: the colour mode before colours, objects before the lights that stand on them.
+    // The order matters: the colour mode before colours, objects before the lights attached to them.
     return read_image(r, root) && read_camera(r, root) && read_settings(r, root) && read_environment(r, root) &&
            read_materials(r, root) && read_objects(r, root) && read_lights(r, root);
 }

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// Keys that are not fields, or stand for some.
+// Keys that are not fields, or represent several.
 static const struct {
     const char *name;
     unsigned light_types;
@@ -58,7 +58,7 @@ static bool read_color(struct scene_reader *r, const struct place *place, const 
     return true;
 }
 
-// The fields by themselves. A position has a reader of its own.
+// The fields one by one. A position has a reader of its own.
 static bool read_fields(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
 {
     for (int i = 0; lam_light_field(i); i++) {
@@ -88,13 +88,13 @@ static bool read_position(struct scene_reader *r, const struct place *place, con
         return true;
     }
     if (light->type == LAM_LIGHT_SPOT)
-        return fail_place(r, here, "the fourth number is 0, but a spot light stands somewhere");
+        return fail_place(r, here, "the fourth number is 0, but a spot light needs a position");
     if (p[0] == 0 && p[1] == 0 && p[2] == 0)
         return fail_place(r, here, "found 0, 0, 0, 0, expected a direction");
     if (json_object_get(value, "direction") || json_object_get(value, "target") ||
         json_object_get(value, "attenuation") || json_object_get(value, "range"))
         return fail_place(r, here,
-                          "the fourth number is 0: a light from infinitely far has no target, attenuation, range or "
+                          "the fourth number is 0: an infinitely distant light has no target, attenuation, range or "
                           "second direction");
     light->type = LAM_LIGHT_DIRECTIONAL;
     light->direction = v3(-p[0], -p[1], -p[2]);
@@ -107,7 +107,7 @@ static bool read_target(struct scene_reader *r, const struct place *place, const
     if (!json_object_get(value, "target"))
         return true;
     if (json_object_get(value, "direction"))
-        return fail_place(r, KEY_OF(place, "target"), "stands beside direction, expected one of them");
+        return fail_place(r, KEY_OF(place, "target"), "is given beside direction, expected one of them");
     if (!take_vector(r, place, value, "target", &target))
         return false;
     light->direction = v3_sub(target, light->position);
@@ -128,7 +128,7 @@ static bool check_cone(struct scene_reader *r, const struct place *place, const 
                  *cutoff = json_object_get(value, "cutoff"), *exponent = json_object_get(value, "exponent");
     bool soft = inner || outer;
     if (soft && (cutoff || exponent))
-        return fail_place(r, place, "inner and outer stand beside cutoff or exponent, expected one pair of them");
+        return fail_place(r, place, "inner and outer are given beside cutoff or exponent, expected one pair of them");
     if (soft && !outer)
         return fail_place(r, place, "inner is given without outer, expected both");
     if (soft && !(light->inner_rad < light->outer_rad))

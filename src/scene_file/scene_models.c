@@ -45,7 +45,7 @@ static bool make_shape(struct scene_reader *r, const struct model_wanted *wanted
                       ? scene_add_formula(&model->inner, wanted->formula, r->source->call, &reason)
                       : scene_add_shape(&model->inner, wanted->shape, &wanted->segments, r->source->call, &reason);
     if (object.mesh < 0) {
-        if (reason.code == LAM_BAD_ARGUMENT) // also of a formula: what stands in it
+        if (reason.code == LAM_BAD_ARGUMENT) // also for a formula: its text
             return fail_place(r, KEY_OF(wanted->place, "shape"), "%s", reason.text);
         *r->error = reason;
         return false;
@@ -96,7 +96,7 @@ static bool import_file(struct scene_reader *r, const struct model_wanted *wante
     uint64_t items = 0;
     for (int i = 0; i < inner->meshes.count; i++)
         items += mesh_items(scene_mesh(inner, i));
-    return (items || fail(r->error, LAM_CANNOT_READ, "%s: holds no triangles, lines or points", source.name)) &&
+    return (items || fail(r->error, LAM_CANNOT_READ, "%s: contains no triangles, lines or points", source.name)) &&
            scene_give_colors_white(inner, r->error);
 }
 
@@ -247,7 +247,7 @@ static bool add_mesh(struct scene_reader *r, const struct model *model, int inde
            scene_adopt_mesh(scene, &mesh, r->error) >= 0;
 }
 
-// Appends the model's items to those of the scene, their indices shifted.
+// Appends the model's items to the scene's, with shifted indices.
 static bool add_items(struct scene_reader *r, const struct model *model, bool field_tangents, int *index)
 {
     struct lam_scene *scene = r->scene;

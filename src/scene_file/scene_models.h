@@ -4,7 +4,7 @@
 
 #include "scene_reader.h"
 
-// The mesh that an object names, and how it is to be made.
+// The mesh that an object names, and how to make it.
 struct model_wanted {
     const struct place *place; // of the object
     const char *file, *shape;  // one of them, or the formula; the file as the scene names it

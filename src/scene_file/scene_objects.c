@@ -72,7 +72,7 @@ static bool replace_parts(struct scene_reader *r, const struct place *place, con
     return true;
 }
 
-// The material that a back side's missing keys come from: the object's, else that of its first part.
+// The material that supplies a back side's missing keys: the object's, or else its first part's.
 static lam_material front_of(const struct lam_scene *scene, const lam_object *object)
 {
     const lam_mesh *mesh = scene_mesh(scene, object->mesh);
@@ -137,7 +137,7 @@ static bool finish(struct scene_reader *r, const struct place *place, const json
         place_lights_and_cameras(r->scene, entry, &transform);
     for (int i = first; i < r->scene->objects.count; i++) {
         lam_object *object = (lam_object *)r->scene->objects.items + i;
-        // not through a product where there is nothing to multiply: it would lose the signs of zeros
+        // not through a product without a factor: it would lose the signs of zeros
         if (steps)
             object->transform = is_identity(&object->transform) ? transform : mat4_mul(&transform, &object->transform);
         if (front >= 0)

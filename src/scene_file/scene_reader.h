@@ -26,7 +26,7 @@ struct scene_reader {
 bool fail_place(struct scene_reader *r, const struct place *place, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-// Keys that may stand in an object; another one is an error that names the nearest. The list ends with NULL.
+// Allowed keys of an object; another one is an error that names the nearest. The list ends with NULL.
 bool check_keys(struct scene_reader *r, const struct place *place, const json_t *object, const char *const *keys);
 
 // The value of a key of `object`, checked; *out stays as it is where the key is missing. False: it is wrong.

@@ -1,4 +1,4 @@
-// scene_values.c: values of a scene file, each checked as it is taken, and the sentences where one does not fit.
+// scene_values.c: values of a scene file, each checked on access, and the error messages for wrong ones.
 #include "scene_reader.h"
 
 #include "fail.h"

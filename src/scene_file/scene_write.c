@@ -92,7 +92,7 @@ static json_t *word(const struct json_choice *words, int value)
     return json_string(words->name ? words->name : "");
 }
 
-// Names that are not UTF-8 are left out: JSON cannot hold them.
+// Names that are not UTF-8 are omitted: JSON cannot store them.
 static void put_name(struct scene_writer *w, json_t *object, const char *key, const char *name)
 {
     json_t *text = name && *name ? json_string(name) : NULL;
@@ -138,7 +138,7 @@ static bool put_path(struct scene_writer *w, json_t *object, const char *key, co
     json_t *text = relative_path(w->folder, real, relative, sizeof relative) ? json_string(relative) : NULL;
     if (!text)
         return fail(w->error, LAM_UNSUPPORTED,
-                    "%s: the path of '%.200s' is too long or not UTF-8, which JSON cannot hold", w->path, path);
+                    "%s: the path of '%.200s' is too long or not UTF-8, which JSON cannot store", w->path, path);
     if (key)
         put(w, object, key, text);
     else
@@ -233,7 +233,7 @@ static bool put_changes(struct scene_writer *w, json_t *entry, const struct scen
     return true;
 }
 
-// Parts that show another material than the file gave them: one entry for each part, null where it is the file's.
+// Parts that show another material than the file gave them: one entry for each part, null for the file's own.
 static void put_parts(struct scene_writer *w, json_t *entry, const struct scene_origin *origin)
 {
     json_t *list = json_array();
@@ -303,7 +303,7 @@ static struct change change_of(const struct scene_writer *w, const lam_object *o
     return change;
 }
 
-// The change that all objects of a file have in common: one entry stands for them. False: they differ.
+// The change that all objects of a file share: one entry describes them. False: they differ.
 static bool common_change(const struct scene_writer *w, const struct scene_origin *origin, int first,
                           struct change *common)
 {
@@ -420,13 +420,13 @@ static bool put_objects(struct scene_writer *w, json_t *root)
                         "shape or a formula's, so a scene file cannot name it",
                         w->path, i, shown_name(object->name ? object->name : "", shown));
         const lam_object plain = lam_object_default();
-        bool several = origin->object_count > 1; // one entry stands for all objects of a file
+        bool several = origin->object_count > 1; // one entry describes all objects of a file
         struct change change =
             several ? (struct change){0} : change_of(w, object, origin->object_count ? origin->objects : &plain);
         if (several && !common_change(w, origin, i, &change))
             return fail(w->error, LAM_UNSUPPORTED,
-                        "%s: some objects of '%.200s' were changed and others not, or not alike, so one entry of a "
-                        "scene file cannot stand for them",
+                        "%s: some objects of '%.200s' were changed and others not, or differently, so one entry of a "
+                        "scene file cannot describe them",
                         w->path, origin->path);
         i += several ? origin->object_count - 1 : 0;
         if (!put_object(w, list, object, origin, &change))
@@ -440,7 +440,7 @@ static bool put_objects(struct scene_writer *w, json_t *root)
 static json_t *light_json(struct scene_writer *w, const lam_light *given)
 {
     lam_light placed_light = *given, *l = &placed_light;
-    // a file's model stands as it was read: the light goes where the model has been turned to
+    // a file's model keeps its original position: the light moves to the rotated model
     if (l->frame == LAM_FRAME_MODEL) {
         const lam_mat4 *m = &w->scene->placement;
         l->frame = LAM_FRAME_WORLD;
@@ -514,7 +514,7 @@ static void put_image(struct scene_writer *w, json_t *root, const lam_picture_se
     json_t *out = json_object();
     if (s->present & LAM_SETTING_SIZE)
         put(w, out, "size", list_of(w, (double[]){s->width, s->height}, 2));
-    if (s->present & LAM_SETTING_SAMPLES && s->draw.samples) // else those of the size
+    if (s->present & LAM_SETTING_SAMPLES && s->draw.samples) // otherwise the size's
         put(w, out, "samples", json_integer(s->draw.samples));
     if (s->present & LAM_SETTING_BACKGROUND)
         put(w, out, "background", color(w, &s->draw.background.r, 4));
@@ -652,7 +652,7 @@ bool lam_scene_encode(const lam_scene *scene, const lam_picture_settings *settin
         return fail(error, LAM_BAD_ARGUMENT, "a scene file: the %s missing",
                     !scene ? "scene is"
                     : out  ? "path is"
-                           : "place for its bytes is");
+                           : "a pointer for its bytes is");
     *out = (lam_bytes){0};
     if (settings && (!check_reserved("lam_picture_settings", settings, error) ||
                      !check_reserved("lam_picture_settings.camera", &settings->camera, error) ||

@@ -1,9 +1,9 @@
-// formula.h: surfaces that are written as text, "x=…; y=…; z=…" over u and v or an expression of x, y and z that is zero on
-// the surface, and their derivatives. docs/shapes.md is the language.
+// formula.h: surfaces that are written as text, "x=…; y=…; z=…" over u and v or an expression of x, y and z that is
+// zero on the surface, and their derivatives. docs/shapes.md is the language.
 //
-// A text becomes a list of operations (formula_graph.c), in which equal ones are shared and constants are worked out, and
-// which holds the partial derivatives of the results as well, made by the rules of calculus. Evaluating the surface is one
-// pass over the list.
+// A text becomes a list of operations (formula_graph.c). Equal ones are shared, constants are evaluated, and it also
+// contains the partial derivatives of the results, made by the rules of calculus. Evaluating the surface is one pass
+// over the list.
 #ifndef FORMULA_H
 #define FORMULA_H
 
@@ -17,8 +17,8 @@ enum {
     FORMULA_NODES_MAX = 16384, // operations, derivatives included
 };
 
-// NUMBER and the parameters have no operand. LESS: 1 where a < b, ½ where they are equal, else 0. CHAIN: a · b, but 0 where
-// b is 0: a term of a derivative, whose outer factor may be infinite where the inner function does not change.
+// NUMBER and the parameters have no operand. LESS: 1 if a < b, ½ if they are equal, otherwise 0. CHAIN: a · b, but 0
+// where b is 0: a term of a derivative, whose outer factor may be infinite where the inner function does not change.
 enum formula_op {
     OP_NUMBER,
     OP_PARAMETER_0, // u or x
@@ -76,11 +76,11 @@ int formula_number(struct formula_graph *graph, double value);
 int formula_unary(struct formula_graph *graph, enum formula_op op, int a);
 int formula_binary(struct formula_graph *graph, enum formula_op op, int a, int b);
 
-// Appends the derivatives with respect to `parameter`, OP_PARAMETER_0 and following, of the first `count` nodes; derivatives[i] is that of
-// node i.
+// Appends the derivatives with respect to `parameter`, OP_PARAMETER_0 and following, of the first `count` nodes;
+// derivatives[i] belongs to node i.
 void formula_differentiate(struct formula_graph *graph, int count, enum formula_op parameter, int *derivatives);
 
-// A surface. Not for several threads at once: its nodes hold the values.
+// A surface. Not for several threads at once: its nodes store the values.
 struct formula {
     struct formula_node *nodes;
     int count;

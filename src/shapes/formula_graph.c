@@ -18,7 +18,7 @@ bool formula_graph_start(struct formula_graph *graph, struct arena *arena)
     return true;
 }
 
-// √x and arc functions of an argument that rounding moved just past the edge of their domain are those of the edge.
+// √x and arc functions of an argument that rounding moved just past the edge of their domain use the edge's value.
 #define ROUNDING 1e-12
 
 static double square_root(double x) { return x >= 0 ? math_sqrt(x) : x > -ROUNDING ? 0 : __builtin_nan(""); }

@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum {
-    CELLS = 96, // along the longest side, where nothing else is given
+    CELLS = 96, // along the longest side, by default
     CELLS_MAX = 1024,
     SEARCH_CELLS = 64,
     SEARCH_POINTS = SEARCH_CELLS + 1,
@@ -57,7 +57,7 @@ static bool fail_ended(const struct implicit *s, lam_error *error)
     if (!call_should_continue(s->call))
         return call_error(s->call, error);
     return fail(error, LAM_LIMIT,
-                "formula: the implicit surfaces of the file take more than %llu operations; expected fewer segments, "
+                "formula: the implicit surfaces of the file need more than %llu operations; expected fewer segments, "
                 "ranges of x, y and z, or simpler expressions (`lambent shape --implicit` has no such limit)",
                 (unsigned long long)s->call->operation_limit);
 }

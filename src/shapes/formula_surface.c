@@ -1,10 +1,10 @@
-// formula_surface.c: makes a mesh of a parametric formula: how finely it is divided, where it closes, and where it has creases.
+// formula_surface.c: makes a mesh of a parametric formula: its resolution, seams and creases.
 //
-// Creases: along a line of the grid where the normals of the two sides differ, and along a line whose points coincide (a
-// pole within the domain), the domain is cut. Each piece has its own normals there, from its own side.
+// Creases: along a line of the grid where the normals of the two sides differ, and along a line whose points coincide
+// (a pole within the domain), the domain is cut. Each piece has its own normals there, from its own side.
 //
-// Seams: ends that meet with the same normal are closed (shapes_parametric.c). Pieces, and ends that meet otherwise, as
-// those of a Möbius strip, which meet upside down, share their vertices but not their normals.
+// Seams: ends that meet with the same normal are closed (shapes_parametric.c). Pieces, and ends that meet otherwise,
+// such as a Möbius strip's, which meet upside down, share their vertices but not their normals.
 #include "formula.h"
 
 #include "fail.h"

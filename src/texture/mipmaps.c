@@ -1,7 +1,7 @@
-// mipmaps.c: the levels of a texture: each texel is the average of what it covers of the level above.
+// mipmaps.c: the levels of a texture: each texel is the average of the area that it covers in the level above.
 //
-// A side of n texels becomes n/2, rounded down. Where n is even, a texel covers two; where it is odd, n/(n/2), more than
-// two, and those at its ends count by their covered share. Rows and columns are averaged together, in a fixed order.
+// A side of n texels becomes n/2, rounded down. If n is even, a texel covers two; if it is odd, n/(n/2), more than two,
+// and texels at its ends count by their covered share. Rows and columns are averaged together, in a fixed order.
 #include "texture_levels.h"
 
 #include <stddef.h>

@@ -116,7 +116,7 @@ static int count_channels(const lam_image *image, const char *name, lam_error *e
         return image->format == LAM_RGB8 ? 3 : 4;
     for (size_t i = 0; i < 4 * pixels_of(image); i++) {
         if (!(pixel[i] - pixel[i] == 0)) {
-            fail(error, LAM_BAD_ARGUMENT, "%s: pixel %zu, %zu holds a number that is not finite",
+            fail(error, LAM_BAD_ARGUMENT, "%s: pixel %zu, %zu contains a number that is not finite",
                  name ? name : "texture", i / 4 % (size_t)image->width, i / 4 / (size_t)image->width);
             return 0;
         }

@@ -24,7 +24,7 @@ struct lam_texture {
     int references; // accessed atomically
     int level_count;
     lam_texture_values values;
-    // Numbers of a texel: 3 where no alpha differs from 1. A number at least can be read behind the last texel of floats.
+    // Numbers of a texel: 3 if every alpha is 1. A number at least can be read behind the last texel of floats.
     int channels;
     // No texel has an alpha below 1.
     bool opaque;
@@ -63,8 +63,8 @@ static inline texel texel_at(const struct lam_texture *texture, int level, int x
                      : texel_of_bytes(texture->bytes + at, texture->decode, texture->channels);
 }
 
-// Makes a texture of a decoded picture (LAM_RGB8, LAM_RGBA8, or LAM_RGBA32F whose numbers are linear and not
-// premultiplied), whose pixels it takes over where they are bytes. Its memory is charged to `call`, which may be NULL. NULL: LAM_LIMIT,
+// Makes a texture of a decoded picture (LAM_RGB8, LAM_RGBA8, or LAM_RGBA32F with linear numbers, not premultiplied),
+// and takes over its pixels if they are bytes. Its memory is charged to `call`, which may be NULL. NULL: LAM_LIMIT,
 // LAM_BAD_ARGUMENT; the picture is freed in any case.
 struct lam_texture *texture_of_image(lam_image *image, lam_texture_values values, const char *name,
                                      struct call_control *call, lam_error *error);

@@ -322,7 +322,7 @@ static bool set_place(struct reading *reading, lam_error *error)
         return fail(error, LAM_BAD_ARGUMENT, "'direction' and 'target' are given, expected one of them");
     if (reading->has_position && reading->w == 0) {
         if (light->type == LAM_LIGHT_SPOT)
-            return fail(error, LAM_BAD_ARGUMENT, "a spot light has a place, expected w above 0");
+            return fail(error, LAM_BAD_ARGUMENT, "a spot light needs a position, expected w above 0");
         if (reading->has_direction || reading->has_target)
             return fail(error, LAM_BAD_ARGUMENT, "position with w = 0 is a direction already, found another");
         if (p->x == 0 && p->y == 0 && p->z == 0)
@@ -438,7 +438,8 @@ static bool sphere_in_frame(const lam_light *light, const lam_light_text_params 
     return true;
 }
 
-// A default, which is made for Y up, in the axes of the scene: a light of the world stands before the model whatever its up axis.
+// A default, defined for Y up, in the axes of the scene: a light of the world is in front of the model for every up
+// axis.
 static lam_vec3 turned(const lam_light *light, const lam_scene *scene, lam_vec3 v)
 {
     return light->frame == LAM_FRAME_WORLD || light->frame == LAM_FRAME_MODEL ? from_y_up(lam_scene_up(scene), v) : v;
@@ -455,7 +456,7 @@ static bool place_light(struct reading *reading, const lam_light_text_params *pa
     if (reading->has_position && reading->position_in_radii)
         light->position = about(&here, light->position);
     else if (stands && !reading->has_position && light->frame != LAM_FRAME_CAMERA)
-        light->position = about(&here, turned(light, scene, v3(1, 2, 3))); // a light of the camera stands at the eye
+        light->position = about(&here, turned(light, scene, v3(1, 2, 3))); // a light of the camera is at the eye
     else if (light->type == LAM_LIGHT_DIRECTIONAL && !reading->has_direction && !reading->has_target)
         light->direction = turned(light, scene, light->direction);
     lam_vec3 target = !reading->has_target       ? here.centre

@@ -24,7 +24,7 @@ static bool given(const struct reading *reading, int key) { return reading->give
 
 static bool is_color(const lam_field *field) { return field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA; }
 
-// Shares of light have a symbol; the surface's own light has none.
+// Shares of light have a symbol; emission has none.
 static bool is_share(const lam_field *field) { return is_color(field) && field->symbol; }
 
 static int factor_of(int field) { return LAM_FIELDS_MAX + field; }

@@ -66,14 +66,21 @@ def judge(row, verdict, certain):
 
 PAGE = """# Public shaders
 
-`tests/check/public_labels.py` lists %d pairs of lighting shaders without textures and shadows from public repositories, with a label for each, which a
-reader wrote before the check was changed: right by its course, wrong and how, or not to be judged (another stage between the two, toon steps, a
-model of its own). Their texts are not part of this project. With the repositories in a folder, as OWNER/REPOSITORY/PATH,
+After reading this page you know how `lambent check` judges shaders that nobody wrote for it.
+
+`tests/check/public_labels.py` lists %d pairs of lighting shaders without textures and shadows from public repositories. A reader labelled each
+before the check was changed: right by its course, wrong and why, or impossible to judge (another stage between the two, toon steps, its
+own model). Their texts are not part of this project. With the repositories in a folder, as OWNER/REPOSITORY/PATH, this command checks them
+and writes this page:
 
     python3 tests/check/public.py FOLDER --program build/lambent --page docs/check/public.md
 
-checks them and writes this page. It fails if a right shader differs, a wrong one passes, a shader that cannot be judged passes or differs, a name
-without a hedge is not true, or fewer than 70 %% get a verdict.
+The command fails if one of these is true:
+
+- A right shader differs, or a wrong one passes.
+- A shader that cannot be judged passes or differs.
+- A name reported without a doubt is wrong.
+- Fewer than 70 %% get a verdict.
 
 | label | right verdict | wrong verdict | no verdict |
 |---|--:|--:|--:|
@@ -81,7 +88,7 @@ without a hedge is not true, or fewer than 70 %% get a verdict.
 
 %d of %d get a verdict (%.0f %%).
 
-| repository | fragment shader | label | verdict | names | |
+| repository | fragment shader | label | verdict | names | comment |
 |---|---|---|---|---|---|
 %s
 """

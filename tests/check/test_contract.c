@@ -125,7 +125,7 @@ static void test_errors(void **state)
     bad("{", "my.json:1: ");
     bad("[]", "my.json: found a list of 0, expected an object");
     bad("{\"name\": \"x\"}", "my.json: the key 'contract' is missing");
-    bad("{\"contract\": 2, \"name\": \"x\"}", "my.json:1: contract: found 2, expected a number from 1 to 1");
+    bad("{\"contract\": 2, \"name\": \"x\"}", "my.json:1: contract: found 2, expected 1");
     bad("{\"contract\": 1}", "my.json: the key 'name' is missing");
     bad("{\"contract\": 1, \"nam\": \"x\"}", "my.json:1: nam: unknown key; did you mean 'name'?");
     bad("{\"contract\": 1, \"name\": \"x\", \"space\": \"clip\"}",

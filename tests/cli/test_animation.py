@@ -366,7 +366,7 @@ class Reports(Animated):
 
     def test_table_line_and_plan(self):
         text = self.good("cube.obj", "--turntable", "12", "-s", "64", "-v", "-o", "a.png").stderr.decode()
-        self.assertIn("frames   12, 24 a second: 0.5 s, for ever", text)
+        self.assertIn("frames   12, 24 a second: 0.5 s, forever", text)
         self.assertIn("12 frames, the median one above", text)
         self.assertIn("a.png  3 frames  64x64", self.good("cube.obj", "--turntable", "3", "-s", "64", "-o", "a.png").stderr.decode())
         self.assertIn("0.png to 2.png  3 frames", self.good("cube.obj", "--turntable", "3", "-s", "64", "-o", "{frame}.png").stderr.decode())
@@ -416,7 +416,7 @@ class Errors(Animated):
 
     def test_formats(self):
         for format in ("jpg", "ppm", "pfm"):
-            done = self.bad(3, "cube.obj", "--turntable", "4", "-o", f"a.{format}", says=f"a file of format {format} holds one picture; expected .png or .webp, or {{frame}}")
+            done = self.bad(3, "cube.obj", "--turntable", "4", "-o", f"a.{format}", says=f"a file of format {format} contains one picture; expected .png or .webp, or {{frame}}")
             self.assertEqual(done.stderr.decode().count("\n"), 1)
 
     def test_sweeps(self):

@@ -620,7 +620,7 @@ class Unruly(CheckTest):
     def test_outputs(self):
         """Shaders of the core profile that do not use the normal, or do not write a vec4."""
         text = "#version 330 core\nuniform vec4 ambient_product;\nin vec3 fN;\nout %s o;\nvoid main() { o = %s(ambient_product); }\n"
-        for kind, said in (("vec4", None), ("ivec4", "a picture holds floats"), ("vec3", "leaves channels undefined")):
+        for kind, said in (("vec4", None), ("ivec4", "a picture consists of floats"), ("vec3", "leaves channels undefined")):
             (self.folder / "s.frag").write_text(text % (kind, kind))
             report = self.report_of("s.frag", "--scenes", "ambient", code=6 if kind == "ivec4" else 0)
             if said:

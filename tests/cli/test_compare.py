@@ -54,7 +54,7 @@ class Mistakes(Case):
     def test_all(self):
         pictures, done = self.sheet("--across", "mistake=all", "--light", "directional:direction=-1/-1/-1", "--reflection", "phong")
         names = [p["mistake"] for p in pictures]
-        left_out = re.search(r"left out, since the scene has nothing that they spoil: (.*)", (done.stdout + done.stderr).decode())[1].split(", ")
+        left_out = re.search(r"omitted, because the scene does not show them: (.*)", (done.stdout + done.stderr).decode())[1].split(", ")
         known = [row["mistake"] for row in json.loads(self.good("shader", "--mistake", "list", "--json").stdout)]
         self.assertEqual(sorted([n for n in names if n] + left_out), sorted(known))
         self.assertIn("direction-reversed", names)
@@ -71,7 +71,7 @@ class Mistakes(Case):
         self.bad(1, "compare", "sphere", "--across", "mistake", "-q", "-s", "32", *many, says="option '--caption': found 46, but the sheet has ")
         self.bad(3, "compare", "sphere", "--across", "mistake=no-gate", "--reflection", "ggx", says="'--style lecture' does not have '--reflection ggx'")
         self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--device", "cpu", says="mistakes are edits of shaders, which OpenGL draws")
-        self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--across", "shading", says="mistakes stand alone")
+        self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--across", "shading", says="mistakes cannot be combined")
 
 
 class Compare(Case):
@@ -313,7 +313,7 @@ class Compare(Case):
 
     def test_titles_of_rows(self):
         """The title of a row of values says what the pictures show."""
-        for words, title in ((["cull"], "Sides of the surface that are left out"), (["azimuth=0,90"], "Values of --azimuth"),
+        for words, title in ((["cull"], "Culled sides of the surface"), (["azimuth=0,90"], "Values of --azimuth"),
                              (["normals", "shading=flat,phong"], "Rows: sources of the normals; columns: shading methods")):
             self.good("compare", "cube.obj", "-s", 16, "-o", "t.svg", *(word for one in words for word in ("--across", one)))
             self.assertEqual(xml.fromstring((self.folder / "t.svg").read_bytes())[0].text, f"{title} — cube.obj")

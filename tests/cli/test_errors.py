@@ -103,7 +103,7 @@ class Models(Case):
         self.write("m.obj.mtl", mtl % b"")
         done = self.good("m.obj", "-s", 40, "-o", "-")
         wanted = done.stdout
-        self.assertIn(b"warning: m.obj.mtl:11: with Ns 0 the highlight would cover all that is lit; there is none", done.stderr)
+        self.assertIn(b"warning: m.obj.mtl:11: with Ns 0 the highlight would cover all lit points; it is omitted", done.stderr)
         red, green, blue, alpha = pixel(read_png(wanted), 20, 24)
         self.assertTrue(red > 2 * green and red > 2 * blue and alpha == 255, (red, green, blue, alpha))  # not white all over
         self.write("m.obj.mtl", mtl % b"Tr 1.000000\n")

@@ -277,7 +277,7 @@ class Explain(Case):
         for place in ("5", "5,", ",5", "a,b", "1,2,3", "1.5,2", "0x1,2", "", "9999999999,1"):
             self.bad(1, "explain", "teapot", place, says="expected a pixel X,Y")
         self.bad(1, "explain", "teapot", "64,0", "-s", 64, says=("64,0", "64x64", "63,63"))
-        self.bad(1, "explain", "teapot", "0,40", "-s", "64x40", says="lies outside")
+        self.bad(1, "explain", "teapot", "0,40", "-s", "64x40", says="is outside")
         self.bad(1, "explain", "teapot", says="missing")
         self.bad(2, "explain", "no-such.obj", "1,1", says="no-such.obj")
         self.assertEqual(self.run_program("explain", "teapot", "64,0", "-s", 64, "--json").returncode, 1)

@@ -55,7 +55,7 @@ class Gltf(GltfCase):
         self.bad(1, model, "--scene", "noon", says="there is no scene 'noon'; expected one of 0 ('day'), 1 ('night')")
         self.bad(1, model, "--variant", "2", says="there is no variant '2'; expected one of 0 ('plain'), 1 ('mint')")
         done = self.good("teapot", "--scene", "1", "-o", "a.png", "-s", "32")
-        self.assertIn(b"count for glTF files alone", done.stderr)
+        self.assertIn(b"apply only to glTF files", done.stderr)
 
     def test_factors(self):
         """Factors outside of the standard's range are cut to it, with one warning; light that overflows gives no NaN."""

@@ -240,7 +240,7 @@ class Lights(Pictures):
             "point:zzz=1": "expected position, direction", "point:position": "expected key=value",
             "point:position=1/2": "three numbers", "point:position=nan/0/0": "three numbers", "point:position=1r/2/3": "or after none",
             "point:position=1/2/3/-1": "w of at least 0", "point:position=0/0/0/0": "expected a direction",
-            "spot:position=1/2/3/0": "has a place", "point:position=1/2/3,position=1/2/3": "given twice",
+            "spot:position=1/2/3/0": "needs a position", "point:position=1/2/3,position=1/2/3": "given twice",
             "directional:position=1/2/3": "directional light takes", "directional:direction=0/0/0": "expected a direction",
             "directional:range=2": "has no 'range'", "point:cutoff=20": "a point light has no 'cutoff'",
             "ambient:position=1/2/3": "an ambient light has no 'position'", "hemisphere:diffuse=1": "has no 'diffuse'",

@@ -3,7 +3,7 @@ import os
 
 from harness import Case, covered, read_png
 
-ANIMATION = "use .webp, which holds animations"
+ANIMATION = "use .webp, which contains animations"
 SIZE = "-s 640x480"
 
 

@@ -109,17 +109,17 @@ ROWS = [
     ("docs/lighting/surfaces.md", "At most {} translucent triangles may lie over one pixel", LAYERS),
     ("docs/lighting/reflection.md", "Faces may have up to {} pixels on a side", SPHERE),
     ("docs/lighting/reflection.md", "built in, computed, {} pixels on a side", constant("src/environment/environment_made.c", "SIDE")),
-    ("docs/rooms/cpu.md", "tiles of {}×{} pixels", TILE, TILE),
-    ("docs/rooms/cpu.md", "A thread holds {} such fragments", LAYERS),
-    ("docs/rooms/cpu.md", "shaded in batches of {}", constant("src/cpu/shade/shading_batch.h", "BATCH_MAX")),
-    ("docs/rooms/cpu.md", "over up to {} points", constant("src/cpu/shade/shading_batch.h", "LIGHT_BATCH")),
-    ("docs/rooms/cpu.md", "With more than {} lights ({} for Gouraud and flat shading)",
+    ("docs/internals/cpu.md", "tiles of {}×{} pixels", TILE, TILE),
+    ("docs/internals/cpu.md", "A thread holds {} such fragments", LAYERS),
+    ("docs/internals/cpu.md", "shaded in batches of {}", constant("src/cpu/shade/shading_batch.h", "BATCH_MAX")),
+    ("docs/internals/cpu.md", "over up to {} points", constant("src/cpu/shade/shading_batch.h", "LIGHT_BATCH")),
+    ("docs/internals/cpu.md", "With more than {} lights ({} for Gouraud and flat shading)",
      code("src/cpu/lights/light_bounds.h", r"LAM_SHADING_PHONG \? (\d+) :"), FEW_LIGHTS),
     ("include/lambent/check.h", "32..1024 pixels; 0: {}", code("src/check/check.c", r"p->size : (\d+);")),
-    ("docs/rooms/cpu.md", "with more than {} lights the weakest", FEW_LIGHTS),
-    ("docs/rooms/cpu.md", "in groups of {} that are tested first", constant("src/cpu/lights/light_bounds.h", "LIGHTS_IN_GROUP")),
-    ("docs/rooms/cpu.md", "one block of {}×{} pixels", *2 * [counted("1 << BLOCK_SHIFT of light_cull_blocks.inc", lambda: 2 ** BLOCK.look_up())]),
-    ("docs/rooms/normals.md", "until {} of them can be computed", constant("src/geometry/normals/corner_fan_simd.h", "FAN_POSITIONS")),
+    ("docs/internals/cpu.md", "with more than {} lights the weakest", FEW_LIGHTS),
+    ("docs/internals/cpu.md", "in groups of {} that are tested first", constant("src/cpu/lights/light_bounds.h", "LIGHTS_IN_GROUP")),
+    ("docs/internals/cpu.md", "one block of {}×{} pixels", *2 * [counted("1 << BLOCK_SHIFT of light_cull_blocks.inc", lambda: 2 ** BLOCK.look_up())]),
+    ("docs/internals/normals.md", "until {} of them can be computed", constant("src/geometry/normals/corner_fan_simd.h", "FAN_POSITIONS")),
     ("docs/show.md", "front blue (0, {}, 255), back red (255, {}, 0)", code("src/device/encode_values.c", r"front\[3\] = \{0, (\d+)"),
      code("src/device/encode_values.c", r"back\[3\] = \{255, (\d+)")),
     ("docs/show.md", "no channel below {}", LEAST_ID),
@@ -131,7 +131,7 @@ ROWS = [
     ("tools/options/option_table.c", "the number of triangles over a pixel: c/(c + {})", OVERDRAW),
     ("include/lambent/device.h", "no channel below {}", LEAST_ID),
     ("docs/opengl.md", "drawn in parts of {}×{}", *2 * [constant("src/gl/gl_device.h", "PART_SIZE_MAX")]),
-    ("docs/opengl.md", "The teapot ({} triangles)", TEAPOT),
+    ("docs/opengl.md", "the teapot ({} triangles)", TEAPOT),
     ("docs/shaders.md", "RGBA32F, {} texels wide", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
     ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the lights", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
     ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the products", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
@@ -302,7 +302,7 @@ class Defaults(Case):
         """The default column of the tables in docs/scene-file.md is that of the schema."""
         schema = json.loads(generated("scene-schema"))
         own, checked = schema["properties"], 0
-        tables = {"At the top": own, "image": own["image"]["properties"], "camera": own["camera"]["properties"],
+        tables = {"Top-level keys": own, "image": own["image"]["properties"], "camera": own["camera"]["properties"],
                   "Objects": schema["$defs"]["shape"]["properties"], "Lights": schema["$defs"]["point"]["properties"]}
         page = (ROOT / "docs/scene-file.md").read_text()
         for title, properties in tables.items():

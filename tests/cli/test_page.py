@@ -128,7 +128,7 @@ class Page(Case):
         (self.folder / "deep").mkdir()
         self.given.add("deep")
         (self.folder / "deep" / "scene.json").write_text(self.scene_text("../cube.obj"))
-        self.bad(3, "deep/scene.json", "-o", "out.html", env=self.env, says=["outside of the folder", "cube."])
+        self.bad(3, "deep/scene.json", "-o", "out.html", env=self.env, says=["outside the folder", "cube."])
         (self.folder / "scene.json").write_text(self.scene_text("cube.obj"))
         self.given.add("scene.json")
         page, _ = self.make("scene.json", "--size", "32")
@@ -141,7 +141,7 @@ class Page(Case):
         (place / "a b.mtl").unlink()
         (place / "a b.mtl").symlink_to("../secret.txt")
         for mode in ("auto", "off"):
-            self.bad(3, "m/quad.obj", "-s", "32", "-q", "--sandbox", mode, "-o", "out.html", env=self.env, says=["a b.mtl", "outside of the folder"])
+            self.bad(3, "m/quad.obj", "-s", "32", "-q", "--sandbox", mode, "-o", "out.html", env=self.env, says=["a b.mtl", "outside the folder"])
         (self.folder / "link.obj").symlink_to("m/quad.obj")  # the model itself is what the user names
         self.given.add("link.obj")
         page, _ = self.make("link.obj", "-s", "32", "-q")

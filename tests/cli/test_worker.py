@@ -301,7 +301,7 @@ class Refusals(Jobs):
             for answer, job in zip(self.answers(*jobs, words=more), jobs):
                 self.assertEqual(answer["outcome"], "refused", (more, job, answer))
                 self.assertEqual(answer["exit"], 5 if job["id"].startswith("out") else 2, (more, job, answer))
-                self.assertIn("regular file" if job.get("output") == "out/pipe.png" else "lies outside", answer["error"], job)
+                self.assertIn("regular file" if job.get("output") == "out/pipe.png" else "is outside", answer["error"], job)
             # What a model names stays in the model's folder; a pipe is not opened; a folder is no model.
             found = self.answers({"id": 1, "model": "in/mtl.obj"}, {"id": 2, "model": "in/scene.json"}, {"id": 3, "model": "in/pipe.stl"}, {"id": 4, "model": "in"},
                                  words=more)
@@ -349,7 +349,7 @@ class Refusals(Jobs):
             done = self.run_program("batch", "--jobs", "-", *words)
             self.assertEqual(done.returncode, 1, (words, done.stderr))
             self.assertIn(says, done.stderr.decode())
-        self.assertIn(b"-j 4 draws", self.run_program("batch", "in", "--jobs", "4").stderr)
+        self.assertIn(b"-j 4 sets", self.run_program("batch", "in", "--jobs", "4").stderr)
         self.assertIn(b"lambent batch --jobs -", self.run_program("in/cube.stl", "--jobs", "-").stderr)
         self.assertIn(b"goes with --jobs", self.run_program("batch", "in", "--ahead", "4").stderr)
         done = self.run_program("batch", "--jobs", "none")

@@ -277,8 +277,8 @@ static void test_bmp_refusals(void **state)
     assert_true(read_file("bmp", "masks565-40.bmp", &masks));
     refused(&bmp, 14, "\x29", 1, "a.bmp", LAM_UNSUPPORTED, "header of 41 bytes");
     refused(&bmp, 28, "\x02", 1, "a.bmp", LAM_UNSUPPORTED, "2 bits with compression 0, expected 1, 4, 8, 16, 24 or 32");
-    refused(&bmp, 30, "\x04", 1, "a.bmp", LAM_UNSUPPORTED, "holds a JPEG");
-    refused(&bmp, 30, "\x05", 1, "a.bmp", LAM_UNSUPPORTED, "holds a PNG");
+    refused(&bmp, 30, "\x04", 1, "a.bmp", LAM_UNSUPPORTED, "contains a JPEG");
+    refused(&bmp, 30, "\x05", 1, "a.bmp", LAM_UNSUPPORTED, "contains a PNG");
     refused(&bmp, 30, "\x07", 1, "a.bmp", LAM_UNSUPPORTED, "compression 7");
     refused(&bmp, 30, "\x02", 1, "a.bmp", LAM_UNSUPPORTED, "8 bits with compression 2, expected 4 bits");
     refused(&bmp, 18, "\0", 1, "a.bmp", LAM_LIMIT, "0×7");

@@ -879,9 +879,9 @@ static void test_errors(void **state)
          ": nodes[0].matrix: its last row is 1 0 0 1, expected 0 0 0 1", LAM_CANNOT_READ},
         {"{\"nodes\": [0]}", "{\"nodes\": [4]}", ": scenes[0].nodes[0]: found 4, expected a number from 0 to 0 (nodes)",
          LAM_CANNOT_READ},
-        {"{\"nodes\": [0]}", "{\"nodes\": []}", ": holds no triangles in its scene", LAM_CANNOT_READ},
-        {"\"POSITION\": 0", "\"NORMAL\": 0", ": holds nothing to draw: its primitives (1) have no attribute POSITION",
-         LAM_CANNOT_READ},
+        {"{\"nodes\": [0]}", "{\"nodes\": []}", ": contains no triangles in its scene", LAM_CANNOT_READ},
+        {"\"POSITION\": 0", "\"NORMAL\": 0",
+         ": contains nothing to draw: its primitives (1) have no attribute POSITION", LAM_CANNOT_READ},
         {"\"count\": 6",
          "\"count\": 6, \"sparse\": {\"count\": 1, \"indices\": {\"bufferView\": 0, \"componentType\": 5126}, "
          "\"values\": {\"bufferView\": 0}}",

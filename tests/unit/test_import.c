@@ -160,7 +160,7 @@ static void test_foreign(void **unused)
         ROW("hello there\n", "a.usdz", "a.usdz: this is a USD file" EXPORT(".glb"), LAM_UNSUPPORTED),
         ROW("", "a.obj", "a.obj: the file is empty", LAM_CANNOT_READ),
         ROW("hello there\n", "a.obj",
-            "a.obj:1: found 'hello', expected a statement of OBJ (v, f, …); the file holds nothing to draw",
+            "a.obj:1: found 'hello', expected a statement of OBJ (v, f, …); the file contains nothing to draw",
             LAM_CANNOT_READ),
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)

@@ -222,7 +222,7 @@ static void test_sentences(void **state)
         {"[\x1b\xc2\x9b"
          "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa]",
          "t.json:1: column 2: found '??aaaaaaaaaaaaaaaaaaaaaaaaaaaaaa…', expected a value"},
-        {"[-1e999]", "t.json:1: column 2: found '-1e999', expected a number that a double can hold"},
+        {"[-1e999]", "t.json:1: column 2: found '-1e999', expected a number within the range of a double"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         lam_error error = {0};

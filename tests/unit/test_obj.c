@@ -306,8 +306,8 @@ static void test_errors(void **unused)
                  "t.obj:4: found the end of the line, expected a normal's coordinate (vn x y z)");
     expect_error(TRIANGLE "f 1 2 3\nf 1 2 7\nf 8 1 2\n", LAM_CANNOT_READ,
                  "t.obj:5: a face names vertex '7', but the file has 3");
-    expect_error("", LAM_CANNOT_READ, "t.obj: holds no triangles, lines or points");
-    expect_error(TRIANGLE, LAM_CANNOT_READ, "t.obj: holds vertices (3), but no faces, lines or points of them");
+    expect_error("", LAM_CANNOT_READ, "t.obj: contains no triangles, lines or points");
+    expect_error(TRIANGLE, LAM_CANNOT_READ, "t.obj: contains vertices (3), but no faces, lines or points of them");
     expect_error(TRIANGLE "l 1 4\n", LAM_CANNOT_READ, "t.obj:4: a line names vertex 4, but the file has 3");
     expect_error(TRIANGLE "p 0\n", LAM_CANNOT_READ, "t.obj:4: a point names vertex 0, expected an index from 1");
     expect_error(TRIANGLE "l 1 -4\n", LAM_CANNOT_READ,
@@ -318,7 +318,7 @@ static void test_errors(void **unused)
     expect_error(TRIANGLE "vt 0 0\nl 1/1 2/2\n", LAM_CANNOT_READ,
                  "t.obj:5: a line names texture coordinate 2, but the file has 1");
     expect_error(TRIANGLE "cstype bspline\nsurf 0 1 0 1 1 2 3\n", LAM_UNSUPPORTED,
-                 "t.obj:4: holds no faces, only free-form curves and surfaces ('cstype'), which this version "
+                 "t.obj:4: contains no faces, only free-form curves and surfaces ('cstype'), which this version "
                  "cannot draw");
     // A zero byte in the middle.
     lam_error error;
@@ -557,7 +557,7 @@ static void test_mtl_options(void **unused)
         }
         assert_int_equal(maps, 1);
         if (rows[i].sentence) {
-            snprintf(sentence, sizeof sentence, "t.obj: material 'a': %s; it is left out", rows[i].sentence);
+            snprintf(sentence, sizeof sentence, "t.obj: material 'a': %s; it is ignored", rows[i].sentence);
             assert_string_equal(lam_scene_warning(scene, 0), sentence);
         }
         assert_null(lam_scene_warning(scene, rows[i].sentence != NULL));
@@ -583,9 +583,9 @@ static void test_mtl_warnings(void **unused)
         {"newmtl a\nKs xyz 1 1 1\n", "a.mtl:2: Ks as a CIE XYZ colour is not supported, expected r g b"},
         {"newmtl a\nillum 99\n", "a.mtl:2: illum is not one of the models 0 to 10; it is ignored"},
         {"newmtl a\nKs 1 1 1\nNs 0.000\nillum 2\n",
-         "a.mtl:3: with Ns 0 the highlight would cover all that is lit; there is none"},
+         "a.mtl:3: with Ns 0 the highlight would cover all lit points; it is omitted"},
         {"newmtl a\nNs 0\nKs 1\nnewmtl b\nNs 0\nKs 1\n",
-         "a.mtl:2: with Ns 0 the highlight would cover all that is lit; there is none, here and in other materials"},
+         "a.mtl:2: with Ns 0 the highlight would cover all lit points; it is omitted, here and in other materials"},
         {"newmtl a\nd 0\n", "a.mtl:2: material 'a' is fully transparent (d 0)"},
         {"newmtl a\nd 1\nnewmtl b\n\nTr 1.000\nnewmtl c\nd 0\n",
          "a.mtl:5: material 'b' is fully transparent (Tr 1), the first of 2"},

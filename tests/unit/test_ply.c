@@ -552,11 +552,11 @@ static void test_body_errors(void **state)
                 "found 4 in "
                 "188 bytes");
     refuse_text(HEADER("ascii") "element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n0 1\n",
-                "a.ply", "a.ply: the file holds edges and no vertices, expected element vertex");
+                "a.ply", "a.ply: the file contains edges and no vertices, expected element vertex");
     refuse_text(VERTICES "element edge 2\nproperty int vertex1\nproperty int vertex2\nend_header\n" SQUARE "0 1\n1 4\n",
                 "a.ply", "a.ply: edge 2 of 2: found 4 as vertex2, expected a vertex from 0 to 3");
     refuse_text(HEADER("ascii") FACE("1") "end_header\n3 0 0 0\n", "a.ply",
-                "a.ply: the file holds faces and no vertices, expected element vertex");
+                "a.ply: the file contains faces and no vertices, expected element vertex");
 }
 
 static void test_binary_errors(void **state)

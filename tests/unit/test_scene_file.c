@@ -208,7 +208,7 @@ static void test_errors(void **unused)
 #define LIGHT(more, sentence)  WITH("\"lights\": [{" more "}]", "lights[0]" sentence)
 #define SPHERE                 "\"shape\": \"sphere\", "
         {"{\"lambent\": 1,\n \"objects\": [}", "s.json:2: column 14: found '}', expected a value"},
-        {"{\"lambent\": 1, \"lambent\": 1}", "s.json:1: column 16: the key is given twice"},
+        {"{\"lambent\": 1, \"lambent\": 1}", "s.json:1: column 16: the key 'lambent' is given twice"},
         {"{\"x\": \"\\\"lambent\\\"\", \"lambent\": 1}",
          "s.json: x: unknown key; expected lambent, image, camera, ambient, environment, up, materials, objects, "
          "lights, ..."},
@@ -307,7 +307,7 @@ static void test_errors(void **unused)
         LIGHT("\"type\": \"directional\", \"position\": [1, 2, 3]",
               ".position: a directional light has a direction, or a position whose fourth number is 0"),
         LIGHT("\"type\": \"spot\", \"position\": [1, 2, 3, 0]",
-              ".position: the fourth number is 0, but a spot light stands somewhere"),
+              ".position: the fourth number is 0, but a spot light needs a position"),
         LIGHT("\"type\": \"point\", \"position\": [0, 0, 0, 0]", ".position: found 0, 0, 0, 0, expected a direction"),
         LIGHT("\"type\": \"spot\", \"inner\": 30, \"outer\": 20",
               ".inner: found 30, expected less than outer, which is 20"),
@@ -315,7 +315,7 @@ static void test_errors(void **unused)
         LIGHT("\"type\": \"spot\", \"cutoff\": 120",
               ".cutoff: found 120, expected degrees above 0 and up to 90, or 180"),
         LIGHT("\"type\": \"spot\", \"cutoff\": 20, \"outer\": 20",
-              ": inner and outer stand beside cutoff or exponent, expected one pair of them"),
+              ": inner and outer are given beside cutoff or exponent, expected one pair of them"),
         LIGHT("\"type\": \"spot\", \"direction\": [0, 0, 0]", ".direction: found 0, 0, 0, expected a direction"),
         LIGHT("\"type\": \"point\", \"frame\": \"object\", \"object\": \"cube\"", ".object: no object is named 'cube'"),
         LIGHT("\"type\": \"point\", \"object\": \"sphere\"", ".object: goes only with \"frame\": \"object\""),
@@ -328,7 +328,7 @@ static void test_errors(void **unused)
         lam_error error = {0};
         assert_null(load_scene(rows[i].text, &error));
         if (strstr(rows[i].text, "1e999")) // JSON has no infinity
-            assert_non_null(strstr(error.text, "found '1e999', expected a number that a double can hold"));
+            assert_non_null(strstr(error.text, "found '1e999', expected a number within the range of a double"));
         else if (strstr(rows[i].sentence, ", ...")) // the settings of the table follow
             assert_memory_equal(error.text, rows[i].sentence, strlen(rows[i].sentence) - strlen("..."));
         else

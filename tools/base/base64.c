@@ -39,7 +39,7 @@ uint8_t *base64_decode(const char *text, size_t length, size_t *size, size_t *at
     }
     if (!bytes)
         return NULL;
-    // The last group has 2 or 3 letters where there is padding; their surplus bits are 0.
+    // With padding, the last group has 2 or 3 letters; their surplus bits are 0.
     bool whole = length % 4 == 0 && (padding == 0 || (bits & (padding == 2 ? 0xF : 0x3)) == 0);
     if (bad < length || !whole) {
         *at = bad;

@@ -1,4 +1,4 @@
-// host_name.h: the name of this machine, as it stands in the names of unfinished files.
+// host_name.h: the name of this machine, as used in the names of unfinished files.
 #ifndef HOST_NAME_H
 #define HOST_NAME_H
 
@@ -7,7 +7,7 @@
 
 enum { HOST_SIZE = 65 }; // HOST_NAME_MAX of Linux, and the closing zero
 
-// "" where it is unknown.
+// "" if it is unknown.
 static inline const char *host_name(char name[HOST_SIZE])
 {
     memset(name, 0, HOST_SIZE);

@@ -1,4 +1,5 @@
-// xxh64.h: XXH64, the hash of journals: of pictures, of models and of what a picture depends on. `xxh64sum` prints the same.
+// xxh64.h: XXH64, the hash in journals: of pictures, of models and of everything that determines a picture. `xxh64sum`
+// prints the same.
 #ifndef XXH64_H
 #define XXH64_H
 

@@ -14,7 +14,7 @@
 #include "report.h"
 #include "terminal.h"
 
-// With --jobs each job names its model and its picture, and there is no list to go on with.
+// With --jobs each job names its model and its picture, so there is no list to resume.
 static bool check_jobs(int operands, const struct options *o, lam_error *error)
 {
     static const char *const others[] = {"output", "files-from", "resume",     "retry-failed", "report",

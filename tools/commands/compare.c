@@ -104,7 +104,7 @@ static bool cell_options(const struct compare *c, const struct cell *cell, const
     }
     if (!options->picture.background)
         options->picture.background = SHEET_BACKGROUND;
-    // Sheets compare methods of local lighting: what its sums leave out comes in only where it is asked for.
+    // Sheets compare methods of local lighting: effects outside its sums appear only on request.
     if (!option_given(options, "ao"))
         options->draw.occlusion = LAM_OCCLUSION_OFF;
     options->shader.lecture_device = c->sheet.mistakes;
@@ -191,15 +191,15 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
     bool ok = shader && !shader->application;
     if (shader && !ok)
         complain(error, LAM_BAD_ARGUMENT,
-                 "options '--stage application' and '--across mistake': the sheet is drawn with shaders, which have no "
-                 "light there; expected '--stage vertex' or '--stage fragment'");
+                 "options '--stage application' and '--across mistake': shaders draw the sheet, and they compute no "
+                 "light in this stage; expected '--stage vertex' or '--stage fragment'");
     lam_shader_free(shader);
     lam_scene_free(job.scene);
     options_free(&options);
     return ok;
 }
 
-// Leaves out of a sheet of all mistakes those that the scene cannot show, and says which.
+// Removes from a sheet of all mistakes those without an effect on the scene, and prints their names.
 static bool choose_mistakes(struct compare *c, lam_error *error)
 {
     struct sheet *sheet = &c->sheet;
@@ -229,7 +229,7 @@ static bool choose_mistakes(struct compare *c, lam_error *error)
     int rows = (kept + 5) / 6;
     sheet->columns = (kept + rows - 1) / rows;
     if (*left_out && !c->options->report.quiet)
-        say_plain("left out, since the scene has nothing that they spoil: %s\n", left_out);
+        say_plain("omitted, because the scene does not show them: %s\n", left_out);
     return check_caption_count(c->options, sheet, error);
 }
 
@@ -285,7 +285,7 @@ static void join(const char *const *words, int count, char line[512])
         snprintf(line + strlen(line), 512 - strlen(line), "%s%s", i ? " " : "", words[i]);
 }
 
-// Draws words in one line or, where they would be too small to read, in two, broken after a comma or a word.
+// Draws text in one line or, if it would be too small to read, in two lines, broken after a comma or a word.
 static void draw_words(struct compare *c, struct point baseline, double width, const char *line)
 {
     double u = c->page.unit, size = 15 * u, needed = text_width(&c->drawing, size, line);
@@ -436,7 +436,7 @@ static bool has_word(const char *const *words, int count, const char *word)
     return false;
 }
 
-// Prints what each picture is: its caption, and the words that make it of the command line without the sheet's own options.
+// Prints for each picture its caption, and its part of the command line without the sheet's own options.
 static void print_json(const struct compare *c, const char *path)
 {
     struct json json = {.file = strcmp(path, "-") == 0 ? stderr : stdout};
@@ -484,7 +484,7 @@ static char *path_of(const struct options *o, const char *model, const char *she
     return output_path(o->picture.output, model, ending);
 }
 
-// Decides which of the sheet's defaults hold for this command line and model.
+// Selects the sheet's defaults that apply to this command line and model.
 static bool find_defaults(struct compare *c, lam_error *error)
 {
     int shape = lam_shape_find(c->model);

@@ -1,4 +1,4 @@
-// journal_command.c: the command `journal`: sums up the journals of a batch, and merges those of its shards.
+// journal_command.c: the command `journal`: summarises the journals of a batch, and merges the journals of its shards.
 #include "command.h"
 
 #include <stdio.h>
@@ -86,7 +86,7 @@ static bool sum_classes(const struct journal_sum *sum, struct batch_tally *tally
     return true;
 }
 
-// --- what it prints
+// --- printed output
 
 static void print_parts(const struct journal_sum *sum)
 {
@@ -191,7 +191,7 @@ static void print_json(const struct journal_sum *sum, const struct batch_tally *
     putc('\n', stdout);
 }
 
-// --- what it writes
+// --- written files
 
 // The folder of the pictures that follow, of the line that names it.
 static void write_folder(FILE *out, const char *line)

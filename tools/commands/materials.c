@@ -120,7 +120,7 @@ static void print_list(const struct options *options)
 }
 
 // One mesh, and an object for each material: rows of COLUMNS in the order of the list, from the top left. The light is
-// that of the program with the original table: directional, from (0, 3, 3), global ambient 0.2, an infinite viewer.
+// the original program's: directional, from (0, 3, 3), global ambient 0.2, an infinite viewer.
 static bool build_scene(lam_scene *scene, lam_color_mode color, lam_error *error)
 {
     int mesh = lam_scene_add_shape(scene, "teapot", NULL, error);

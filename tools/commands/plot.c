@@ -263,7 +263,7 @@ static const struct kind kinds[] = {
      1},
     {"highlight",
      "Highlight: Phong cos(φ)^α, Blinn–Phong cos(φ/2)^α",
-     "angle φ between mirrored light and eye in degrees",
+     "angle φ between reflected light and eye in degrees",
      "strength S",
      add_highlight,
      {"10", "50", "1000", NULL},
@@ -290,8 +290,8 @@ static const struct kind *find_kind(const char *name, lam_error *error)
     return NULL;
 }
 
-// The length of the axis: up to where the last curve has fallen to a twentieth, so that the curves fill the plot; 10 if none
-// does. Where they fall below 1/255 lies beyond, and stands in the legend.
+// The length of the axis: up to where the last curve has fallen to a twentieth, so that the curves fill the plot; 10 if
+// none does. The point at which they fall below 1/255 is beyond the axis, so the legend states it.
 static double length_of(const struct plot *plot, double farthest)
 {
     double most = 0;

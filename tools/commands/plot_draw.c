@@ -188,7 +188,7 @@ static bool draw_marks(const struct plot *plot, const struct layout *at, struct 
     return true;
 }
 
-// A curve in the legend. A place where it fades that lies beyond the axis has no dot, and is said here.
+// A curve in the legend. If a curve fades beyond the axis, it has no dot, and its legend states the point.
 static const char *legend_of(const struct plot *plot, const struct curve *curve, char text[LEGEND_SIZE])
 {
     snprintf(text, LEGEND_SIZE, "%s", curve->label);

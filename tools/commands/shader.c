@@ -54,7 +54,7 @@ void shader_contract(FILE *file, const lam_shader *s)
         list_uniforms(file, s->uniforms, s->uniform_count);
     }
     for (int i = 0; i < s->texture_count; i++)
-        fprintf(file, "//   %s holds %d texels; --host c and --json print them.\n", s->textures[i].name,
+        fprintf(file, "//   %s contains %d texels; --host c and --json print them.\n", s->textures[i].name,
                 s->textures[i].texels);
     for (int i = 0; i < s->draw_count; i++) {
         const lam_shader_draw *d = &s->draws[i];
@@ -87,8 +87,8 @@ static char *base_of(const char *output, const char *model)
     return base;
 }
 
-// Files of these names are replaced, in a folder too: unlike pictures they do not say what wrote them. The folder of
-// `output` may be missing.
+// Files of these names are replaced, in a folder too: unlike pictures they do not record the program that wrote them.
+// The folder of `output` may be missing.
 static bool write_file(const char *output, const char *base, const char *ending, const char *text, size_t size,
                        lam_error *error)
 {
@@ -183,7 +183,7 @@ bool shader_mistake_is_known(const char *name, lam_error *error)
         nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
 }
 
-// The known mistakes: what is wrong, and what it looks like.
+// The known mistakes, with their visible effects.
 static void list_mistakes(bool as_json)
 {
     struct json json = {.file = stdout};

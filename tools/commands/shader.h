@@ -9,7 +9,7 @@
 // The attributes, the uniforms and their values, as comments (`//` before each line).
 void shader_contract(FILE *file, const lam_shader *shader);
 
-// C code that compiles the sources and sets what they ask for. `name`: of the files, `.vert` and `.frag` left out.
+// C code that compiles the sources and sets their inputs. `name`: of the files, `.vert` and `.frag` left out.
 void shader_host(FILE *file, const lam_shader *shader, const char *name, const char *model);
 
 // All of it on one line.

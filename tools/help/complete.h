@@ -4,16 +4,16 @@
 
 #include "options.h"
 
-// The word that is being typed: `before` is complete, `piece` is the beginning of what may follow.
+// The unfinished word: `before` is complete, `piece` is the beginning of the rest.
 struct typed_word {
     const char *before, *piece;
     int before_length;
 };
 
-// Prints a candidate if it begins with the piece: the whole word, then `ending`, a tab and the summary (NULL: none).
+// Prints a candidate if it begins with `piece`: the whole word, then `ending`, a tab and the summary (NULL: none).
 void complete_offer(const struct typed_word *typed, const char *word, const char *ending, const char *summary);
 
-// Lets the shell add the names of files that begin with the piece.
+// Lets the shell add the names of files that begin with `piece`.
 void complete_files(void);
 
 // Prints the candidates for the value of an option.

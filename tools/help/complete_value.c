@@ -20,13 +20,13 @@ void complete_offer(const struct typed_word *typed, const char *word, const char
 
 void complete_files(void) { printf(":files\n"); }
 
-// The word from the place after `complete` letters of the piece on.
+// The word from the position after `complete` letters of `piece` on.
 static struct typed_word after(const struct typed_word *typed, size_t complete)
 {
     return (struct typed_word){typed->before, typed->piece + complete, typed->before_length + (int)complete};
 }
 
-// The piece behind its last comma.
+// The text of `piece` behind its last comma.
 static struct typed_word after_comma(const struct typed_word *typed)
 {
     const char *comma = strrchr(typed->piece, ',');
@@ -36,7 +36,7 @@ static struct typed_word after_comma(const struct typed_word *typed)
 static void complete_words(const struct word *words, const struct typed_word *typed)
 {
     for (const struct word *w = words; w->name; w++) {
-        // A name in capitals stands for what the user writes: "light:NAME".
+        // A name in capitals is a placeholder for the user's text: "light:NAME".
         char fixed[64];
         snprintf(fixed, sizeof fixed, "%s", w->name);
         char *colon = strchr(fixed, ':');

@@ -86,9 +86,8 @@ void field_tables_markdown(void)
     printf("\n## Fields of materials\n\nKeys of `--material` and of a scene file's materials.\n\n"
            "| key | value | default | MTL | |\n|---|---|---|---|---|\n");
     markdown_rows(lam_material_field);
-    printf(
-        "\n## Fields of lights\n\nKeys of `--light` and of a scene file's lights, beside those that docs/scene-file.md "
-        "has.\n\n| key | value | default | lights | |\n|---|---|---|---|---|\n");
+    printf("\n## Fields of lights\n\nKeys of `--light` and of a scene file's lights, besides the keys in "
+           "docs/scene-file.md.\n\n| key | value | default | lights | |\n|---|---|---|---|---|\n");
     markdown_rows(lam_light_field);
 }
 

@@ -32,7 +32,7 @@ void print_help(const struct command *command)
     printf("\nMore: lambent help TOPIC (lambent help lists the topics), man lambent\n");
 }
 
-// One line: the value is cut to its first form, and the default left out, where they do not fit.
+// One line: the value is cut to its first form, and the default omitted, if they do not fit.
 static void brief_option(const struct option *o, const struct command *command)
 {
     char left[64], text[512], letter[8] = "    ";

@@ -92,7 +92,8 @@ void help_option(const struct option *option, const struct command *command, boo
      1ull << GROUP_MATERIALS | 1ull << GROUP_SHADING | 1ull << GROUP_ANIMATION | 1ull << GROUP_WORK |                  \
      1ull << GROUP_LIMITS | 1ull << GROUP_REPORT)
 
-// A command describes its own options, those of which it accepts no other of the group, and those whose default is its own.
+// A command describes its own options, options of a group from which it accepts no other, and options with a different
+// default.
 static bool is_shared(const struct option *o, const struct command *command)
 {
     return command != command_table && SHARED & command->groups & 1ull << o->group &&

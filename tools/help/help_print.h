@@ -17,7 +17,8 @@ void help_row(const char *left, int column, int width, const char *text);
 // An option's row: its summary and default, for a command the command's own. With `details` all that is known of it.
 void help_option(const struct option *option, const struct command *command, bool details);
 
-// The rows of the options that a command accepts, by group: its own first; those that it shares with pictures of models by name alone.
+// The rows of the options that a command accepts, by group: its own first; options shared with pictures of models only
+// by name.
 void help_options(const struct command *command);
 
 void help_commands(void);   // rows of the commands that must be named

@@ -39,13 +39,13 @@ static const struct topic *find_topic(const char *word)
     return NULL;
 }
 
-// "light", "--light" or "-o".
+// "light", "--light", "-o" or "o".
 static const struct option *find_option(const char *word)
 {
-    if (word[0] == '-' && word[1] && word[1] != '-' && !word[2])
-        for (const struct option *o = option_table; o->name; o++)
-            if (o->letter == word[1])
-                return o;
+    char letter = word[0] != '-' && !word[1] ? word[0] : word[0] == '-' && word[1] && !word[2] ? word[1] : 0;
+    for (const struct option *o = option_table; o->name && letter; o++)
+        if (o->letter == letter)
+            return o;
     const struct option *option = option_find(word + (strncmp(word, "--", 2) == 0 ? 2 : 0));
     return option && option->now ? option_find(option->now) : option;
 }
@@ -130,11 +130,15 @@ static int search(int count, char **words)
     const char *nearest = nearest_name(words[0]);
     char meant[80] = "", heading[200];
     lam_error error;
-    if (nearest)
+    if (nearest && count == 1)
         snprintf(meant, sizeof meant, "; did you mean '%s'?", nearest);
-    snprintf(heading, sizeof heading, "No subject, command or option is named '%.60s'%s", words[0],
-             *meant ? meant : "; found in:");
-    if (help_search(count, words, heading))
+    if (count > 1)
+        snprintf(heading, sizeof heading, "Found in these entries:");
+    else
+        snprintf(heading, sizeof heading, "No subject, command or option is named '%.60s'%s", words[0],
+                 *meant ? meant : "; found in:");
+    bool letter = count == 1 && strlen(words[0]) < 2; // begins a word of nearly every text
+    if (!letter && help_search(count, words, heading))
         return 0;
     complain(&error, LAM_BAD_ARGUMENT,
              "help: nothing is named '%.60s', expected a subject, a command or an option (`lambent help` lists them)%s",

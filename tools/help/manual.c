@@ -34,7 +34,7 @@ static void roff_line(const char *text)
     putchar('\n');
 }
 
-// The default of an option, and behind it those of commands that have their own. "": none.
+// The default of an option, followed by the defaults of commands that differ. "": none.
 static const char *standard_of(const struct option *o, char text[400])
 {
     int used = snprintf(text, 400, "%s", o->standard ? o->standard : "");

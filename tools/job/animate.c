@@ -66,8 +66,8 @@ static bool check_format(const struct job *job, const struct options *o, lam_err
     if (job->frames.first || strcmp(job->format, "png") == 0 || lam_animation_format(job->output))
         return true;
     return complain(error, LAM_UNSUPPORTED,
-                    "option '--%s': a file of format %s holds one picture; expected .png or .webp, or {frame} in the "
-                    "name: -o '{stem}-{frame}.%s'",
+                    "option '--%s': a file of format %s contains one picture; expected .png or .webp, or {frame} in "
+                    "the name: -o '{stem}-{frame}.%s'",
                     animation_option(o), job->format, job->format);
 }
 
@@ -146,7 +146,7 @@ static char up_letter(lam_up up)
     return up == LAM_UP_X || up == LAM_UP_NEGATIVE_X ? 'x' : up == LAM_UP_Z || up == LAM_UP_NEGATIVE_Z ? 'z' : 'y';
 }
 
-// The turns that the camera is fitted for besides those of the options: the camera goes around the model.
+// The rotations that the camera is fitted for besides the options': the camera circles the model.
 static bool add_turns(struct animation *a, struct options *o, lam_error *error)
 {
     static const char *const all[] = {"x:0", "y:0", "z:0"};
@@ -217,7 +217,7 @@ static void keep_exposure(const struct job *job, struct options *o)
 
 // --- loading
 
-// The options of the frame, completed by those of a scene file, become the job's.
+// The options of the frame, completed by a scene file's, become the job's.
 static bool use_options(struct job *job, int frame, lam_error *error)
 {
     struct animation *a = job->animation;
@@ -341,7 +341,7 @@ static void extend(lam_vec3 *low, lam_vec3 *high, lam_vec3 a, lam_vec3 b)
     high->z = b.z > high->z ? b.z : high->z;
 }
 
-// Where frames pose the model in different ways: one point to turn about, and one camera, for the box of all of them.
+// If frames pose the model in different ways: one point to rotate about, and one camera, for the box of all of them.
 static bool fit_poses(struct job *job, lam_error *error)
 {
     struct animation *a = job->animation;

@@ -8,7 +8,7 @@
 
 struct animation {
     const struct options *given; // of the command line
-    const char *pattern;         // the picture's name, in which {frame} may stand
+    const char *pattern;         // the picture's name, which may contain {frame}
     struct options frame;        // of the frame being drawn
     int sweep_count;
     struct sweep *sweeps;

@@ -153,7 +153,7 @@ static void warn_maps(struct job *job)
             snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? ", " : "",
                      lam_map_name(fine[map]));
     }
-    snprintf(text, sizeof text, "maps that need Phong shading are left out: %s", names);
+    snprintf(text, sizeof text, "maps that need Phong shading are omitted: %s", names);
     if (*names)
         lam_scene_add_warning(job->scene, text);
 }
@@ -266,10 +266,10 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
         lam_scene_add_warning(job->scene, "option '--segments' changes nothing: the model is a file");
     bool is_gltf = strcmp(lam_scene_format(job->scene), "gltf") == 0;
     if (!is_gltf && (o->model.scene || o->model.variant || o->model.animation || o->model.has_time))
-        lam_scene_add_warning(job->scene, "options '--scene', '--variant', '--animation' and '--time' count for glTF "
-                                          "files alone");
+        lam_scene_add_warning(job->scene, "options '--scene', '--variant', '--animation' and '--time' apply only "
+                                          "to glTF files");
     if (o->model.lenient && !is_gltf && strcmp(lam_scene_format(job->scene), "3mf") != 0)
-        lam_scene_add_warning(job->scene, "option '--lenient' counts for glTF and 3MF files alone");
+        lam_scene_add_warning(job->scene, "option '--lenient' applies only to glTF and 3MF files");
     return true;
 }
 
@@ -313,7 +313,8 @@ static bool fill_darkness(struct job *job, lam_draw_params *draw, int width, int
     return true;
 }
 
-// Finds the exposure where it is automatic. All lights count then: what a light changes depends on the exposure.
+// Computes the exposure if it is automatic. All lights count then, because the effect of a light depends on the
+// exposure.
 static bool fit_exposure(struct job *job, lam_draw_params *draw, int width, int height, lam_error *error)
 {
     const struct options *o = job->options;
@@ -381,7 +382,7 @@ static bool draw(struct job *job, struct progress *progress, lam_error *error)
     return ok;
 }
 
-// Whether 8 bits hold sRGB-encoded colours.
+// Whether the file stores 8 bits of sRGB-encoded colours.
 static bool is_color(lam_output output) { return lam_output_is_light(output) || output == LAM_OUTPUT_BASE_COLOR; }
 
 lam_save_params job_save_params(const struct job *job, const lam_control *control)

@@ -63,7 +63,7 @@ struct job {
     lam_pixel_format pixels;      // that it is drawn with
     struct job_frames frames;
     struct animation *animation; // while one is made (animate.h); NULL: none is
-    lam_scene *scene;            // NULL until the model is loaded; one that is there stands for it
+    lam_scene *scene;            // NULL until the model is loaded
     bool keeps_scene;            // it is drawn again, by another job
     struct model_counts model_counts;
     lam_rig rig;                // the rig that drawing adds to the scene's own lights
@@ -71,7 +71,7 @@ struct job {
     bool exposure_fitted;       // draw.exposure was found for this picture
     lam_light *unfilled;        // the scene's lights before lam_studio_fill scaled them; NULL: it did not. From malloc
     double fill_scale;          // by which it scaled them; 0: it did not
-    bool studio;                // the built-in environment "studio" lights it, where no other is set
+    bool studio;                // the built-in environment "studio" lights it, if no other is set
     struct model_sphere sphere; // before it was turned
     lam_camera camera;
     lam_image image;

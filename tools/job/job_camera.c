@@ -1,4 +1,4 @@
-// job_camera.c: where the camera of a job stands, and the lights that depend on it.
+// job_camera.c: the position of a job's camera, and the lights that depend on it.
 #include "job_steps.h"
 
 #include <stdio.h>

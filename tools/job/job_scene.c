@@ -38,7 +38,7 @@ static bool set_materials(const struct texts *texts, bool back, const char *name
     return true;
 }
 
-// Colours of vertices and triangles multiply those of materials.
+// Colours of vertices and triangles multiply the materials' colours.
 static void warn_of_own_colors(lam_scene *scene)
 {
     for (int i = 0; i < lam_scene_mesh_count(scene); i++)
@@ -145,7 +145,7 @@ static bool apply_rig(struct job *job, lam_error *error)
     bool classic =
         o->draw.reflection != LAM_REFLECTION_AUTO && !lam_reflection_describe(o->draw.reflection)->microfacet;
     if (job->rig == LAM_RIG_AUTO && classic && lam_scene_light_count(job->scene) == 0)
-        job->rig = LAM_RIG_STUDIO; // where the environment lights physical models
+        job->rig = LAM_RIG_STUDIO; // if the environment lights physical models
     const char *format = lam_scene_format(job->scene);
     job->file_lights = lam_scene_light_count(job->scene) > 0 &&
                        (strcmp(format, "gltf") == 0 ||

@@ -16,7 +16,7 @@ void job_choose_view(struct job *job, const struct job_view *view);
 // Places the camera of each view, and turns the model.
 bool job_place_camera(struct job *job, lam_error *error);
 
-// Lights the scene for another camera, where lights of options came to those of the model.
+// Lights the scene for another camera, if the options added lights to the model's.
 bool job_light_again(struct job *job, lam_error *error);
 
 // Makes job->image. LAM_LIMIT.

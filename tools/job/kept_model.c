@@ -14,7 +14,7 @@ void kept_model_forget(struct kept_model *model)
     *model = (struct kept_model){0};
 }
 
-// Whether a scene that is loaded serves other values of the option: those of the picture, the view, lights, materials and
+// Whether a loaded scene serves other values of the option: options of the picture, the view, lights, materials and
 // drawing. An option of another kind is taken for one that changes the scene.
 static bool changes_drawing_only(const struct option *option)
 {

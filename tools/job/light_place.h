@@ -8,7 +8,7 @@
 // The matrix from a light's frame to the world.
 lam_mat4 light_to_world(const struct job *job, const lam_light *light);
 
-// Makes lights that stand still with the camera lights of the world, where they are.
+// Turns lights fixed to the camera into lights of the world, at their present positions.
 bool lights_fix_to_world(struct job *job, lam_error *error);
 
 // Gives a light of the scene a sweep's value. `centre`: the middle of the model. LAM_BAD_ARGUMENT: no such light, or it has

@@ -1,4 +1,5 @@
-// model_guess.c: advice about a model that cannot be read: another command, another file, or what stands in its place.
+// model_guess.c: advice about a model that cannot be read: another command, another file, or the object found in its
+// place.
 #include "model_guess.h"
 
 #include <dirent.h>
@@ -14,7 +15,7 @@
 
 enum { FILE_NAME_SIZE = 256, ADVICE_SIZE = 600 };
 
-// The model in the folder of a missing file whose name is nearest to that of the file. False: none is near.
+// The model in the folder of a missing file with the nearest name. False: none is near.
 static bool nearest_file(const char *model, char nearest[FILE_NAME_SIZE])
 {
     const char *slash = strrchr(model, '/'), *name = slash ? slash + 1 : model;

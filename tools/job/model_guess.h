@@ -4,7 +4,7 @@
 
 #include "options.h"
 
-// Adds to the error of a model that cannot be read what its user may have meant, if something is known.
+// Adds advice to the error of a model that cannot be read, if the program can guess what the user meant.
 void model_guess(const char *model, const struct options *options, lam_error *error);
 
 #endif

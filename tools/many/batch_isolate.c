@@ -1,5 +1,5 @@
-// batch_isolate.c: a pass over the models with a process for each: what it does is sent back, and if it ends before that, this
-// is what became of its pictures.
+// batch_isolate.c: a pass over the models with a process for each. The process sends its results back; if it ends
+// before that, its pictures get the class `crashed`.
 #include "batch_isolate.h"
 
 #include <errno.h>
@@ -104,7 +104,7 @@ static void work(void *user, struct batch_answer *answer)
         _exit(1);
 }
 
-// --- what it has sent
+// --- received results
 
 // The bytes that are still to be read.
 struct rest {
@@ -277,7 +277,7 @@ static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_proces
     return false;
 }
 
-// An interrupt goes on to the processes; what does not end soon is killed.
+// An interrupt is passed to the processes; those that do not end soon are killed.
 static void end_processes(struct batch_process *processes, int count, double *since_ms)
 {
     if (!interrupted())

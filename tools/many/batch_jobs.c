@@ -31,7 +31,7 @@ struct batch_jobs {
     size_t ahead;           // jobs that may wait
     struct job_answers out; // has a lock of its own
 
-    pthread_mutex_t lock; // of what follows
+    pthread_mutex_t lock; // of the rest
     pthread_cond_t changed;
     struct list waiting, drawing;
     size_t waiting_count, waiting_bytes; // of models in memory
@@ -157,7 +157,7 @@ static void count(struct batch_jobs *jobs, const lam_error *error, size_t pictur
     pthread_mutex_unlock(&b->lock);
 }
 
-// `id` NULL: the line has none, or one that another job has.
+// `id` NULL: the line has none, or another job's.
 static void refuse(struct batch_jobs *jobs, json_t *id, uint64_t line, const char *outcome, const lam_error *reason)
 {
     lam_error error;

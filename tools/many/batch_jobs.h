@@ -15,8 +15,8 @@ void batch_jobs_close(struct batch_jobs *jobs); // NULL is fine
 // The folders that files of jobs may lie in.
 const struct job_roots *batch_jobs_roots(const struct batch_jobs *jobs);
 
-// Reads the next line, waiting for it up to `wait_ms`, and does what it says: accepts, refuses or cancels a job. After an
-// interrupt, or when the batch or the answers have failed, gives up all jobs. The main thread alone.
+// Reads the next line, waiting for it up to `wait_ms`, and accepts, refuses or cancels a job. After an interrupt, or
+// when the batch or the answers have failed, cancels all jobs. The main thread alone.
 void batch_jobs_step(struct batch_jobs *jobs, int wait_ms);
 
 // The file to poll() for the next line; −1: none is wanted at the moment.
@@ -31,7 +31,7 @@ bool batch_jobs_over(struct batch_jobs *jobs);
 // The next job that waits; with `waits` it is waited for. False: there is none. Any thread.
 bool batch_jobs_take(struct batch_jobs *jobs, struct batch_task *task, bool waits);
 
-// Answers a job with what came of it, and frees it. Any thread.
+// Answers a job with its result, and frees it. Any thread.
 void batch_jobs_answer(struct batch_jobs *jobs, struct batch_unit *unit);
 
 #endif

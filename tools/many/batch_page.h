@@ -4,7 +4,8 @@
 
 #include "batch_unit.h"
 
-// Makes the thumbnails of a unit's pictures, in the folder beside the page. Any thread. What cannot be made is not there.
+// Makes the thumbnails of a unit's pictures, in the folder beside the page. Any thread. Thumbnails that cannot be made
+// are missing.
 void batch_page_thumbnails(const struct batch *batch, const struct batch_unit *unit);
 
 // Whether one of them is missing, or older than its picture.
@@ -13,7 +14,7 @@ bool batch_page_lacks(const struct batch *batch, const struct batch_unit *unit);
 // Makes the thumbnail of one picture, unless there is one that is not older. `is_new`: make it anyway.
 void batch_page_thumbnail(const char *page, const char *output, bool is_new);
 
-// Whether a path may be that of a thumbnail beside the page.
+// Whether a path may be a thumbnail's beside the page.
 bool batch_page_is_thumbnail(const char *page, const char *path);
 
 struct batch_page {

@@ -65,7 +65,7 @@ bool batch_take(struct batch *b, struct batch_task *task, bool waits)
     return found;
 }
 
-// --- what a killed run left
+// --- traces of a killed run
 
 // The name that file_write.c gives to a file until it is whole: ".lambent-PROCESS-HOST-TIME.part".
 static bool is_part(const char *name, const char *begin)

@@ -1,4 +1,4 @@
-// batch_process.c: a piece of work in a process of its own.
+// batch_process.c: runs a function in a process of its own.
 #include "batch_process.h"
 
 #include <errno.h>
@@ -71,7 +71,7 @@ bool batch_process_start(struct batch_process *process, batch_work *work, void *
     return false;
 }
 
-// Reads what is there; false at the end.
+// Reads the available bytes; false at the end.
 static bool receive(struct batch_process *process)
 {
     char piece[16 << 10];

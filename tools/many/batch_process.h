@@ -1,4 +1,4 @@
-// batch_process.h: a piece of work in a process of its own, whose end cannot take the others with it.
+// batch_process.h: runs a function in a process of its own, whose end cannot affect the others.
 #ifndef BATCH_PROCESS_H
 #define BATCH_PROCESS_H
 
@@ -21,7 +21,8 @@ struct batch_process {
     pid_t writer;   // writes its files, and ends after it; 0: none
 };
 
-// Starts `work` in a copy of this process, which must have no other thread. What `work` returns is sent back. False: errno.
+// Starts `work` in a copy of this process, which must have no other thread. The result of `work` is sent back. False:
+// errno.
 typedef void batch_work(void *user, struct batch_answer *answer);
 bool batch_process_start(struct batch_process *process, batch_work *work, void *user);
 

@@ -24,7 +24,7 @@ static bool takes_folder(const struct batch *b)
            (b->options_text || b->plan->count * (size_t)b->plan->view_count > SINGLE);
 }
 
-// The folder of a path, from malloc: "." where it names none.
+// The folder of a path, from malloc: "." if it names none.
 static char *folder_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -56,8 +56,8 @@ static void add_folder(struct sandbox_paths *paths, char *folder)
     free(folder);
 }
 
-// A model whose folder is that of the model before adds nothing, unless it is a link, which may lead elsewhere. A shape
-// has no folder.
+// A model in the previous model's folder adds nothing, unless it is a link, which may lead elsewhere. A shape has no
+// folder.
 static bool is_within_reach(const char *model, const char *before)
 {
     before = before && lam_shape_find(before) < 0 ? before : NULL;
@@ -70,7 +70,7 @@ static bool is_within_reach(const char *model, const char *before)
     return same && !scene && lstat(model, &about) == 0 && !S_ISLNK(about.st_mode);
 }
 
-// The page that is filled with a model. Where there is none, writing one says so.
+// The page that is filled with a model. If there is none, writing a picture reports it.
 static void add_page(struct sandbox_paths *paths)
 {
     lam_error error;

@@ -1,8 +1,8 @@
-// batch_run.c: the loop over models: workers take the next model, draw it, and hand over what came of it.
+// batch_run.c: the loop over models: workers take the next model, draw it, and hand over the result.
 //
-// A worker is a thread with a device of its own, which draws with one thread where there are enough models; with --isolate it is a
-// process for each model. Another thread reads files ahead of the workers, so that the disk works while they draw. What a worker
-// hands over is printed in the order of the models, but stands in the journal as soon as it is done.
+// A worker is a thread with a device of its own, which draws with one thread if there are enough models; with --isolate
+// it is a process for each model. Another thread reads files ahead of the workers, so that the disk works while they
+// draw. A worker's messages are printed in the order of the models, but its journal lines are written immediately.
 #include "batch_run.h"
 
 #include <errno.h>
@@ -43,7 +43,7 @@ struct worker {
 
 // --- one worker
 
-// Gives back what a device holds for a large picture of a job: the next job is another's.
+// Releases a device's memory for a large picture of a job: the next job belongs to another user.
 static void trim(struct worker *w)
 {
     enum { KEPT = 128 << 20 };
@@ -98,7 +98,7 @@ static void *work(void *user)
 
 // --- reading ahead
 
-// Asks the system for the pages of a file. The request is cut to pieces: of a longer one it reads only the beginning.
+// Asks the system for the pages of a file. The request is split; of a longer one it reads only the beginning.
 static void warm(const char *path)
 {
     enum { PIECE = 128 << 10, MAX = 256 << 20 };
@@ -246,7 +246,7 @@ static bool draws_with_gl(const struct options *o)
            (o->work.device == DEVICE_AUTO && o->work.gl_device);
 }
 
-// One worker for each processor, with the threads that are left where there are fewer models than that.
+// One worker per processor, with more threads each if there are fewer models than processors.
 static void share_threads(struct batch *b)
 {
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
@@ -388,8 +388,9 @@ static void free_batch(struct batch *b)
     pthread_mutex_destroy(&b->lock);
 }
 
-// Models need about the same memory one after the other: what one has given back is the next one's, and not the system's, which would
-// have to clear it again, with a lock that all workers take. 256 pixels take 7 % less processor time by it.
+// Models need about the same memory one after the other. The next one reuses released memory instead of returning it to
+// the system, which would have to clear it again, under a lock that all workers share. 256 pixels take 7 % less
+// processor time by it.
 static void keep_memory(void)
 {
 #ifdef __GLIBC__

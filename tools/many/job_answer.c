@@ -41,7 +41,7 @@ void job_answers_fail(struct job_answers *answers, int reason)
 
 // --- writing
 
-// Waits until a piece can be written. False: nobody takes it, after an interrupt.
+// Waits until more bytes can be written. False: nobody takes it, after an interrupt.
 static bool wait_writable(double *since_ms)
 {
     struct pollfd wait = {.fd = STDOUT_FILENO, .events = POLLOUT};
@@ -183,7 +183,7 @@ void job_answer_unit(struct job_answers *answers, const struct batch_unit *u)
         json_t *picture = list ? json_object() : json_incref(answer);
         if (u->records[i])
             json_object_update(picture, u->records[i]);
-        json_object_del(list ? picture : NULL, "id"); // a line of the journal may have that of another job
+        json_object_del(list ? picture : NULL, "id"); // a line of the journal may have another job's
         if (u->contents)
             ok = add_data(picture, &u->contents[i]) && ok;
         if (list)

@@ -16,7 +16,7 @@ struct job_answers {
 void job_answers_start(struct job_answers *answers);
 void job_answers_end(struct job_answers *answers);
 
-// The answer to a drawn job: what became of its pictures.
+// The answer to a drawn job: the results of its pictures.
 void job_answer_unit(struct job_answers *answers, const struct batch_unit *unit);
 
 // The answer to a line that draws nothing. `id` NULL: null. `line`: of the input; 0: it is not named.

@@ -25,8 +25,8 @@ struct command {
     uint64_t groups;                    // bit g: accepts the options of group g; TAKES_…: single options
     int min_operands, max_operands;     // max −1: no limit
     const struct own_default *defaults; // NULL: none of its own
-    const char *one_more; // what to write instead, for the error about more operands; NULL: nothing is known
-    bool verbatim;        // its words are no options, but for -h and --help as the first
+    const char *one_more;               // the correct spelling, for the error about surplus operands; NULL: none
+    bool verbatim;                      // its words are no options, but for -h and --help as the first
 };
 
 extern const struct command command_table[]; // in the order of COMMANDS; ends with a NULL name
@@ -37,7 +37,7 @@ uint64_t find_groups(const char *name);               // of a command; 0: no suc
 // The default of an option in words, for a command: its own, else the option's. NULL: none is shown.
 const char *default_of(const struct command *command, const struct option *option);
 
-// Examples: a command line and what it does. Ends with NULL.
+// Examples: a command line and its effect. Ends with NULL.
 struct example {
     const char *line, *meaning;
     bool brief; // shown by -h too

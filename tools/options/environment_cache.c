@@ -125,7 +125,7 @@ static struct entry *find(struct environment_cache *cache, const char *text, lam
 
 static bool set(lam_scene *scene, const lam_environment *environment, double rotation_rad, lam_error *error)
 {
-    return lam_scene_set_environment(scene, environment, rotation_rad, error); // the scene holds a reference
+    return lam_scene_set_environment(scene, environment, rotation_rad, error); // the scene owns a reference
 }
 
 // The lock is held, but not while the environment is read.

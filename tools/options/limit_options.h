@@ -4,8 +4,8 @@
 
 #include "options.h"
 
-// Bytes that reading a model, and drawing it, may each use: --memory-limit, else a quarter of what this process may use,
-// divided among the options' `in_flight` models. 0: no limit. Any thread.
+// The bytes that reading a model, and drawing it, may each use: --memory-limit, or else a quarter of the memory
+// available to this process, divided among the options' `in_flight` models. 0: no limit. Any thread.
 uint64_t limits_memory(const struct options *options);
 
 // Seconds for a model. 0: no limit.

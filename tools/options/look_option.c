@@ -39,7 +39,8 @@ void look_summary(const char *text, char *out, size_t size)
     snprintf(out, size, "%.*s", *text == '#' ? (int)strcspn(from, "\n") : 0, from);
 }
 
-// Opens a regular file. Folders, pipes and devices are not opened: opening one can wait for ever, or do something. −1: errno.
+// Opens a regular file. Folders, pipes and devices are not opened: opening one can wait forever, or have side effects.
+// −1: errno.
 static int open_file(const char *path)
 {
     struct stat about;

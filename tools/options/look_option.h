@@ -1,4 +1,4 @@
-// look_option.h: --look: files of options, those that are built in and those of users.
+// look_option.h: --look: built-in and users' files of options.
 #ifndef LOOK_OPTION_H
 #define LOOK_OPTION_H
 
@@ -11,12 +11,12 @@ const char *look_text(int look);
 // A look that is built in by its name; NULL: there is none.
 const char *look_find(const char *name);
 
-// Writes what a look is for, the first line of its file, to `out`.
+// Writes the purpose of a look, the first line of its file, to `out`.
 void look_summary(const char *text, char *out, size_t size);
 
-// Calls `take` for each option of a look, a built-in one or a file, until it returns false: the line's number, the name without
-// dashes and the value, "" where there is none, which live as long as *kept: the caller frees it, also after a failure. False:
-// LAM_BAD_ARGUMENT.
+// Calls `take` for each option of a look, a built-in one or a file, until it returns false. It passes the line's
+// number, the name without dashes and the value ("" without one), which live as long as *kept. The caller frees *kept,
+// also after a failure. False: LAM_BAD_ARGUMENT.
 bool look_read(const char *name, char **kept,
                bool (*take)(void *user, int line, char *option, char *value, lam_error *error), void *user,
                lam_error *error);

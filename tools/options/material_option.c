@@ -32,8 +32,8 @@ bool material_option_parse(const char *text, lam_color_mode mode, struct materia
 
 void material_option_mirror(struct material_option *option)
 {
-    // What metals reflect at normal incidence, linear: Akenine-Möller and others, Real-Time Rendering, 4th edition, table 9.2. Bronze is the
-    // mean of copper and brass.
+    // The reflectance of metals at normal incidence, linear: Akenine-Möller and others, Real-Time Rendering, 4th
+    // edition, table 9.2. Bronze is the mean of copper and brass.
     static const struct {
         const char *name, *words;
     } metals[] = {{"brass", "diffuse=0.910/0.778/0.423,metallic=1,roughness=0.25"},
@@ -60,7 +60,7 @@ lam_material material_option_apply(const struct material_option *option, lam_mat
     return material;
 }
 
-// Fractions of light have a symbol; the surface's own light has none.
+// Fractions of light have a symbol; emission has none.
 static bool is_fraction(const lam_field *field)
 {
     return (field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA) && field->symbol;
@@ -120,7 +120,7 @@ void materials_warn(lam_scene *scene)
 {
     enum { REPORTED = 3 };
     int over = 0;
-    // Those of glTF are not the file's: highlights that stand for rough surfaces keep their energy, whatever their width.
+    // glTF's values are not the file's: highlights that represent rough surfaces keep their energy at any width.
     if (strcmp(lam_scene_format(scene), "gltf") == 0)
         return;
     for (int i = 0; i < lam_scene_material_count(scene); i++) {
@@ -131,7 +131,7 @@ void materials_warn(lam_scene *scene)
     }
     if (over > REPORTED) {
         char text[100];
-        snprintf(text, sizeof text, "%d more coefficients of materials are over 1", over - REPORTED);
+        snprintf(text, sizeof text, "%d more coefficients of materials are above 1", over - REPORTED);
         lam_scene_add_warning(scene, text);
     }
 }

@@ -14,7 +14,7 @@ struct material_option {
 // A text of lam_material_parse, with or without "@TARGET" after it.
 bool material_option_parse(const char *text, lam_color_mode mode, struct material_option *option, lam_error *error);
 
-// A metal's name alone then stands for the physical metal, which mirrors the studio, and not for the classic table's row.
+// A metal's name alone then selects the physical metal, which reflects the studio, instead of the classic table's row.
 void material_option_mirror(struct material_option *option);
 
 // The material that the option makes of one.

@@ -12,13 +12,13 @@ struct texts {
     int count;
 };
 
-// Whether the exposure is found for the picture: where the light is that of a file in candela and lux, always, never.
+// Whether the exposure is computed for the picture: for the lights of a file in candela and lux, always, never.
 enum exposure_kind { EXPOSURE_BY_FILE, EXPOSURE_AUTO, EXPOSURE_LITERAL };
 
-// --rig none: only the ambient light. A value besides those of lam_rig.
+// --rig none: only the ambient light. A value in addition to lam_rig's.
 enum { RIG_DARK = 100, RIG_DEFAULT };
 
-// What the lights of a turntable are fixed to.
+// The frame in which the lights of a turntable are fixed.
 enum turntable_light { TURNTABLE_LIGHT_CAMERA, TURNTABLE_LIGHT_MODEL };
 
 // --term: the protocol of pictures in a terminal.
@@ -56,7 +56,7 @@ struct picture_options {
     const char *save_scene; // the scene file to write; NULL: none
 };
 
-// What is taken from a model file.
+// Data to read from a model file.
 struct model_options {
     const char *scene, *variant, *animation; // as written; NULL: the file's own choice
     double time_s;                           // valid if the flag below is set
@@ -103,7 +103,7 @@ struct material_options {
 struct shading_options {
     bool has_shading;
     const char *ground_color;                 // of LAM_GROUND_COLOR, as written; NULL: draw.ground_color
-    const char *edge_color, *wireframe_color; // as written; NULL: those of `draw`
+    const char *edge_color, *wireframe_color; // as written; NULL: `draw` decides
     bool two_sided, one_sided, show_lights;
     int cull; // lam_cull
     bool has_cull;
@@ -165,7 +165,7 @@ struct limits_options {
 // Many models (render, batch).
 struct batch_options {
     struct texts lists;               // files of names
-    int views[VIEWS_MAX], view_count; // lam_side; 0: that of --view
+    int views[VIEWS_MAX], view_count; // lam_side; 0: as --view
     int sizes[VIEWS_MAX][2], size_count;
     const char *journal;     // NULL: the command's default; "none"
     const char *shard;       // as written (batch_shard.h); NULL: all models
@@ -207,7 +207,7 @@ struct captions_options {
     const char *font; // NULL: the system's
     bool no_captions;
     const char *title;  // of the page; NULL: its own
-    struct texts texts; // of a sheet's pictures, in their order; those that are missing are the sheet's
+    struct texts texts; // of a sheet's pictures, in their order; the sheet supplies missing ones
 };
 
 // Sheets (compare).
@@ -249,7 +249,7 @@ struct shader_options {
     bool has_object;
 };
 
-// What is printed.
+// Printed output.
 struct report_options {
     bool json, quiet, verbose, dry_run, version, help;
     bool brief_help; // -h, not --help

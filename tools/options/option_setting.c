@@ -1,5 +1,5 @@
-// option_setting.c: the options of the library's settings. Words, default, range and summary come from its table; a row of
-// option_table.c adds details, and says where the option stands in the help.
+// option_setting.c: the options of the library's settings. Words, default, range and summary come from its table; a row
+// of option_table.c adds details and the position in the help.
 #include "options.h"
 
 #include <stdio.h>
@@ -85,10 +85,14 @@ static const struct {
     bool (*store)(const struct option *, const char *, struct options *, lam_error *);
     const char *value; // the placeholder
 } kinds[] = {
-    [LAM_SETTING_WORD] = {store_word, "WORD"},         [LAM_SETTING_FLAG] = {store_switch, NULL},
-    [LAM_SETTING_NOT_FLAG] = {store_word_flag, "HOW"}, [LAM_SETTING_WHOLE] = {store_integer, "N"},
-    [LAM_SETTING_NUMBER] = {store_float, "NUMBER"},    [LAM_SETTING_ANGLE] = {store_angle, "DEGREES"},
-    [LAM_SETTING_WORDS] = {store_words, "WORDS"},      [LAM_SETTING_RGBA] = {NULL, NULL},
+    [LAM_SETTING_WORD] = {store_word, "WORD"},
+    [LAM_SETTING_FLAG] = {store_switch, NULL},
+    [LAM_SETTING_NOT_FLAG] = {store_word_flag, "SWITCH"},
+    [LAM_SETTING_WHOLE] = {store_integer, "N"},
+    [LAM_SETTING_NUMBER] = {store_float, "NUMBER"},
+    [LAM_SETTING_ANGLE] = {store_angle, "DEGREES"},
+    [LAM_SETTING_WORDS] = {store_words, "WORDS"},
+    [LAM_SETTING_RGBA] = {NULL, NULL},
 };
 
 // The rows that leave something to the settings' table, and the number of all rows. Returns the number of the former.

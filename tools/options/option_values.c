@@ -99,6 +99,10 @@ bool store_ground(const struct option *option, const char *value, struct options
 bool store_words(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     int *field = field_of(options, option->field), all = 0;
+    if (option->setting && strcmp(value, "none") == 0) {
+        *field = 0;
+        return true;
+    }
     for (const char *from = value; from; from = strchr(from, ',') ? strchr(from, ',') + 1 : NULL) {
         char word[32];
         snprintf(word, sizeof word, "%.*s", (int)(strcspn(from, ",") < 31 ? strcspn(from, ",") : 31), from);
@@ -312,8 +316,8 @@ bool store_segments(const struct option *option, const char *value, struct optio
     return true;
 }
 
-// A number that k, M, G, T may multiply by powers of 1000, or Ki, Mi, Gi, Ti by powers of 1024. NULL: it is none; else
-// what follows it.
+// A number that k, M, G, T may multiply by powers of 1000, or Ki, Mi, Gi, Ti by powers of 1024. NULL: not a number;
+// otherwise the rest of the text.
 static const char *read_multiple(const char *value, double *out)
 {
     double number;
@@ -431,13 +435,14 @@ bool store_list(const struct option *option, const char *value, struct options *
                   : complain(error, LAM_BAD_ARGUMENT, "its value is empty, expected a file of names");
 }
 
-// "-", or a file; a number is what other programs take.
+// "-", or a file; other programs accept a number here.
 bool store_jobs(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     if (*value && strspn(value, "0123456789") == strlen(value))
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "found '%.20s', expected - (standard input) or a file; -j %.20s draws so many models at once",
-                        value, value);
+        return complain(
+            error, LAM_BAD_ARGUMENT,
+            "found '%.20s', expected - (standard input) or a file; -j %.20s sets the number of models drawn at once",
+            value, value);
     return store_text(option, value, options, error);
 }
 

@@ -51,7 +51,7 @@ static bool texts_copy(struct texts *texts)
 bool options_copy(struct options *to, const struct options *from)
 {
     *to = *from;
-    to->lighting.look_text = NULL; // a copy ends before what it was made of
+    to->lighting.look_text = NULL; // free a copy before its original
     bool ok = texts_copy(&to->lighting.lights);
     ok = texts_copy(&to->material.materials) && ok;
     ok = texts_copy(&to->material.back_materials) && ok;
@@ -101,7 +101,7 @@ bool option_given(const struct options *options, const char *name)
     return option && options->given[option - option_table];
 }
 
-// What other programs call the option that names a model.
+// Names of this option in other programs.
 static const char *const model_names[] = {"i", "in", "input", "infile", "model", "mesh", "shape", "load", "open", NULL};
 
 static bool is_one_of(const char *word, const char *const *words)
@@ -128,7 +128,7 @@ static bool unknown_long(const char *name, size_t length, uint64_t groups, lam_e
     return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'", typed);
 }
 
-// A letter is suggested only by its own row: those that are near by spelling mean nothing.
+// A letter is suggested only by its own row: similar spelling means nothing for letters.
 static bool unknown_letter(const char *word, char letter, uint64_t groups, lam_error *error)
 {
     const char typed[2] = {letter, 0};
@@ -138,6 +138,9 @@ static bool unknown_letter(const char *word, char letter, uint64_t groups, lam_e
                         word);
     if (is_one_of(typed, model_names))
         return complain(error, LAM_BAD_ARGUMENT, "unknown option '-%c'; a model needs none: lambent MODEL", letter);
+    if (strchr(word, '.') && access(word, F_OK) == 0)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "unknown option '-%c'; for the file '%s' write './%s', or '--' before it", letter, word, word);
     struct suggestion nearest = suggest_start(typed);
     for (const struct option *o = option_table; o->name; o++)
         if (option_is_taken(o, groups) && !o->now)
@@ -234,7 +237,7 @@ static bool take_look_line(void *user, int line, char *name, char *value, lam_er
 
 static bool apply_look(const char *name, struct options *options, lam_error *error)
 {
-    struct options before = *options; // shares its lists, of which only the flags are read
+    struct options before = *options; // shares its lists; only the flags are read
     struct look_lines lines = {options, &before, own_lights(options)};
     options->lighting.look = name;
     options->lighting.look_first = options->lighting.lights.count;
@@ -299,12 +302,20 @@ static bool apply(const struct option *typed, const char *value, uint64_t groups
                     reason.text);
 }
 
-// Whether the next word is the value of an option that may stand without one: a value of its own, that is.
+// Whether the next word is the value of an option whose value is optional.
 static bool follows(const struct option *option, const char *word, const struct options *options)
 {
     struct options copy = *options;
     lam_error unused;
     return option->store(option, word, &copy, &unused);
+}
+
+// Whether the word after an option with an optional value is a mistyped value: one plain word that names no file, shape
+// or command.
+static bool is_mistyped(const char *word)
+{
+    return isalpha((unsigned char)*word) && !word[strspn(word, "abcdefghijklmnopqrstuvwxyz-")] &&
+           access(word, F_OK) != 0 && lam_shape_find(word) < 0 && !find_command(word);
 }
 
 // The word after an option that takes a value; NULL with the error if it is missing.
@@ -332,6 +343,8 @@ static bool read_long(int count, char **words, int *at, uint64_t groups, struct 
     if (!option->value && value)
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' takes no value; found '%s'", option->name, value);
     bool alone = option->alone && (*at + 1 == count || !follows(option, words[*at + 1], options));
+    if (!value && alone && *at + 1 < count && is_mistyped(words[*at + 1]))
+        return apply(option, words[*at + 1], groups, options, error); // which reports the expected values
     if (option->value && !value && alone)
         value = option->alone;
     if (option->value && !value && !(value = next_value(option, count, words, at, error)))

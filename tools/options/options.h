@@ -37,7 +37,7 @@ struct options {
     struct report_options report;
 
     bool given[OPTIONS_MAX];         // for each row of the table: the option is on the command line
-    bool by_look[OPTIONS_MAX];       // and it is there by --look
+    bool by_look[OPTIONS_MAX];       // and it comes from --look
     const char *values[OPTIONS_MAX]; // its last value there; NULL: it takes none
 };
 
@@ -130,7 +130,7 @@ struct option {
     const char *others;         // other names that people try, separated by spaces, for suggestions; NULL: none
     const char *alone;          // its value where the word after it is none of its own; NULL: it needs one
     bool of_file;               // says where and how a file is written: see WRITES_NO_FILE
-    bool loads;                 // the model is read anew where it changes
+    bool loads;                 // a change needs the model to be read again
     const lam_setting *setting; // the row of the library's table that it stores; NULL: none
     // The option that takes several values separated by commas, and is meant where a value has one; NULL: none.
     const char *several;
@@ -142,8 +142,8 @@ struct option {
 extern struct option option_table[OPTIONS_MAX];
 // Fills the table, with the words and settings that come from the library's tables. main calls it before anything reads the table.
 void option_table_fill(void);
-// The rows of settings get what they leave to the library's table; an option for each other setting follows the last row. A second
-// call changes nothing.
+// The rows of settings get missing entries from the library's table; an option for each other setting follows the last
+// row. A second call changes nothing.
 void option_settings_fill(struct option table[OPTIONS_MAX]);
 extern const char *const group_titles[GROUP_COUNT];
 
@@ -156,8 +156,8 @@ bool options_copy(struct options *to, const struct options *from);
 // The option of a long name; NULL: no such option.
 const struct option *option_find(const char *name);
 
-// Where the first word stands that is neither an option nor the value of one; −1: there is none, or "--" or an unknown option
-// comes before it.
+// The position of the first word that is neither an option nor its value; −1: there is none, or "--" or an unknown
+// option comes before it.
 int options_first_operand(int count, char **words);
 
 // The words of an option: "flat, gouraud or phong". Returns `text`.

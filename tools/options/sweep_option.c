@@ -1,4 +1,4 @@
-// sweep_option.c: parses --sweep: the keys are those of the tables of options, materials and lights.
+// sweep_option.c: parses --sweep: its keys come from the tables of options, materials and lights.
 #include "sweep_option.h"
 
 #include <stdio.h>
@@ -48,7 +48,7 @@ static const lam_field *light_field(const char *key)
     return NULL;
 }
 
-// The number of a component's letter in a field; −1: it has none such.
+// The number of a component's letter in a field; −1: no such component.
 static int component_of(const lam_field *field, const char *letter)
 {
     const char *letters = field->type == LAM_FIELD_RGB                                           ? "rgb"
@@ -125,7 +125,7 @@ static bool unknown_key(const char *key, lam_error *error)
 {
     const struct option *option = option_find(key);
     if (option)
-        return complain(error, LAM_BAD_ARGUMENT, "'%s' has no numbers that frames could differ in", key);
+        return complain(error, LAM_BAD_ARGUMENT, "'%s' has no numbers that frames could vary", key);
     struct suggestion nearest = suggest_start(key);
     for (const struct option *o = option_table; o->name; o++)
         if (sweep_takes_option(o)) {

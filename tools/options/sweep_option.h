@@ -1,4 +1,4 @@
-// sweep_option.h: the values of --sweep: what changes from frame to frame, and how.
+// sweep_option.h: the values of --sweep: the numbers that change from frame to frame.
 #ifndef SWEEP_OPTION_H
 #define SWEEP_OPTION_H
 
@@ -27,7 +27,7 @@ struct sweep {
     int component;     // of the field; −1: all
     double stops[SWEEP_STOPS_MAX];
     int stop_count; // 0: `time` over the whole length of the animation
-    bool closed;    // it ends where it begins: the last frame comes before that
+    bool closed;    // it ends as it begins: the last frame is one step before the end
     bool whole;     // values are rounded to whole numbers
 };
 

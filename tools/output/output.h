@@ -37,8 +37,9 @@ const char *output_ending(const char *path);
 // The pixels of that format; bytes for a stream. Error: LAM_UNSUPPORTED.
 bool output_format(const char *path, lam_pixel_format *format, lam_error *error);
 
-// Checks that the file's format holds 8 bits a number. Errors: those of output_format, and "PATH: a sheet is written as .svg, .png
-// or .jpg" with the noun "sheet" and the endings `others` (".svg, " or ""), which the command writes itself.
+// Checks that the file's format stores 8 bits per number. Errors: as output_format, and "PATH: a sheet is written as
+// .svg, .png or .jpg" with the noun "sheet" and the extensions `others` (".svg, " or ""), which the command writes
+// itself.
 bool output_check_bytes(const char *path, const char *noun, const char *others, lam_error *error);
 
 // True if the name ends like a file of a model format. Scene files (.json) do not count: most JSON files are not one.
@@ -49,8 +50,8 @@ bool is_model_name(const char *name);
 bool output_save(const lam_image *image, const char *path, const lam_save_params *params, uint64_t *size,
                  lam_error *error);
 
-// Shows each picture that output_save writes, as a PNG and as pixels (LAM_RGBA8); what goes to "-" is shown and not written.
-// NULL: none is shown.
+// Shows each picture that output_save writes, as a PNG and as pixels (LAM_RGBA8); pictures for "-" are shown and not
+// written. NULL: none is shown.
 typedef bool output_show_fn(const lam_bytes *png, const lam_image *image, lam_error *error);
 void output_show_with(output_show_fn *show);
 

@@ -1,8 +1,4 @@
-// terminal.c: the option --term: a picture on standard output, in the protocol that the terminal has.
-//
-// kitty takes our PNG as it is, as base64 in pieces of at most 4096 characters (a=T: store and show; f=100: PNG; q=2: no answers
-// to read; m=1: more follows): https://sw.kovidgoyal.net/kitty/graphics-protocol/
-// iTerm2 takes it too, in one piece: https://iterm2.com/documentation-images.html
+// terminal.c: the option --term: a picture on standard output, in the terminal's protocol.
 #include "terminal.h"
 
 #include <errno.h>
@@ -103,7 +99,7 @@ bool terminal_refuse(const char *command, lam_error *error)
                     command);
 }
 
-// The factor by which the picture would fill the terminal, below 1 if it is too large; and whether its height is what limits it.
+// The factor that fits the picture into the terminal, below 1 if it is too large; and whether its height is the limit.
 static double scale_of(const lam_image *image, bool *tall)
 {
     const struct terminal *t = &terminal;
@@ -114,7 +110,7 @@ static double scale_of(const lam_image *image, bool *tall)
     return *tall ? down : across;
 }
 
-// The picture's size in the terminal: its own where it fits, and a line is left for the prompt.
+// The picture's size in the terminal: its own if it fits, with a line left for the prompt.
 static struct chafa_size fit(const lam_image *image)
 {
     const struct terminal *t = &terminal;

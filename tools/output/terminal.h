@@ -26,7 +26,7 @@ bool terminal_shows(void);
 // Complains that a picture cannot go to standard output, a terminal that is to show none. False.
 bool terminal_refuse(const char *command, lam_error *error);
 
-// terminal_probe.c: what the terminal that standard output is can show, from the environment and from its own answers. It
+// terminal_probe.c: the abilities of the terminal on standard output, from the environment and from its own answers. It
 // waits at most half a second, and leaves the terminal's settings as they were. In the background it asks nothing.
 struct terminal terminal_probe(bool asks);
 

@@ -1,7 +1,8 @@
-// terminal_chafa.c: sixels and block characters by libchafa, which is opened (dlopen) when they are wanted and not before.
+// terminal_chafa.c: sixels and block characters by libchafa, which is opened (dlopen) when they are wanted and not
+// before.
 //
-// The library's header is not needed to build: the few functions and numbers below are those of its stable interface
-// (https://hpjansson.org/chafa/ref/), which it has kept since version 1.6.
+// The library's header is not needed to build: the few functions and numbers below belong to its stable interface
+// (https://hpjansson.org/chafa/ref/), unchanged since version 1.6.
 #include "terminal.h"
 
 #include <dlfcn.h>
@@ -21,7 +22,7 @@ struct g_string {
     size_t length, allocated;
 };
 
-// FUNCTION(result, name, parameters): what is taken from the library, and from GLib, which it brings.
+// FUNCTION(result, name, parameters): the functions used from the library, and from GLib, which it loads.
 #define FUNCTIONS                                                                                                      \
     FUNCTION(void *, chafa_canvas_config_new, (void))                                                                  \
     FUNCTION(void, chafa_canvas_config_unref, (void *))                                                                \

@@ -37,7 +37,7 @@ static bool is_multiplexed(void)
     return getenv("TMUX") || env_starts("TERM", "screen") || env_starts("TERM", "tmux");
 }
 
-// Terminals that name themselves, and what is none to look at. TERM_AUTO: ask.
+// Terminals that name themselves, and names that exclude pictures. TERM_AUTO: ask.
 static enum term_kind kind_by_name(void)
 {
     const char *term = getenv("TERM");
@@ -68,7 +68,7 @@ static bool write_all(int file, const char *text, size_t size)
     return true;
 }
 
-// The answer "ESC [ ? numbers c" in what was read; NULL: it is not there yet.
+// The answer "ESC [ ? numbers c" in the bytes read; NULL: it has not arrived yet.
 static const char *find_attributes(const char *text)
 {
     for (const char *at = strstr(text, "\033[?"); at; at = strstr(at + 1, "\033[?"))
@@ -86,7 +86,7 @@ static int wait_ms(void)
     return text && *text && (*end || wanted < 0) ? WAIT_MS : wanted > WAIT_MAX_MS ? WAIT_MAX_MS : (int)wanted;
 }
 
-// Reads until the last answer is there, or time is over.
+// Reads until the last answer has arrived, or time is over.
 static void read_answers(int file, char *text, size_t size)
 {
     double end = clock_ms() + wait_ms();

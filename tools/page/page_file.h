@@ -7,13 +7,13 @@
 // Whether an output is a page by its ending: ".html".
 bool page_is_named(const char *output);
 
-// The path of the page, from malloc: that of LAMBENT_PAGE; else the installed one, share/lambent/lambent.html beside the
-// program's folder; else that of the build, build-web/lambent.html beside the build folder. NULL: LAM_UNSUPPORTED (there is none),
-// LAM_LIMIT.
+// The path of the page, from malloc: LAMBENT_PAGE; or else the installed one, share/lambent/lambent.html beside the
+// program's folder; or else the build's, build-web/lambent.html beside the build folder. NULL: LAM_UNSUPPORTED (there
+// is none), LAM_LIMIT.
 char *page_file_find(lam_error *error);
 
-// A whole file, its `*size` bytes and a zero after them, from malloc. NULL: LAM_CANNOT_READ; LAM_LIMIT where it has more than `most`
-// bytes (*size is then the file's size, else 0) or memory has run out.
+// A whole file, its `*size` bytes and a zero after them, from malloc. NULL: LAM_CANNOT_READ; LAM_LIMIT if it has more
+// than `most` bytes (*size is then the file's size, otherwise 0) or memory has run out.
 char *page_file_read(const char *path, size_t most, size_t *size, lam_error *error);
 
 #endif

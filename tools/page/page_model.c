@@ -59,7 +59,7 @@ static bool is_below(const char *folder, const char *path)
     return below;
 }
 
-// The model and what it names, by their names in the model's folder, which is the page's "/".
+// The model and the files that it names, by their names in the model's folder, which is the page's "/".
 static bool add_files(const struct job *job, struct page_model *model, lam_error *error)
 {
     const char *slash = strrchr(job->model, '/'), *path;
@@ -77,7 +77,7 @@ static bool add_files(const struct job *job, struct page_model *model, lam_error
         if (!beside || (i && !is_below(folder, path))) { // the model itself may be a link, which the user has named
             ok = complain(
                 error, LAM_UNSUPPORTED,
-                "%s: lies outside of the folder of %s, and a page has no files of other folders; copy it there", path,
+                "%s: is outside the folder of %s, and a page contains no files of other folders; copy it there", path,
                 job->model);
             break;
         }
@@ -167,7 +167,7 @@ const char *page_model_lacks(const struct page_model *model, const lam_file_info
 
 // --- words
 
-// Whether an option belongs to the picture: those that the page has controls for. A look is in the options that it sets.
+// Whether an option belongs to the picture, and has a control in the page. A look is in the options that it sets.
 bool page_model_has_option(const struct option *option)
 {
     static const char *const without[] = {"output", "save-scene", "durable", "compress", "quality", "look"};

@@ -1,4 +1,4 @@
-// page_model.h: what a page holds of a model: its files by their paths in the page, and the words of its command line.
+// page_model.h: a model's data in a page: its files by their paths in the page, and the words of its command line.
 #ifndef PAGE_MODEL_H
 #define PAGE_MODEL_H
 
@@ -12,13 +12,13 @@ struct page_file {
 };
 
 struct page_model {
-    struct page_file *files; // those that exist; from malloc
+    struct page_file *files; // the existing ones; from malloc
     int count;
     char *environment; // the value of --environment with paths in the page; NULL: it names no file
 };
 
-// Lists the files of a loaded model, and those of --environment. False: LAM_UNSUPPORTED (one that lies outside of the model's folder),
-// LAM_LIMIT.
+// Lists the files of a loaded model, and of --environment. False: LAM_UNSUPPORTED (one that lies outside of the model's
+// folder), LAM_LIMIT.
 bool page_model_list(const struct job *job, struct page_model *model, lam_error *error);
 
 // Adds the files of --environment alone.
@@ -28,7 +28,7 @@ void page_model_free(struct page_model *model);
 // Why the page cannot read some of them, as a sentence for each kind, from 0; NULL: nothing more.
 const char *page_model_lacks(const struct page_model *model, const lam_file_info *info, int index);
 
-// Whether an option belongs to the picture: those that the page has controls for. A look is in the options that it sets.
+// Whether an option belongs to the picture, and has a control in the page. A look is in the options that it sets.
 bool page_model_has_option(const struct option *option);
 
 // Prints the words of the picture's command line as a list in JSON, in which no '<' is left: the model, and an option with its value in

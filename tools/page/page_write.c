@@ -49,7 +49,7 @@ static bool put_file(FILE *out, const struct page_file *file, size_t *left, lam_
     lam_error why = {0};
     char *bytes = page_file_read(file->path, *left, &size, &why);
     if (!bytes && size > *left)
-        return complain(error, LAM_LIMIT, "%.400s: the model's files have more than the %d MB that a page may hold",
+        return complain(error, LAM_LIMIT, "%.400s: the model's files are larger than the %d MB that a page may contain",
                         file->path, PAGE_FILES_MAX / 1000000);
     if (!bytes)
         return complain(error, why.code, "%s", why.text);
@@ -75,8 +75,9 @@ static bool put_page(FILE *out, const struct job *job, const struct options *giv
     for (const char *at = page; (at = strstr(at, "</body>")); at++)
         end = at;
     if (!end)
-        return complain(error, LAM_UNSUPPORTED,
-                        "the page that LAMBENT_PAGE or the build names is not lambent.html: it has no end of its body");
+        return complain(
+            error, LAM_UNSUPPORTED,
+            "the page that LAMBENT_PAGE or the build names is not lambent.html: the end of its body is missing");
     size_t left = PAGE_FILES_MAX;
     bool ok = true;
     fwrite(page, 1, (size_t)(end - page), out);

@@ -1,4 +1,4 @@
-// picture_json.h: what a page that turns a model asks of a drawn picture.
+// picture_json.h: the data of a drawn picture that a page needs to rotate its model.
 #ifndef PICTURE_JSON_H
 #define PICTURE_JSON_H
 

@@ -1,4 +1,4 @@
-// plan.c: --dry-run: what would be drawn and written.
+// plan.c: --dry-run: lists the pictures and files without drawing.
 #include "plan.h"
 
 #include <inttypes.h>

@@ -1,4 +1,4 @@
-// plan.h: --dry-run: what would be drawn and written.
+// plan.h: --dry-run: lists the pictures and files without drawing.
 #ifndef PLAN_H
 #define PLAN_H
 

@@ -77,7 +77,7 @@ void report_table(const struct job *job)
     say_output(job);
     say_plain(", %dx%d, %" PRIu64 " bytes\n", job->image.width, job->image.height, job->bytes);
     if (job->frames.count)
-        say_plain("frames   %d, %.4g a second: %.4g s, for ever\n", job->frames.count, job->frames.frames_per_second,
+        say_plain("frames   %d, %.4g a second: %.4g s, forever\n", job->frames.count, job->frames.frames_per_second,
                   job->frames.count / job->frames.frames_per_second);
     if (lam_device_isa(job->device) == LAM_ISA_AUTO)
         say_plain("drawn    %" PRIu64 " triangles, %" PRIu64 " pixels covered, %.1f MB sent, %.1f MB\n",

@@ -9,7 +9,7 @@
 // Prints "koala.png  1024x1024  99994 triangles  38 ms" on standard error.
 void report_line(const struct job *job);
 
-// Prints what was read and the time of each step on standard error.
+// Prints the files read and the time of each step on standard error.
 void report_table(const struct job *job);
 
 // The stream of the JSON report: standard output, or standard error if the picture goes to standard output (then

@@ -119,16 +119,16 @@ static int landlock_version(void)
 struct sandbox_state sandbox_offered(void)
 {
     struct sandbox_state state = {0};
-    if (under_valgrind()) { // whose own system calls would be those of the program
+    if (under_valgrind()) { // whose own system calls would look like the program's
         state.reason = "Valgrind runs the program";
         return state;
     }
     state.landlock = landlock_version();
     state.filter = prctl(PR_GET_SECCOMP, 0, 0, 0, 0) >= 0;
     if (!state.landlock || !state.filter)
-        state.reason = state.landlock ? "the kernel has no seccomp filters"
-                       : state.filter ? "the kernel has no Landlock"
-                                      : "the kernel has neither Landlock nor seccomp filters";
+        state.reason = state.landlock ? "the kernel does not support seccomp filters"
+                       : state.filter ? "the kernel does not support Landlock"
+                                      : "the kernel supports neither Landlock nor seccomp filters";
     return state;
 }
 
@@ -208,7 +208,7 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
     if (!state->landlock && !state->filter)
         return true;
     if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) { // without it a program could be run with more rights
-        *state = (struct sandbox_state){.reason = "the kernel does not let a process give up privileges"};
+        *state = (struct sandbox_state){.reason = "the kernel does not let a process drop privileges"};
         return true;
     }
     drop_capabilities();

@@ -1,6 +1,6 @@
-// sandbox.h: takes from this process what a program that reads a stranger's file does not need: files outside of a few
-// folders (Landlock), other programs, the network, other processes (a seccomp filter). What is given up cannot be got
-// back. Linux on x86-64 and aarch64; elsewhere there is none.
+// sandbox.h: drops the privileges that reading a stranger's file does not need: files outside a few folders (Landlock),
+// other programs, the network, other processes (a seccomp filter). Dropped privileges cannot be regained. Linux on
+// x86-64 and aarch64; elsewhere there is none.
 #ifndef SANDBOX_H
 #define SANDBOX_H
 
@@ -32,23 +32,24 @@ struct sandbox_paths {
     int writers;
 };
 
-// Adds a path, which is copied. What does not exist when the sandbox is entered stays out of reach.
+// Adds a path, which is copied. Paths that do not exist when the sandbox is entered stay inaccessible.
 void sandbox_add(struct sandbox_paths *paths, const char *path, int access);
 void sandbox_paths_free(struct sandbox_paths *paths);
 
-// The protections in force, or those that this machine offers.
+// The protections in force, or available on this machine.
 struct sandbox_state {
     int landlock;          // the kernel's version of Landlock; 0: none
     bool filter;           // the seccomp filter
     bool reads_everything; // files may be read anywhere
-    const char *reason;    // why one of them is missing; NULL: both are there
+    const char *reason;    // why one of them is missing; NULL: both are active
 };
 
 // The protections that the kernel offers. Changes nothing.
 struct sandbox_state sandbox_offered(void);
 
-// Enters the sandbox: this thread and those that it starts from now on, and the filter for all threads; call it before
-// threads start. What the kernel lacks is left out, and `state` says so. False with LAM_LIMIT: out of memory.
+// Enters the sandbox: this thread and threads that it starts later, and the filter for all threads; call it before
+// threads start. Protections that the kernel lacks are skipped, and `state` reports it. False with LAM_LIMIT: out of
+// memory.
 bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *state, lam_error *error);
 
 // One line: "Landlock 7 and seccomp", "seccomp; Landlock is missing: …", "off". Returns `out`.
@@ -61,12 +62,13 @@ enum sandbox_filter {
     SANDBOX_SERVES =
         1, // also: accept connections on sockets that listen already, watch files, make processes of its own program, which may
     // then install SANDBOX_DRAWS, and end them. No socket is made, bound or connected, no program is run.
-    SANDBOX_OPENS_PIPES = 2, // what is there may be opened for writing, if Landlock permits it
+    SANDBOX_OPENS_PIPES = 2, // existing files may be opened for writing, if Landlock permits it
     SANDBOX_NO_OPENAT2 =
         4, // whose flags no filter sees: for kernels whose Landlock does not keep files from being emptied
 };
 
-// sandbox_filter.c: installs a seccomp filter for all threads, in addition to those that hold. False: the kernel refuses; errno says why.
+// sandbox_filter.c: installs a seccomp filter for all threads, in addition to filters in force. False: the kernel
+// refuses; errno says why.
 bool sandbox_filter_install(unsigned kind);
 
 #endif

@@ -135,13 +135,12 @@ static const unsigned served[] = {
 #endif
 };
 
-// Allowed if half of an argument, after `mask`, is one of some values; if several rows of one call follow each other, all of
-// them must hold.
+// Allowed if half of an argument, after `mask`, is one of some values; consecutive rows of one call must all match.
 struct condition {
     unsigned call;
     int half; // LOW(argument) or HIGH(argument)
     unsigned mask;
-    int error; // the call's result if it does not hold
+    int error; // the call's result if it does not match
     int count;
     unsigned values[6];
 };
@@ -190,8 +189,9 @@ static const struct condition conditions[] = {
     {SYS_clone, LOW(0), CLONE_THREAD | NAMESPACES, EPERM, 1, {CLONE_THREAD}},
 };
 
-// Conditions of SANDBOX_SERVES, tried before the others: signals that end its processes or cancel their work (Landlock lets none out from
-// version 6 on), what a new process does to itself, and its stricter filter. MSG_FASTOPEN would connect a socket.
+// Conditions of SANDBOX_SERVES, tried before the others: signals that end its processes or cancel their work (from
+// version 6 on Landlock blocks others), calls of a new process on itself, and its stricter filter. MSG_FASTOPEN would
+// connect a socket.
 static const struct condition served_conditions[] = {
     {SYS_kill, LOW(1), ALL, ENOSYS, 2, {SIGKILL, SIGUSR1}},
     {SYS_kill, LOW(0), NEGATIVE, EPERM, 1, {0}},

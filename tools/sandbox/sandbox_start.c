@@ -20,11 +20,11 @@ const char *sandbox_advice(const lam_error *error)
 {
     bool denied = error->code == LAM_CANNOT_READ && strstr(error->text, strerror(EACCES));
     return active.landlock && denied
-               ? "; the sandbox lets files be read in the model's folder, and in those of --allow-path"
+               ? "; the sandbox allows reading only in the model's folder and in the folders of --allow-path"
                : "";
 }
 
-// The folder of a path: what stands before its last '/', with it; "." where there is none. False: out of memory.
+// The folder of a path: the text up to its last '/', included; "." if there is none. False: out of memory.
 static bool add_folder_of(struct sandbox_paths *paths, const char *path, int access)
 {
     const char *slash = strrchr(path, '/');
@@ -46,7 +46,8 @@ void sandbox_add_input(struct sandbox_paths *paths, const char *model)
 {
     if (strcmp(model, "-") == 0 || lam_shape_find(model) >= 0)
         return;
-    sandbox_add(paths, model, SANDBOX_READ); // by itself too: it may be a link to a file elsewhere, which the user made
+    sandbox_add(paths, model, SANDBOX_READ); // the path itself too: it may be a link to a file elsewhere, which the
+                                             // user made
     add_folder_of(paths, model, SANDBOX_READ);
     paths->scene_files |= is_scene_file(model);
 }
@@ -107,7 +108,7 @@ static void add_system(struct sandbox_paths *paths)
         sandbox_add(paths, folders[i], SANDBOX_READ);
     add_list(paths, getenv("LD_LIBRARY_PATH"), ':');
     add_list(paths, getenv("LAMBENT_FONT"), 0);
-    // The module of Draco, where the library looks for it (src/base/system/dynamic_library.c).
+    // The module of Draco, at the library's search path (src/base/system/dynamic_library.c).
     static const char *const modules[] = {"", "../", "lambent/", "../" LAMBENT_LIBDIR "/lambent/"};
     char own[PATH_MAX], path[PATH_MAX + 100];
     ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
@@ -183,7 +184,7 @@ bool sandbox_start(const struct options *o, struct sandbox_paths *paths, lam_err
     if (o->limits.sandbox == SANDBOX_OFF) {
         active.reason = "--sandbox off";
     } else if (uses_opengl(o)) {
-        active.reason = "OpenGL's driver needs what a sandbox takes away";
+        active.reason = "OpenGL's driver needs privileges that a sandbox removes";
         ok = check_required(o, error);
     } else if (o->limits.sandbox == SANDBOX_REQUIRE && sandbox_offered().reason) {
         active = (struct sandbox_state){.reason = sandbox_offered().reason};

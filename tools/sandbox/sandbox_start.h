@@ -10,7 +10,7 @@
 #include "options.h"
 #include "sandbox.h"
 
-// Lets a model be read, and what lies in its folder and below it. "-" and names of shapes need nothing.
+// Allows reading a model, and its folder with all sub-folders. "-" and names of shapes need nothing.
 void sandbox_add_input(struct sandbox_paths *paths, const char *model);
 
 // Lets a picture be read, alone: an input of `diff`, an environment.
@@ -29,15 +29,15 @@ void sandbox_add_older(struct sandbox_paths *paths, const char *path);
 // Whether sandbox_start would enter a sandbox.
 bool sandbox_is_wanted(const struct options *options);
 
-// Starts the writer, unless there is one or nothing may be written, and enters the sandbox that the options ask for, with the given
-// paths, those of the options and those of the system's libraries and fonts. Frees `paths` in any case. Call it before threads start. False: LAM_UNSUPPORTED where
-// --sandbox require cannot be had, LAM_LIMIT.
+// Starts the writer, unless it runs already or nothing may be written. Then enters the sandbox of the options, with the
+// given paths, the options' paths and the system's libraries and fonts. Frees `paths` in any case. Call it before
+// threads start. False: LAM_UNSUPPORTED where --sandbox require cannot be had, LAM_LIMIT.
 bool sandbox_start(const struct options *options, struct sandbox_paths *paths, lam_error *error);
 
 // The protections in force in this process; none before sandbox_start.
 const struct sandbox_state *sandbox_active(void);
 
-// What to add to the error about a file that the sandbox may have kept from being read; "": nothing.
+// The addition to the error about a file that the sandbox may have blocked; "": none.
 const char *sandbox_advice(const lam_error *error);
 
 #endif

@@ -1,8 +1,9 @@
 // writer.c: the process that writes files for the one in the sandbox.
 //
-// For each thread that it can serve there is a pair of sockets. A request is a header, the path and the contents; the answer is a
-// lam_error. While a request is answered, signals wait in the thread that asked, so that one which ends the process finds the file
-// complete. After SIGKILL the writer finishes what it has received whole and drops the rest.
+// For each thread that it can serve there is a pair of sockets. A request is a header, the path and the contents; the
+// answer is a lam_error. While a request is answered, signals wait in the thread that asked, so that one which ends the
+// process finds the file complete. After SIGKILL the writer finishes files that it has received completely, and drops
+// the rest.
 #include "writer.h"
 
 #include <stdlib.h>
@@ -79,7 +80,7 @@ static bool send_all(int to, struct iovec *parts, int count)
 
 // --- the writer
 
-// A file of formats without room for a remark that this run wrote: what it is, and its last change.
+// A file that this run wrote in a format without room for a remark: its identity, and its last change.
 struct own_file {
     dev_t device;
     ino_t number;
@@ -90,7 +91,7 @@ static struct {
     writer_rule *rule;
     void *user;
     pthread_mutex_t lock;         // of the rule and the list
-    struct own_file own[OWN_MAX]; // the latest; earlier ones count for a stranger's
+    struct own_file own[OWN_MAX]; // the latest; earlier ones count as a stranger's
     size_t own_count;
 } writing = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
@@ -138,7 +139,7 @@ static bool act(const struct request *request, const char *path, const lam_bytes
     if (request->action == REMOVE && right == WRITER_REMOVES)
         return unlink(path) == 0;
     if (request->action == REMOVE || (right != WRITER_NEW_OR_OURS && right != WRITER_ANY))
-        return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: is none of the files of this run", path);
+        return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: is not a file of this run", path);
     bool exists = stat(path, &there) == 0;
     if (exists && !S_ISREG(there.st_mode))
         return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: is not a regular file", path);
@@ -248,7 +249,7 @@ static struct {
     pthread_cond_t given;
 } writer = {.lock = PTHREAD_MUTEX_INITIALIZER, .given = PTHREAD_COND_INITIALIZER};
 
-// A pair of connections above the standard streams, one of which may be closed.
+// A pair of connections above the standard streams, which may be closed.
 static bool make_pair(int *here, int *there)
 {
     int pair[2];
@@ -387,7 +388,7 @@ void writer_remove(const char *path)
 bool writer_start(writer_rule *rule, void *user, int count, lam_error *error)
 {
     (void)rule, (void)user, (void)count;
-    return complain(error, LAM_UNSUPPORTED, "this system has no processes that write files for others");
+    return complain(error, LAM_UNSUPPORTED, "this system cannot run the process that writes files");
 }
 
 bool writer_is_there(void) { return false; }

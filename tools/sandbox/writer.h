@@ -13,7 +13,7 @@
 enum writer_right {
     WRITER_NONE,
     WRITER_NEW_OR_OURS, // a new file, one that this run wrote, or one that says that Lambent wrote it
-    WRITER_ANY,         // whatever is there is replaced
+    WRITER_ANY,         // an existing file is replaced
     WRITER_REMOVES,     // the file may be removed, and not written
 };
 
@@ -32,7 +32,7 @@ pid_t writer_process(void);
 // Leaves the writer to a process that was made since, and returns its number, for waitpid(). 0: there was none.
 pid_t writer_leave(void);
 
-// Nothing more is to be written: lets the writer end, while this process does other things.
+// Nothing more will be written: lets the writer end, while this process does other things.
 void writer_finish(void);
 
 // The same, and waits for its end, so that nothing of this run is left.

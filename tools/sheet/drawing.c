@@ -213,7 +213,7 @@ bool draw_dot(struct drawing *d, struct point middle, double radius, uint32_t co
     return true;
 }
 
-// The bytes of the letter of UTF-8 that a text begins with; 0: it is none, or one that XML cannot hold.
+// The bytes of the UTF-8 letter at the beginning of a text; 0: not a letter, or one that XML cannot contain.
 static int letter_bytes(const char *text)
 {
     const unsigned char *at = (const unsigned char *)text;
@@ -227,7 +227,7 @@ static int letter_bytes(const char *text)
     return low || high || none || (at[0] < 32 && at[0] != '\t' && at[0] != '\n') ? 0 : bytes;
 }
 
-// Text of an element, and the end of it. What XML cannot hold becomes U+FFFD.
+// Text of an element, and the end of it. Letters that XML cannot contain become U+FFFD.
 static void svg_letters(FILE *file, const char *text, const char *element)
 {
     while (*text) {
@@ -243,7 +243,7 @@ static void svg_letters(FILE *file, const char *text, const char *element)
     fprintf(file, "</%s>\n", element);
 }
 
-// Scripts whose letters stand one after the other from the left, each as the font has it: ranges of Unicode
+// Scripts whose letters follow each other from the left, unchanged from the font: ranges of Unicode
 // (https://www.unicode.org/Public/UCD/latest/ucd/Blocks.txt). The first ones are in the default font.
 static const struct {
     uint32_t first, last;

@@ -12,7 +12,7 @@ struct drawing {
     lam_image image;   // PNG: the page so far
     lam_font *font;    // PNG; NULL: no text
     FILE *svg;         // SVG: the file so far; NULL: PNG
-    char *svg_text;    // what stands in it, without the first and last lines
+    char *svg_text;    // its contents, without the first and last lines
     size_t svg_size;
     char *title, *description; // of an SVG, for those who hear it; NULL: none
     bool words;                // false: no text is drawn
@@ -33,7 +33,7 @@ bool drawing_open(struct drawing *drawing, int width, int height, bool svg, bool
                   lam_error *error);
 void drawing_free(struct drawing *drawing);
 
-// Sets what an SVG says of itself to those who hear it; a PNG holds pixels alone. False: out of memory.
+// Sets the title and description of an SVG for screen readers; a PNG contains only pixels. False: out of memory.
 bool drawing_describe(struct drawing *drawing, const char *title, const char *description, lam_error *error);
 
 // Colours are 0xrrggbb, sRGB. Widths and sizes are in pixels. False: out of memory.

@@ -55,7 +55,7 @@ static const struct sheet sheets[] = {
                                {"All, shininess 1000", {"--shininess", "1000"}},
                                {"All, shininess 1000, flat", {"--shininess", "1000", "--shading", "flat"}}}},
     [SHEET_STAGES] = {.name = "stages",
-                      .title = "Where light is worked out",
+                      .title = "Where lighting is computed",
                       .columns = 2,
                       .inset = true,
                       .defaults = {COARSE, LIT, GLOSSY},
@@ -140,7 +140,7 @@ static bool add_variant(struct sheet *sheet, const char *dashed, const char *nam
     return true;
 }
 
-// Adds the words of the option, each value once, without "auto", which stands for one of the others.
+// Adds the words of the option, each value once, without "auto", which selects one of the others.
 static bool add_words(struct sheet *sheet, const char *dashed, const struct option *option, lam_error *error)
 {
     for (const struct word *w = option->words; w->name; w++) {
@@ -167,7 +167,7 @@ static bool lacks_semicolons(const struct option *option, const char *values)
 // Rows of variants that need more than the option that varies to show a difference.
 static const struct row {
     const char *option;
-    const char *values; // where none are given; NULL: the option's words
+    const char *values; // if none are given; NULL: the option's words
     struct sheet_default defaults[SHEET_DEFAULTS_MAX + 1];
 } row_table[] = {
     {"shading", NULL, {COARSE, LIT, GLOSSY}},
@@ -198,7 +198,7 @@ static const struct row *find_row(const char *option)
     return NULL;
 }
 
-// Two lights, one of which fades, the other one from behind, on a coloured surface: most mistakes can be seen.
+// Two lights, one with attenuation, the other from behind, on a coloured surface: most mistakes become visible.
 #define LAMP  "point:position=-1.2r/1.3r/1.7r,attenuation=0.3/0.1r/0.15r,ambient=0.2"
 #define RIM   "directional:direction=-1/-0.5/1.4,diffuse=0.4/0.45/0.55,specular=0.8"
 #define PAINT "ambient=0.3/0.12/0.08,diffuse=0.75/0.3/0.2,specular=0.5,shininess=20"
@@ -236,14 +236,14 @@ static bool choose_mistakes(const char *values, struct sheet *sheet, char **stor
     return ok;
 }
 
-// What a row of pictures shows that differ in the values of an option.
+// The title of a row of pictures with different values of an option.
 static void title_of(const char *option, char *title, size_t size)
 {
     static const struct {
         const char *option, *title;
     } rows[] = {{"ao", "ambient occlusion"},
                 {"color-mode", "encodings of colours"},
-                {"cull", "sides of the surface that are left out"},
+                {"cull", "culled sides of the surface"},
                 {"environment", "environments"},
                 {"environment-rotation", "turns of the environment"},
                 {"ground", "kinds of ground"},
@@ -255,7 +255,7 @@ static void title_of(const char *option, char *title, size_t size)
                 {"opacity", "opacity"},
                 {"projection", "projections"},
                 {"reflection", "reflection models"},
-                {"reflectivity", "shares of the environment that are mirrored"},
+                {"reflectivity", "shares of the environment that surfaces reflect"},
                 {"rig", "sets of lights"},
                 {"samples", "samples per pixel"},
                 {"segments", "numbers of segments"},
@@ -266,7 +266,7 @@ static void title_of(const char *option, char *title, size_t size)
                 {"show", "terms of the light and numbers of the surface"},
                 {"surfaces", "with and without surfaces"},
                 {"tone", "tone curves"},
-                {"viewer", "places of the eye for highlights"}};
+                {"viewer", "positions of the eye for highlights"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (strcmp(rows[i].option, option) == 0) {
             snprintf(title, size, "%s", rows[i].title);
@@ -303,7 +303,7 @@ static bool choose_across(const char *across, struct sheet *sheet, char **store,
         return complain(error, LAM_LIMIT, "out of memory");
     sprintf(*store, "--%s", option->name);
     *sheet = (struct sheet){.name = option->name, .across = true};
-    // Named terms and numbers are those of the model as it is; the five terms are made visible.
+    // Named terms and numbers show the unchanged model; the five terms are made visible.
     if (row && (all_terms || strcmp(option->name, "show") != 0))
         memcpy(sheet->defaults, row->defaults, sizeof sheet->defaults);
     title_of(option->name, sheet->title, sizeof sheet->title);
@@ -377,7 +377,7 @@ bool sheet_choose(const struct options *options, struct sheet *sheet, char *stor
     for (int i = 0; i < 2; i++)
         if (strncmp(across->items[i], "mistake", 7) == 0)
             return complain(error, LAM_BAD_ARGUMENT,
-                            "option '--across': mistakes stand alone; expected no other '--across' beside them");
+                            "option '--across': mistakes cannot be combined; expected no other '--across' beside them");
     return choose_across(across->items[0], &lines, &store[0], error) &&
            choose_across(across->items[1], &columns, &store[1], error) && cross(&lines, &columns, sheet, error);
 }

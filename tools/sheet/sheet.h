@@ -8,13 +8,13 @@ enum { CELLS_MAX = 64, CELL_WORDS = 8, SHEET_DEFAULTS_MAX = 4 };
 
 struct cell {
     char caption[96];
-    const char *words[CELL_WORDS]; // options of this picture, after those of the command line; ends with NULL
+    const char *words[CELL_WORDS]; // options of this picture, which follow the command line's; ends with NULL
     // Changes of the sheet's default material, as --material takes them, for this picture; NULL: none.
     const char *look;
     const char *mistake; // of the shader that draws it (--mistake); NULL: none
 };
 
-// An option of all pictures that holds unless it is given (sheet_defaults.h).
+// An option of all pictures that applies unless it is given (sheet_defaults.h).
 struct sheet_default {
     const char *option; // "--light"
     const char *value;  // NULL, of --segments: few for the shape
@@ -26,7 +26,7 @@ struct sheet {
     int columns;
     bool inset;  // frame and enlarge the brightest highlight
     bool across; // a row of variants: each picture's words are options with their values
-    // The first picture is right, the others have mistakes. With `all`, those that the scene cannot show are left out.
+    // The first picture is right, the others have mistakes. With `all`, values that the scene cannot show are omitted.
     bool mistakes, all;
     struct sheet_default defaults[SHEET_DEFAULTS_MAX + 1];
     int count;

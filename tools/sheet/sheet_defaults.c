@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-// Segments with which a shape shows its facets at a glance, where 24x12 is not it: the teapot counts stacks for each
-// patch, the knot is long, and implicit surfaces count cells.
+// Segments with which a shape shows its facets clearly, unless 24x12 does: the teapot counts stacks for each patch, the
+// knot is long, and implicit surfaces count cells.
 static const struct {
     const char *shape, *segments;
 } coarse_shapes[] = {{"teapot", "24x4"}, {"torus-knot", "72x10"}, {"gyroid", "32"}, {"metaballs", "24"}};

@@ -19,7 +19,7 @@ bool browser_open(const char *address)
     pid_t process;
     if (!(x11 && *x11) && !(wayland && *wayland))
         return false;
-    // A browser that it becomes goes on when this program is interrupted, and its messages are not this program's.
+    // The browser that it becomes continues when this program is interrupted, and its messages are not this program's.
     bool ok = posix_spawn_file_actions_init(&actions) == 0;
     ok = ok && posix_spawnattr_init(&attributes) == 0;
     if (!ok)

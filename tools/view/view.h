@@ -17,7 +17,7 @@ enum {
 struct view_listener {
     struct MHD_Connection *connection;
     struct view *view;
-    char *pending; // text that is to be sent; from malloc
+    char *pending; // text to send; from malloc
     size_t size;
     bool suspended;
     struct view_listener *next;
@@ -44,7 +44,7 @@ struct view_connection {
     struct MHD_Connection *connection;
     struct view_task *task; // it waits for
     struct view_result result;
-    bool finished; // the task is done, and `result` is there
+    bool finished; // the task is done, and `result` is set
     enum view_kind kind;
     bool thumbnail;
     struct view_listener *listener;

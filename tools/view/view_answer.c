@@ -13,7 +13,7 @@ void view_answer_headers(const struct view *view, struct MHD_Response *response,
     static const char *const headers[][2] = {
         {"Cache-Control", "no-store"},
         {"X-Content-Type-Options", "nosniff"},
-        {"Referrer-Policy", "no-referrer"}, // the address holds the token
+        {"Referrer-Policy", "no-referrer"}, // the address contains the token
         {"Cross-Origin-Resource-Policy", "same-origin"},
         {"Cross-Origin-Opener-Policy", "same-origin"},
         {"Cross-Origin-Embedder-Policy", "require-corp"}, // with the opener's, several threads may draw in the page
@@ -22,7 +22,7 @@ void view_answer_headers(const struct view *view, struct MHD_Response *response,
     for (size_t i = 0; i < sizeof headers / sizeof *headers; i++)
         view->http.MHD_add_response_header(response, headers[i][0], headers[i][1]);
     view->http.MHD_add_response_header(response, "Content-Type", type);
-    // A page's own policy stands in it; nothing else is a page.
+    // A page's own policy is in it; nothing else is a page.
     view->http.MHD_add_response_header(response, "Content-Security-Policy",
                                        strncmp(type, "text/html", 9) == 0 ? "frame-ancestors 'none'"
                                                                           : "default-src 'none'; sandbox");

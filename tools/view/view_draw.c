@@ -128,7 +128,7 @@ static void put_path(struct json *json, const char *key, const char *page_model,
     free(path);
 }
 
-// Files that were looked for and not found: once one is there, the picture is another one.
+// Files that were looked for and not found: once one exists, the picture changes.
 static void put_missing(struct json *json, const struct job *job, const char *page_model)
 {
     const char *slash = strrchr(job->model, '/'), *path;
@@ -165,7 +165,7 @@ static uint64_t put_files(struct json *json, const struct page_model *model, con
     return bytes;
 }
 
-// Why the page does not draw the model by itself. Returns `text`; NULL: it does.
+// The reason why the page does not draw the model itself. Returns `text`; NULL: it does.
 enum { REASON_SIZE = 700 };
 static const char *reason_of(const struct job *job, const struct page_model *model, bool listed, const char *why,
                              uint64_t bytes, char text[REASON_SIZE])
@@ -177,7 +177,7 @@ static const char *reason_of(const struct job *job, const struct page_model *mod
     if (lacks)
         snprintf(text, REASON_SIZE, "%s", lacks);
     else if (bytes > PAGE_FILES_MAX)
-        snprintf(text, REASON_SIZE, "the model's files have %.1f MB, more than the %d MB that a page takes",
+        snprintf(text, REASON_SIZE, "the model's files have %.1f MB, more than the %d MB that a page supports",
                  (double)bytes / 1e6, PAGE_FILES_MAX / 1000000);
     else if (parts > VIEW_TRIANGLES_MAX)
         snprintf(text, REASON_SIZE,
@@ -237,7 +237,7 @@ static bool tell_explanation(struct drawer *d, struct job *job, const struct vie
 {
     const struct options *o = job->options;
     if (request->x < 0 || request->y < 0 || request->x >= o->picture.width || request->y >= o->picture.height)
-        return complain(error, LAM_BAD_ARGUMENT, "pixel %d,%d lies outside of the picture", request->x, request->y);
+        return complain(error, LAM_BAD_ARGUMENT, "pixel %d,%d is outside the picture", request->x, request->y);
     lam_explanation *explanation = job_explain(job, request->x, request->y, NULL, error);
     char *text = NULL;
     size_t size = 0;

@@ -23,7 +23,7 @@ struct view_request {
     int size; // bytes of the words, which follow: each with a 0 at its end; the first is the model, by its path in the page or a shape's name
 };
 
-// Before what an answer consists of.
+// Before the parts of an answer.
 struct view_reply {
     bool keeps;     // the model: it will be drawn again
     int status;     // of HTTP: 200, 422 (a sentence why there is no picture), 409 (cancelled)
@@ -31,7 +31,8 @@ struct view_reply {
     uint64_t data;  // bytes that follow it: pixels, a file
 };
 
-// The largest that the page draws by itself: the triangles, lines and points of a model, and the bytes of its files (PAGE_FILES_MAX).
+// The largest model that the page draws itself: its triangles, lines and points, and the bytes of its files
+// (PAGE_FILES_MAX).
 enum { VIEW_TRIANGLES_MAX = 2000000 };
 
 // Reads requests from `from` until it ends, and answers to `to`. SIGUSR1 cancels the one that is worked on. Does not return.

@@ -63,7 +63,7 @@ static bool has_ending(const char *endings, const char *ending)
     return false;
 }
 
-// Whether a name ends like a model, or like what models name: material libraries, buffers, pictures.
+// Whether a name has the extension of a model, or of files that models name: material libraries, buffers, pictures.
 static bool is_served(const char *path)
 {
     const char *name = strrchr(path, '/'), *dot = name ? strrchr(name, '.') : NULL;
@@ -94,8 +94,8 @@ static int open_below(const struct view_files *files, const char *path, int flag
     if (file >= 0 || errno != ENOSYS)
         return file;
 #endif
-    // Before Linux 5.6: between the check and open() the file may be replaced by a link that leads out; only the sandbox, where it
-    // holds, refuses that one.
+    // Before Linux 5.6: between the check and open() the file may be replaced by a link that leads out; only the
+    // sandbox, if active, refuses it.
     char *whole = view_files_path(files, path);
     int found = whole && is_below(files, whole) ? open(whole, flags) : -1;
     free(whole);

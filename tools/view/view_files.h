@@ -1,4 +1,4 @@
-// view_files.h: the files that the viewer serves: models and what models read, in one folder and below it.
+// view_files.h: the files that the viewer serves: models and files that models read, in one folder and below it.
 //
 // A path of the page begins with "/", which is that folder: "/bunny.obj", "/textures/fur.png".
 #ifndef VIEW_FILES_H
@@ -8,9 +8,9 @@
 
 struct view_files {
     int folder;         // its handle; −1: nothing is served
-    char *prefix;       // what stands before a path of the page on this machine: "models", "."
+    char *prefix;       // the prefix of the page's paths on this machine: "models", "."
     char *model;        // the page's path of the model that the user has named; NULL: a folder
-    char *model_path;   // where it lies: it may be a link to a file elsewhere
+    char *model_path;   // its own path: it may be a link to a file elsewhere
     char **environment; // files of --environment, which may lie anywhere; "/.environment/N-NAME" in the page, N from 1
     int environment_count;
 };

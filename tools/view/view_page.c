@@ -18,7 +18,7 @@ enum { PAGE_MAX = 64 << 20 }; // bytes of the page
 
 // --- the options of the command line
 
-// Where the files lie, however the program's folder changes; the page has its own paths of them.
+// The position of the files, however the program's folder changes; the page has its own paths of them.
 static bool take_environment(struct view_files *files, const struct page_model *model, lam_error *error)
 {
     files->environment = calloc((size_t)model->count + 1, sizeof *files->environment);
@@ -77,7 +77,7 @@ static bool take_options(struct view_page *page, const struct options *options, 
 
 // --- the page
 
-// JSON in which no '<' is left, so that it may stand in a script element.
+// JSON in which no '<' is left, so that a script element can contain it.
 static void put_json(FILE *out, const char *id, const char *json)
 {
     fprintf(out, "<script type=\"application/json\" id=\"%s\">", id);
@@ -141,7 +141,7 @@ static bool fill(struct view_page *page, const char *text, const char *model, la
     return ok;
 }
 
-// The module with threads lies beside the page, where `make web` has made both.
+// The module with threads is beside the page, if `make web` has made both.
 static bool take_module(struct view_page *page, const char *path, lam_error *error)
 {
     const char *slash = strrchr(path, '/');

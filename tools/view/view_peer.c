@@ -43,7 +43,7 @@ static bool is_other_end(const char *line, int other_port, int port, unsigned *s
            strcmp(remote + remote_length - 8, wanted) == 0;
 }
 
-// Calls nothing that opens a file: the sandbox holds.
+// Calls no function that opens a file, because the sandbox is active.
 bool view_peers_are_own(const struct view_peers *peers, int other_port, int port)
 {
     for (int i = 0; i < 2; i++) {

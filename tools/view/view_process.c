@@ -70,8 +70,8 @@ bool view_process_start(struct view_process *process, const struct view_files *f
     return false;
 }
 
-// The words are part of a request, which is at most 64 KiB long (HEADERS_MAX in view_server.c), as much as a pipe holds. It is empty,
-// so this does not wait.
+// The words are part of a request, which is at most 64 KiB long (HEADERS_MAX in view_server.c), as much as fits into a
+// pipe. It is empty, so this does not wait.
 static bool send_all(int to, const void *bytes, size_t size)
 {
     for (size_t at = 0; at < size;) {

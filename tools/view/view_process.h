@@ -26,7 +26,8 @@ bool view_process_ask(struct view_process *process, const struct view_request *r
 // Asks it to end its request; one that does not is killed after a while.
 void view_process_cancel(struct view_process *process);
 
-// Reads what has arrived. 1: the answer is whole, *reply with `received` after it; 0: not yet; −1: the process has ended, or sends nonsense.
+// Reads the bytes that have arrived. 1: the answer is whole, *reply with `received` after it; 0: not yet; −1: the
+// process has ended, or sends nonsense.
 int view_process_receive(struct view_process *process, struct view_reply *reply);
 
 // The notes and the data of a whole answer: `received` from malloc, which the caller takes over. It may take the next request then.

@@ -105,7 +105,7 @@ static enum MHD_Result begin(struct view_connection *c, enum view_kind kind, con
                              const char *client)
 {
     struct view *view = c->view;
-    if (view->ends) // what is suspended now would never be answered
+    if (view->ends) // requests suspended now would never be answered
         return view_answer_text(view, c->connection, 503, "the viewer has ended");
     struct view_request request = {.kind = kind, .x = number_of(c, "x"), .y = number_of(c, "y"), .size = (int)size};
     request.threads = client ? view->options->work.threads : 1;
@@ -208,7 +208,7 @@ static enum MHD_Result answer_page(struct view_connection *c)
     return view_answer(c->view, c->connection, 200, "text/html; charset=utf-8", page->text, page->size, VIEW_BORROWED);
 }
 
-// A path of the page: what follows a word of the address.
+// A path of the page: the address after a prefix.
 static const char *path_after(const char *address, const char *word)
 {
     size_t length = strlen(word);
@@ -284,7 +284,7 @@ enum MHD_Result view_routes_answer(void *user, struct MHD_Connection *connection
         c->finished = false;
         return view_answer_result(c);
     }
-    if (c) { // what is sent along with a request, and a call while a task runs
+    if (c) { // the body of a request, and a call while a task runs
         *upload_size = 0;
         return MHD_YES;
     }

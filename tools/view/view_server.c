@@ -118,7 +118,7 @@ static bool enter_sandbox(const struct view *view, lam_error *error)
     return sandbox_start(&options, &paths, error);
 }
 
-// --- what is said
+// --- messages
 
 static void say_address(const struct view *view, const char *address, bool opened)
 {
@@ -190,7 +190,7 @@ static void loop(struct view *view)
         view_watch_read(&view->watch, &view->files, hear_change, view);
         view_tasks_step(&view->tasks);
         view_events_keep(view);
-        view->http.MHD_run(view->daemon); // sends the answers of what has just ended
+        view->http.MHD_run(view->daemon); // sends the answers of requests that have just ended
         view_tasks_step(&view->tasks);
         view_waiting_drop(view);
         double now = clock_ms();

@@ -1,5 +1,5 @@
-// view_tasks.h: pictures that are asked for, and the processes that draw them: at most one for each processor, and one more for the page in
-// front, so that a gallery does not hold it up.
+// view_tasks.h: requested pictures, and the processes that draw them: at most one for each processor, and one more for
+// the page in front, so that a gallery does not delay it.
 #ifndef VIEW_TASKS_H
 #define VIEW_TASKS_H
 
@@ -44,7 +44,8 @@ struct view_task *view_tasks_add(struct view_tasks *tasks, const struct view_req
 // Nobody waits for it any more.
 void view_tasks_drop(struct view_tasks *tasks, struct view_task *task);
 
-// Gives waiting tasks to processes, and reads what those have sent. Call it when one of their files can be read, and now and then.
+// Gives waiting tasks to processes, and reads their results. Call it when one of their files can be read, and now and
+// then.
 void view_tasks_step(struct view_tasks *tasks);
 
 // Ends all processes, and all tasks, with 503.

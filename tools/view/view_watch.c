@@ -135,7 +135,7 @@ static void read_event(struct view_watch *watch, const struct view_files *files,
     }
 }
 
-// Watches again what has gone, where it has come back.
+// Watches a path again after it has come back.
 static void find_again(struct view_watch *watch, const struct view_files *files, const struct listener *listener)
 {
     for (int i = 0; i < watch->count; i++) {

@@ -20,8 +20,8 @@ struct view_watch {
 void view_watch_start(struct view_watch *watch);
 void view_watch_end(struct view_watch *watch);
 
-// Watches the folder of a file, by its path in the page. What cannot be watched is left out. A folder that is removed or replaced
-// is watched again once one of its name is there.
+// Watches the folder of a file, by its path in the page. Paths that cannot be watched are skipped. A folder that is
+// removed or replaced is watched again once one of its name exists.
 void view_watch_add(struct view_watch *watch, const struct view_files *files, const char *path);
 
 // Calls `changed` for each file that was written, replaced or removed since the last call, by its path in the page; for the folder,

@@ -48,15 +48,16 @@ uint64_t call_file_limit(const struct call_control *call);
 unsigned call_json_depth_limit(const struct call_control *call);
 uint64_t call_layer_limit(const struct call_control *call);
 
-// Whether a model, or a scene that is drawn, may have so many triangles; false: LAM_LIMIT. `items` is what they are:
+// Whether a model, or a drawn scene, may have this many triangles; false: LAM_LIMIT. `items` is their name:
 // "triangles", "lines".
 bool call_check_triangles(const struct call_control *call, const char *name, uint64_t count, const char *items,
                           lam_error *error);
 
-// Whether a model may have so many objects; false: LAM_LIMIT.
+// Whether a model may have this many objects; false: LAM_LIMIT.
 bool call_check_objects(const struct call_control *call, const char *name, uint64_t count, lam_error *error);
 
-// Whether the parts of a compressed file may have so many bytes when they are unpacked: as many as reading it may take memory; false: LAM_LIMIT.
+// Whether the unpacked parts of a compressed file may have this many bytes: as many as reading it may use memory;
+// false: LAM_LIMIT.
 bool call_check_expanded(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
 
 // Whether a file of this size may be read; false: LAM_LIMIT.

@@ -172,8 +172,8 @@ static bool read_stream(int file, const char *path, bool fresh, struct call_cont
     while (ok && !ended) {
         if (used == out->size)
             ok = used >= max
-                     ? fail(error, LAM_LIMIT, "%s: has no end within %.1f GB, a quarter of this machine's memory", path,
-                            (double)max / 1e9)
+                     ? fail(error, LAM_LIMIT, "%s: does not end within %.1f GB, a quarter of this machine's memory",
+                            path, (double)max / 1e9)
                      : grow(out, used, call, error);
         if (ok && !wait_readable(file, call))
             ok = call_error(call, error);
@@ -243,7 +243,7 @@ static int open_beneath(const char *path, size_t folder)
     return open(path, OPEN_FLAGS | O_NOFOLLOW);
 }
 
-// Opens a regular file; −1: an error. What is not one is not even opened. `shown` NULL: the user's own path.
+// Opens a regular file; −1: an error. Other paths are not even opened. `shown` NULL: the user's own path.
 static int open_regular(const char *path, size_t folder, const char *shown, struct stat *about, lam_error *error)
 {
     const char *advice = shown ? "" : " (- is standard input)";

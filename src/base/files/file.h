@@ -19,14 +19,14 @@ struct file_bytes {
 };
 
 // Reads a regular file, or standard input for "-". Folders, pipes, devices and sockets are not opened: opening one can
-// wait for ever, or do something. `pool` and `call` may be NULL. Errors: LAM_CANNOT_READ (no such file, not a regular
-// one, a read error, the file was shortened meanwhile), LAM_LIMIT, LAM_CANCELLED.
+// wait forever, or have side effects. `pool` and `call` may be NULL. Errors: LAM_CANNOT_READ (no such file, not a
+// regular one, a read error, the file was shortened meanwhile), LAM_LIMIT, LAM_CANCELLED.
 bool file_read(const char *path, struct pool *pool, struct call_control *call, struct file_bytes *out,
                lam_error *error);
 
-// The same for a regular file that another file names: `shown` stands for its path in messages (NULL: the path), and "-"
-// is a file's name. `folder`: the length of the folder's part of the path, as path_within gives it: the rest is opened
-// below that folder without a link on its way, even where one has come there since. 0: the path is opened as it is.
+// The same for a regular file that another file names: messages use `shown` for its path (NULL: the path), and "-" is a
+// file's name. `folder`: the length of the folder's part of the path, as path_within returns it. The rest is opened
+// below that folder without following a link, even if one was created meanwhile. 0: the path is opened as it is.
 // `fresh`: the call has not read this file before, so that its bytes count as input (call_add_input).
 bool file_read_named(const char *path, size_t folder, const char *shown, bool fresh, struct pool *pool,
                      struct call_control *call, struct file_bytes *out, lam_error *error);
@@ -56,18 +56,18 @@ bool file_copy(const void *bytes, size_t size, struct call_control *call, struct
 
 void file_release(struct file_bytes *bytes);
 
-// Makes the arena the owner of the bytes, which stay where they are. False: out of memory; `bytes` still owns them.
+// Makes the arena the owner of the bytes, without copying them. False: out of memory; `bytes` still owns them.
 bool file_move_to_arena(struct file_bytes *bytes, struct arena *arena);
 
 // Writes a file whole or not at all, and leaves nothing else in its folder, even if a signal ends the process meanwhile
-// (file_write.c). Keeps the rights to read and write an existing file, and none to execute it; a symbolic link is kept, and its target replaced. A path that is not
-// a regular file (/dev/stdout, a pipe) is written directly. `durable`: it is on the disk when the call returns, and its
-// folder too, so that a loss of power leaves the old file or the new one. `call` may be NULL. Errors: LAM_CANNOT_WRITE,
-// and those of `call`: LAM_CANCELLED, LAM_LIMIT.
+// (file_write.c). Keeps the rights to read and write an existing file, and none to execute it; a symbolic link is kept,
+// and its target replaced. A path that is not a regular file (/dev/stdout, a pipe) is written directly. `durable`: it
+// is on the disk when the call returns, and its folder too, so that a loss of power leaves the old file or the new one.
+// `call` may be NULL. Errors: LAM_CANNOT_WRITE, and the errors of `call`: LAM_CANCELLED, LAM_LIMIT.
 bool file_write(const char *path, const void *data, size_t size, bool durable, struct call_control *call,
                 lam_error *error);
 
-// The same in a given way, for tests: FILE_NAMED is what file systems without unnamed files get.
+// The same in a given way, for tests: FILE_NAMED is used on file systems without unnamed files.
 enum file_way { FILE_UNNAMED = 0, FILE_NAMED = 1, FILE_DURABLE = 2 }; // the last one is a bit
 bool file_write_by(unsigned way, const char *path, const void *data, size_t size, struct call_control *call,
                    lam_error *error);

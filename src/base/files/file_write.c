@@ -1,11 +1,12 @@
 // file_write.c: writes whole files, so that a reader sees the old file or the new one and nothing is left behind.
 //
-// Where the file system has them, the bytes go to a file without a name (O_TMPFILE), which the kernel removes with the
-// process, whatever ends it. The finished file is linked to its name; where that name exists, beside it, and renamed over
-// it. Between the link and the rename every signal waits; SIGKILL cannot, and leaves a file only in those microseconds.
+// If the file system supports them, the bytes go to a file without a name (O_TMPFILE), which the kernel removes with
+// the process, however it ends. The finished file is linked to its name; if that name exists, beside it, and renamed
+// over it. Between the link and the rename every signal waits; SIGKILL cannot, and leaves a file only in those
+// microseconds.
 //
 // Elsewhere (NFS, vfat, some FUSE file systems) the file has a name of its own from the start. Signals wait while it
-// exists, but are looked at after each piece: the file is removed before one that ends the process takes effect.
+// exists, but are checked after each chunk: the file is removed before a fatal signal takes effect.
 #include "file.h"
 
 #include "fail.h"
@@ -83,8 +84,8 @@ struct writing {
     struct call_control *call;
 };
 
-// False with errno set; ECANCELED: the call must end; EINTR: a signal waits that ends the process. `before`: what was
-// blocked before signals were held; NULL: they are not.
+// False with errno set; ECANCELED: the call must end; EINTR: a signal waits that ends the process. `before`: the
+// signals blocked before; NULL: they are not held.
 static bool write_all(int file, const struct writing *w, const sigset_t *before)
 {
     const uint8_t *at = w->data;
@@ -118,7 +119,7 @@ static bool fill(int file, const struct writing *w, const sigset_t *before)
         return false;
     if (w->durable && !sync_file(file))
         return false;
-    // Closing a copy reports what a file system reports only then, while the file can still be given up.
+    // Closing a copy reports errors that a file system reports only then, while the file can still be dropped.
     int copy = dup(file);
     return copy < 0 || close(copy) == 0;
 }
@@ -130,8 +131,8 @@ static char *folder_of(const char *path)
     return name == path ? strdup(".") : strndup(path, (size_t)(name - path));
 }
 
-// A name beside the target that is not in use, so far, from malloc. It is short, and hidden. The host stands in it because
-// several may write to one folder, where a process's number alone says little: in containers it is often 1.
+// A name beside the target that is not in use, so far, from malloc. It is short, and hidden. It contains the host
+// because several may write to one folder, and a process's number is not unique: in containers it is often 1.
 static char *name_beside(const char *target)
 {
     char *name, host[65] = "";

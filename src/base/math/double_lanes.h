@@ -1,6 +1,6 @@
 // double_lanes.h: doubles beside the floats of lanes.h.
 //
-//   dnum   DLANES doubles: those of one register, half as many as a num has floats; DPARTS of them cover LANES
+//   dnum   DLANES doubles: one register of them, half as many as a num has floats; DPARTS of them cover LANES
 //   dmask  DLANES truths, from comparing
 //
 // As in lanes.h: + − × ÷ and comparisons alone, each correctly rounded, so every width gives the same bits. (Vectors twice as

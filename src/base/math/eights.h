@@ -1,5 +1,5 @@
-// eights.h: eight floats side by side on any instruction set, whatever LANES is: what is read eight numbers at a time
-// from memory that every set shares. As in lanes.h: correctly rounded operations alone, by the operators of C.
+// eights.h: eight floats side by side on any instruction set, whatever LANES is: for memory that every set shares and
+// reads eight numbers at a time. As in lanes.h: correctly rounded operations alone, by the operators of C.
 #ifndef EIGHTS_H
 #define EIGHTS_H
 
@@ -11,7 +11,7 @@ typedef float eight_memory __attribute__((vector_size(32), aligned(4), may_alias
 LANE_FN eight eight_of(float x) { return x - (eight){0}; }
 LANE_FN eight eight_load(const float *at) { return (eight) * (const eight_memory *)at; }
 
-// Minimum and maximum as min_of and max_of have them, and the numbers of a that are not above those of b: bit i is number i.
+// Minimum and maximum as min_of and max_of, and the numbers of a that are not above b's: bit i is number i.
 #if defined(__AVX__)
 LANE_FN eight eight_min(eight a, eight b) { return (eight)_mm256_min_ps((__m256)a, (__m256)b); }
 LANE_FN eight eight_max(eight a, eight b) { return (eight)_mm256_max_ps((__m256)a, (__m256)b); }

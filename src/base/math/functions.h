@@ -90,8 +90,8 @@ LANE_FN struct two_parts scaled_log2(struct binary_parts b, num exponent)
 // The smallest base that does not count as 0. With exponent 0 that is any base, since 0⁰ = 1.
 LANE_FN num min_base(num exponent) { return pick(exponent > 0.0f, num_of(SMALLEST_NORMAL), num_of(-__builtin_inff())); }
 
-// base^exponent for a base in 0…1 (more counts as 1) and any finite exponent ≥ 0. 0⁰ = 1. Otherwise 0 where the base is
-// 0, negative or below the smallest normal number; 0 where it is NaN. Results below the smallest normal number are 0:
+// base^exponent for a base in 0…1 (more counts as 1) and any finite exponent ≥ 0. 0⁰ = 1. Otherwise 0 if the base is 0,
+// negative or below the smallest normal number; 0 if it is NaN. Results below the smallest normal number are 0:
 // denormals cost two to three times the rest. Relative error at most 2e-6 for exponents up to 128, and 3e-6 for all.
 //
 // Split into three steps, so that a loop over many powers overlaps their latencies: the base's parts; its logarithm,

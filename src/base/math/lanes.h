@@ -25,7 +25,8 @@
 #include <wasm_simd128.h>
 #endif
 
-// Always inlined, so that lanes stay in registers; but not in what computes one pixel (src/cpu/kernels.c), where size counts.
+// Always inlined, so that lanes stay in registers; but not in code that computes one pixel (src/cpu/kernels.c), in
+// which size counts.
 #ifdef RECORDING
 #define LANE_FN static inline __attribute__((unused))
 #else
@@ -351,7 +352,7 @@ LANE_FN num lanes_at(num x, inum at)
 #endif
 }
 
-// The minimum of all lanes, none of which is NaN.
+// The minimum of all lanes, without NaN.
 LANE_FN float min_lane(num x)
 {
 #if (LANES == 16 && defined(__AVX512DQ__)) || (LANES == 8 && defined(__AVX__))

@@ -14,7 +14,7 @@
 struct arena_block;
 struct arena {
     struct arena_block *blocks;
-    struct call_control *call; // charged for what is allocated; may be NULL
+    struct call_control *call; // charged for allocations; may be NULL
     size_t total;              // bytes held
     bool large;                // the first block is one of the largest
 };
@@ -36,8 +36,8 @@ char *arena_string(struct arena *arena, const char *text);
 char *arena_string_of(struct arena *arena, const char *text, size_t length);
 char *arena_vformat(struct arena *arena, const char *format, va_list arguments);
 
-// Makes the arena own `held` bytes at `pages` (pages.h). `charged`: what its call was charged for them, to be refunded
-// with them. False: out of memory; the caller still owns them.
+// Makes the arena own `held` bytes at `pages` (pages.h). `charged`: the amount charged to its call for them, to be
+// refunded with them. False: out of memory; the caller still owns them.
 bool arena_adopt(struct arena *arena, void *pages, size_t held, size_t charged);
 
 // For tests: from now on the allocation number `countdown` (0: the next) of this thread fails, once. −1: none.

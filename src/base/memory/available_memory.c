@@ -1,8 +1,8 @@
-// available_memory.c: the memory that this process may use: the smallest of what the machine has and what its limits are.
+// available_memory.c: the memory available to this process: the smallest of the machine's memory and its limits.
 //
 // Control groups limit memory in a container or under a batch system: cgroup v2 in memory.max, v1 in
 // memory.limit_in_bytes, each for a group and all below it. Within a container the path in /proc/self/cgroup may be the
-// host's, so that it leads nowhere: the groups above it, up to the mount's root, are read all the same.
+// host's and not exist: the groups above it, up to the mount's root, are read nevertheless.
 // https://docs.kernel.org/admin-guide/cgroup-v2.html, .../cgroup-v1/memory.html
 #include "available_memory.h"
 

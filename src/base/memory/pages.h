@@ -13,7 +13,7 @@ enum { PAGES_WHEN_TOUCHED = 1 };
 
 // Fresh zeroed memory, page-aligned. `held` receives the size to free. NULL: out of memory.
 void *pages_get(size_t bytes, size_t *held);
-// The same in small pages, for blocks of which little may be touched.
+// The same in small pages, for blocks that are hardly touched.
 void *pages_get_sparse(size_t bytes, size_t *held);
 void pages_free(void *pages, size_t held);
 // Releases the pages after the first `bytes`, where the system allows that.

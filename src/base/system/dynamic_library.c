@@ -7,7 +7,7 @@
 
 #if defined(__wasm__)
 
-// WebAssembly opens no libraries; the page's module has functions that stand for some (src/import/gltf/draco/page_decoders.c).
+// WebAssembly opens no libraries; the page's module has functions that replace some (src/import/gltf/draco/page_decoders.c).
 __attribute__((weak)) void *page_library(const char *name);
 __attribute__((weak)) bool page_library_find(void *library, const char *name, void *function);
 
@@ -75,8 +75,8 @@ void *library_open(const char *name, bool resident, const char **reason)
     return library;
 }
 
-// The folders from one that holds this code: a build folder and its folder of tests; that of the libraries; that of the
-// programs, which has the libraries' beside it.
+// The folders from the one with this code: a build folder and its folder of tests; the libraries' folder; the programs'
+// folder, beside the libraries'.
 static const char *const own_folders[] = {"", "../", "lambent/", "../" LAMBENT_LIBDIR "/lambent/"};
 
 static void *open_beside(const char *file, const char *name)
@@ -114,7 +114,7 @@ void library_close(void *library)
 bool library_find(void *library, const char *name, void *function)
 {
     void *found = dlsym(library, name);
-    memcpy(function, &found, sizeof found); // POSIX lets a data pointer stand for a function pointer here
+    memcpy(function, &found, sizeof found); // POSIX lets a data pointer represent a function pointer here
     return found != NULL;
 }
 

@@ -7,9 +7,9 @@
 // A library by its file name ("libfreetype.so.6"); NULL: not installed, and *reason (may be NULL) is the loader's
 // sentence. `resident`: it stays loaded until the process ends, as drivers that start threads need.
 void *library_open(const char *name, bool resident, const char **reason);
-// A shared object that is installed with this library or program, "lambent-draco.so", from where it lies beside them: in a folder lambent
-// of the folder of libraries, or in the folder that they were built in. It stays loaded until the process ends. NULL: it is not there,
-// or what it needs is not.
+// A shared object installed with this library or program, "lambent-draco.so", from beside them: in a folder lambent of
+// the folder of libraries, or in their build folder. It stays loaded until the process ends. NULL: it is missing, or a
+// library that it needs.
 void *library_open_own(const char *name);
 void library_close(void *library); // NULL is fine
 

@@ -1,5 +1,5 @@
-// static_libraries.c: the functions of the libraries that a static program (meson -Dstatic_program=true) contains, by name: what
-// dynamic_library.c finds there in place of the loader, which a static program has none of.
+// static_libraries.c: the functions of the libraries that a static program (meson -Dstatic_program=true) contains, by
+// name: dynamic_library.c uses them in place of the loader, which a static program lacks.
 #include "static_libraries.h"
 
 #include <stddef.h>

@@ -145,7 +145,7 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
     digits <<= zeros;
     const uint64_t *five = powers_of_five[power - POWER_FIRST];
     struct wide product = multiply(digits, five[0]);
-    // The low half of the power can only matter where it would carry through all the bits that are cut off.
+    // The low half of the power can only matter if it carries through all the bits that are cut off.
     uint64_t cut = UINT64_MAX >> (format->mantissa_bits + 3);
     if ((product.high & cut) == cut) {
         uint64_t more = multiply(digits, five[1]).high;
@@ -169,7 +169,7 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
         }
         mantissa >>= 1 - field;
         mantissa = (mantissa + (mantissa & 1)) >> 1;
-        *bits = mantissa; // one that became the smallest normal number carries into the exponent by itself
+        *bits = mantissa; // one that became the smallest normal number carries into the exponent
         return true;
     }
     // Exactly in the middle: round to even.
@@ -273,7 +273,7 @@ static int64_t big_digits(const struct decimal *d, struct big *a)
             rest |= *at != '0';
         }
     }
-    // d->exponent belongs to the first 19 digits, or to the last where there are fewer.
+    // d->exponent belongs to the first 19 digits, or to the last if there are fewer.
     int64_t power = taken > 19 ? d->exponent - (taken - 19) : d->exponent;
     if (rest) {
         big_multiply_add(a, 10, 1);
@@ -359,7 +359,7 @@ static uint64_t round_decimal(const struct decimal *d, const struct format *form
 
 // --- the public functions
 
-// "inf", "infinity", "nan", "nan(…)", in any case. `*bits`: those of the format, without the sign.
+// "inf", "infinity", "nan", "nan(…)", in any case. `*bits`: the format's, without the sign.
 static const uint8_t *scan_special(const uint8_t *at, const uint8_t *end, const struct format *format, bool *negative,
                                    uint64_t *bits)
 {

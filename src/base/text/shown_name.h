@@ -9,9 +9,9 @@ enum {
     SHOWN_NAME_SIZE = 4 * SHOWN_CHARACTERS + 4, // bytes, with the "…" and the final 0
 };
 
-// Writes a name that came from a file to `out`, for a message: its first SHOWN_CHARACTERS characters, and "…" where it
-// has more. Control characters and bytes that are not UTF-8 become '?', so that a file cannot play with a terminal.
-// Returns `out`.
+// Writes a name from a file to `out`, for a message: its first SHOWN_CHARACTERS characters, and "…" if it has more.
+// Control characters and bytes that are not UTF-8 become '?', so that a file cannot play with a terminal. Returns
+// `out`.
 const char *shown_name(const char *name, char out[SHOWN_NAME_SIZE]);
 const char *shown_name_of(const void *bytes, size_t length, char out[SHOWN_NAME_SIZE]); // not ended by a 0
 

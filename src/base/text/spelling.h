@@ -4,7 +4,7 @@
 
 #include <lambent/base.h>
 
-// A search for the word of the interface that a typed one stands for, by lam_word_distance.
+// A search for the word of the interface that a typed one means, by lam_word_distance.
 struct spelling {
     const char *word;    // as typed
     const char *nearest; // of those tried; NULL: none is near
@@ -16,7 +16,7 @@ void spelling_try(struct spelling *spelling, const char *candidate);
 // The word of `words` with the smallest edit distance to `word`, at most a third of its length; NULL: none is that near.
 const char *nearest_word(const char *word, const char *const *words, int count);
 
-// The word of the interface among `words` that a typed one stands for; NULL: none is near.
+// The word of the interface among `words` that a typed one means; NULL: none is near.
 const char *meant_word(const char *word, const char *const *words, int count);
 
 #endif

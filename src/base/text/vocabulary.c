@@ -7,7 +7,7 @@
 enum { LENGTH_MAX = 63 };
 
 // Other names that people use, separated by spaces, in small letters with '-' between words. They are suggested, not
-// accepted. A name may stand in several rows: it counts for the words that are possible where it was typed.
+// accepted. A name may occur in several rows: it counts for the words that are possible at that position.
 static const struct {
     const char *word, *others;
 } vocabulary[] = {

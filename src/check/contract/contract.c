@@ -55,7 +55,7 @@ bool contracts_read(lam_check_contract *out[MAX_CONTRACTS], int *count, lam_erro
     return true;
 }
 
-// --- what a contract holds, for users
+// --- the contents of a contract, for users
 
 const char *lam_check_contract_name(const lam_check_contract *contract) { return contract->contract.name; }
 const char *lam_check_contract_title(const lam_check_contract *contract) { return contract->contract.title; }

@@ -1,4 +1,4 @@
-// contract.h: the names that each course's shaders use, and what its exercise asks for.
+// contract.h: the names that each course's shaders use, and the requirements of its exercise.
 #ifndef CONTRACT_H
 #define CONTRACT_H
 
@@ -46,7 +46,7 @@ struct default_number {
     float value;
 };
 
-// The values of what a shader has no name for.
+// The values of inputs that a shader does not declare.
 struct contract_defaults {
     struct default_color ambient_color, diffuse_color, specular_color;
     struct default_color light_color, light_specular, light_ambient;
@@ -57,15 +57,15 @@ struct contract_defaults {
     int light_space;    // of both; the contract's unless it is said
 };
 
-// A variable that a shader gives a number: `float ambientStrength = 0.1;`. The name "pow" stands for a number that is
-// the second argument of pow().
+// A variable that a shader gives a number: `float ambientStrength = 0.1;`. The name "pow" means a number that is the
+// second argument of pow().
 struct contract_constant {
     const char *name;
     enum uniform_semantic semantic;
 };
 
-// How the shaders of a contract with metalness and roughness light. All of it is as glTF 2.0's appendix B has it where
-// nothing is said; other forms are recognised, and accepted where they are as right (fault_table.c).
+// How the shaders of a contract with metalness and roughness light. The defaults are glTF 2.0's, appendix B; other
+// forms are recognised, and accepted if they are as right (fault_table.c).
 enum masking {
     MASKING_SMITH,  // Smith's for GGX, height-correlated
     MASKING_SCHLICK // Schlick's approximation of it, k = (roughness + 1)²/8
@@ -84,7 +84,7 @@ struct physical_convention {
     enum encoding encoding;
 };
 
-// What the maps of a contract hold.
+// The contents of a contract's maps.
 struct map_convention {
     // Maps of colours are encoded, pow(x, 1/2.2), and the shader decodes them; false: they are linear, as a texture with an
     // sRGB format is for a shader.
@@ -111,7 +111,7 @@ struct contract {
     const struct contract_varying *varyings; // ends with NULL
     // Built-in names whose use identifies the contract. Ends with NULL.
     const char *const *built_ins;
-    // The structs and lists that hold lights: "lights[]", "sun"; "" for names outside of any.
+    // The structs and lists of lights: "lights[]", "sun"; "" for names outside any.
     const char *groups[MAX_LIGHT_GROUPS];
     int group_count;
     unsigned supports;     // bits of reference_need
@@ -125,13 +125,13 @@ struct contract {
     struct physical_convention physical; // of shaders with metalness and roughness
     struct map_convention maps;
     const struct contract_constant *constants; // ends with NULL
-    // What an engine writes before the texts of a program, which then have no version line and declare none of its names.
-    // NULL: nothing.
+    // The lines that an engine writes before the texts of a program, which then have no version line and declare none
+    // of its names. NULL: nothing.
     const char *prefix_vertex, *prefix_fragment;
     const char *outputs;     // names of the fragment shader's output, separated by blanks; NULL: not said
     bool has_attenuation;    // names or constants
     bool material_strengths; // colours and their strengths are apart
-    bool any_strengths;      // strengths and colours are the shader's own: those that fit its pictures count
+    bool any_strengths;      // strengths and colours are the shader's own: the best fit to its pictures counts
     // Of GLSL 110 and 120: names of gl_LightSource and the like; the texts are rewritten (fixed_state.h).
     bool fixed_state;
     const double *weights; // the points of each reference scene

@@ -62,7 +62,7 @@ static bool read_type(struct contract_reader *r, const struct place *place, cons
     return json_unexpected(&r->json, KEY_OF(place, "type"), value, expected);
 }
 
-// The group of a light's name: what stands before its last dot.
+// The group of a light's name: the text before its last dot.
 static bool find_group(struct contract_reader *r, const struct place *place, const char *name, int *group)
 {
     struct contract *c = r->contract;

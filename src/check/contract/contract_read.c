@@ -118,7 +118,7 @@ static void complete_defaults(struct contract *c)
             *colors[i].color = (struct default_color){COLOR_GIVEN, {1, 1, 1}};
 }
 
-// The space of the lights: that of the first name with a light, else that of the default light, else the shader's.
+// The space of the lights: of the first name with a light, or else of the default light, or else the shader's.
 static lam_light_frame light_frame_of(const struct contract *c)
 {
     const struct contract_defaults *d = &c->defaults;
@@ -128,7 +128,7 @@ static lam_light_frame light_frame_of(const struct contract *c)
     return d->has_direction || d->has_position ? (lam_light_frame)d->light_space : c->space;
 }
 
-// What follows from the names.
+// Consequences of the names.
 static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
 {
     struct contract *c = r->contract;

@@ -24,7 +24,7 @@ bool contract_no_memory(const struct contract_reader *r);
 // Whether a text can be a name in GLSL; `plain`: one without members and lists.
 bool contract_check_name(const struct contract_reader *r, const struct place *place, const char *name, bool plain);
 
-// A list of texts, joined by `between`; NULL where it is empty. Each is checked where it must be a name.
+// A list of texts, joined by `between`; NULL if it is empty. Each is checked if it must be a name.
 bool contract_read_list(struct contract_reader *r, const struct place *place, const json_t *list, const char *between,
                         bool of_names, bool plain, const char **out);
 

@@ -1,5 +1,5 @@
-// contract_values.c: reads what a contract says of varyings, of names that are not declared, of numbers, of an engine, and
-// of metalness and roughness.
+// contract_values.c: reads a contract's values for varyings, undeclared names, numbers, an engine, and metalness and
+// roughness.
 #include "contract_reader.h"
 
 #include <stdio.h>
@@ -56,7 +56,7 @@ bool contract_read_varyings(struct contract_reader *r, const json_t *root)
     return true;
 }
 
-// --- values of what is not declared
+// --- values of undeclared names
 
 static bool read_color(struct contract_reader *r, const struct place *place, const json_t *object, const char *key,
                        const char *word, enum color_source source, struct default_color *out)
@@ -246,7 +246,7 @@ bool contract_read_physical(struct contract_reader *r, const json_t *root)
     return true;
 }
 
-// --- what maps hold
+// --- contents of maps
 
 bool contract_read_maps(struct contract_reader *r, const json_t *root)
 {

@@ -3,7 +3,7 @@
 
 #include "elementary.h"
 
-// Green and blue are what glTF reads; a shader that reads red or alpha gets these.
+// glTF reads green and blue; a shader that reads red or alpha gets these.
 static const float unread_red = 0.9f, unread_alpha = 0.7f;
 
 // The maps that can multiply a number.
@@ -47,7 +47,7 @@ struct uniform_value map_texel(enum uniform_semantic map, const struct reference
 {
     const lam_vec3 n = s->bump;
     switch (map) {
-    case SEMANTIC_BASE_COLOR_MAP: // of other shaders, white: the colours stand beside it
+    case SEMANTIC_BASE_COLOR_MAP: // for other shaders, white: the colours are separate
         return s->physical ? color(s, NUMBER_BASE_COLOR, s->diffuse) : grey(1);
     case SEMANTIC_METALLIC_ROUGHNESS_MAP:
         return (struct uniform_value){{unread_red, texel_of(s, NUMBER_ROUGHNESS, s->roughness),

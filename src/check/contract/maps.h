@@ -1,8 +1,8 @@
-// maps.h: what the maps of a shader hold in a reference scene: one texel, which is another one in each scene, so that no
-// filter, wrap or level of detail matters.
+// maps.h: the maps of a shader in a reference scene: one texel, a different one in each scene, so that filters, wraps
+// and levels of detail have no effect.
 //
-// A shader that reads a map instead of a number gets the number as the texel. One that multiplies the two gets a factor and a
-// texel whose product is that number, neither of them 1 or like the other.
+// A shader that reads a map instead of a number gets the number as the texel. One that multiplies the two gets a factor
+// and a texel whose product is that number, neither of them 1 or like the other.
 #ifndef MAPS_H
 #define MAPS_H
 
@@ -19,8 +19,8 @@ static inline unsigned map_bit(enum uniform_semantic map) { return 1u << (map - 
 // Which number of a material a map multiplies.
 enum map_number { NUMBER_BASE_COLOR, NUMBER_METALLIC, NUMBER_ROUGHNESS, NUMBER_OCCLUSION, NUMBER_EMISSION };
 
-// The factor that such a number has where a map multiplies it: 1 where the map stands for the number, the number itself where
-// there is no map. `whole`: their product.
+// The factor of such a number if a map multiplies it: 1 if the map replaces the number, the number itself if there is
+// no map. `whole`: their product.
 float map_factor(const struct reference_scene *scene, enum map_number number, float whole);
 
 // The texel of a map, as the sampler gives it.

@@ -118,7 +118,7 @@ static double shared_words(const struct name_words *a, const struct name_words *
     return all > 0 ? (double)shared / all : 0;
 }
 
-// The sound of a name: its consonants, without doubles, those that sound alike being one ("colour" and "color" are klr,
+// The sound of a name: its consonants, without doubles, similar sounds merged ("colour" and "color" are klr,
 // "normalise" and "normalize" nrmls).
 static void sound_of(const char *name, char out[WORD_LENGTH])
 {

@@ -80,7 +80,7 @@ enum uniform_semantic {
     SEMANTIC_COUNT
 };
 
-// What a role may be given to, and the types that fit it.
+// The inputs that a role suits, and their types.
 enum role_use {
     ROLE_ATTRIBUTE = 1,
     ROLE_UNIFORM = 2,

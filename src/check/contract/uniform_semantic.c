@@ -21,7 +21,7 @@ static struct uniform_value color_factor(const struct reference_scene *s, enum m
         {map_factor(s, number, c.r), map_factor(s, number, c.g), map_factor(s, number, c.b), alpha}};
 }
 
-// A colour that the texel of the base colour map multiplies, as that of the diffuse light.
+// A colour that the texel of the base colour map multiplies, such as the diffuse light's.
 static struct uniform_value without_texel(const struct reference_scene *s, struct uniform_value c)
 {
     const float base[] = {s->diffuse.r, s->diffuse.g, s->diffuse.b};
@@ -132,7 +132,7 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
             return color_factor(s, NUMBER_BASE_COLOR, s->diffuse, s->alpha);
         return color(s->diffuse, s->kd, s->alpha);
     case SEMANTIC_DIFFUSE_PRODUCT:
-        // Of a metal, no light is scattered: its product is 0 (metallic is 0 where there is no such name).
+        // A metal scatters no light: its product is 0 (metallic is 0 if there is no such name).
         return color(product(s->diffuse, light->color), s->kd * (1 - s->metallic), s->alpha);
     case SEMANTIC_SPECULAR:
     case SEMANTIC_SPECULAR_PRODUCT:

@@ -203,15 +203,14 @@ void compiler_hints_for_message(struct diagnostics *diagnostics, const struct de
                             "'%s' is not declared: give it a type at its first use", name);
     }
     if (strstr(message, "include") && strchr(message, '<'))
-        diagnostics_add(
-            diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, line,
-            "GLSL has no #include: three.js replaces it by code of its own, which the check does not have; write "
-            "what the shader needs of it");
+        diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, line,
+                        "GLSL has no #include: three.js replaces it by its own code, which the check does not have; "
+                        "write the needed code yourself");
     if (strstr(message, " field ") && quoted_name(message, name))
         hint_member(diagnostics, d, file, line, name);
     if (strstr(message, "no matching function") && (strstr(message, "(int") || strstr(message, ", int")))
         diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, line,
-                        "an integer is used where a float is expected: write 0.0 for 0, 2.0 for 2");
+                        "an integer is used in place of a float: write 0.0 for 0, 2.0 for 2");
     if (strstr(message, "syntax error") && line > 0) {
         int at = first_on_line(d, line);
         if (at > 0 && at < d->word_count) {
@@ -293,7 +292,7 @@ static void hint_types(struct diagnostics *diagnostics, const struct declaration
         size_t known = strlen(item->type);
         if (known > 0 && in_list(item->type, (const char *const[]){"in", "out", "uniform"}, 3))
             continue;
-        // vec3v Ns: the blank stands one letter too late
+        // vec3v Ns: the blank is one letter too late
         char shorter[32];
         snprintf(shorter, sizeof shorter, "%.*s", (int)known - 1, item->type);
         if (in_list(shorter, types, COUNT(types)))
@@ -362,7 +361,7 @@ bool compiler_hints_for_output(struct diagnostics *diagnostics, const struct dec
         if (strcmp(item->type, "vec4") != 0)
             diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, item->line,
                             whole
-                                ? "the output '%s' is of type %s, but a picture holds floats: declare out vec4 %s"
+                                ? "the output '%s' is of type %s, but a picture consists of floats: declare out vec4 %s"
                                 : "the output '%s' is of type %s, which leaves channels undefined: declare out vec4 %s",
                             item->name, item->type, item->name);
     }

@@ -14,8 +14,8 @@ void compiler_hints_for_message(struct diagnostics *diagnostics, const struct de
 void compiler_hints_for_text(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                              bool vertex);
 
-// For the outputs of a fragment shader that compiles. `output`: the course's name of it; NULL: none. False: it writes no
-// colour that a picture can hold.
+// For the outputs of a fragment shader that compiles. `output`: the course's name of it; NULL: none. False: it writes
+// no colour that a picture can store.
 bool compiler_hints_for_output(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                                const char *output);
 

@@ -39,7 +39,7 @@ static unsigned physical_bits(const struct physical_convention *c)
            (c->encoding == ENCODING_NONE ? WHERE_LINEAR : WHERE_ENCODED);
 }
 
-// What fault_maps has bits for.
+// The bits of fault_maps.
 static unsigned map_bits(const struct shader_interface *r)
 {
     static const struct {
@@ -90,7 +90,7 @@ bool fault_is_style(const struct fault *fault, const struct shader_interface *in
     return fault->style || (fault->demand && !(fault->demand & interface->contract->demands));
 }
 
-// Row `index` of those that are listed: no styles, and of each mistake the first form.
+// Row `index` of the list: no styles, and of each mistake the first form.
 static const struct fault *listed(int index)
 {
     for (int i = 0; i < fault_count; i++)

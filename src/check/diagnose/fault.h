@@ -7,8 +7,8 @@
 
 #include "shader_interface.h"
 
-// The switches. The fault shader queries each with is(NAME). Those up to MEAN_DISTANCE concern normals, spaces and lengths, those
-// up to USE_ACES what is written, the others the terms (fault_shader.c compiles no code for groups that are off).
+// The switches. The fault shader queries each with is(NAME). Switches up to MEAN_DISTANCE concern normals, spaces and lengths, those
+// up to USE_ACES the written colour, the others the terms (fault_shader.c compiles no code for groups that are off).
 // clang-format off
 #define FAULT_BITS(X) \
     X(LONG_NORMAL) X(LONG_NORMAL_VERTEX) X(LONG_EYE) X(LONG_LIGHT) X(RAW_HALF) X(HALF_LONG) \
@@ -58,7 +58,7 @@ enum fault_bit {
 enum { FAULT_WORDS = 4 };
 _Static_assert(FAULT_BIT_COUNT <= 64 * FAULT_WORDS, "fault_set has room for all switches");
 
-// Switches, and what is done with the exponent of the highlight.
+// Switches, and the change of the highlight's exponent.
 typedef struct fault_set {
     uint64_t words[FAULT_WORDS]; // bit i: switch i
     float factor;                // the exponent is multiplied by it; 0: it is not
@@ -88,7 +88,7 @@ enum fault_where {
     WHERE_SHARED = 32768,    // the contract's diffuse part is reduced by Fresnel's
     WHERE_TONED = 65536,     // its shaders have a tone curve
     WHERE_UNTONED = 131072,  // or none
-    WHERE_ENCODED = 262144,  // they encode what they write
+    WHERE_ENCODED = 262144,  // they encode their colours
     WHERE_LINEAR = 524288,   // or do not
     WHERE_OF_MIX = 1048576,  // the contract's F comes from the mixed F0 for the diffuse part too
     WHERE_NOT_OF_MIX = 2097152,
@@ -119,7 +119,7 @@ enum fault_maps {
     MAPS_ABSENT = MAPS_NO_BASE | MAPS_NO_OCCLUSION,
 };
 
-// What the search has to find out about a fault: the factor of the exponent, above or below 1, or the constant.
+// The unknown that the search must find for a fault: the factor of the exponent, above or below 1, or the constant.
 enum fault_fit { FIT_NONE, FIT_LARGER, FIT_SMALLER, FIT_CONSTANT };
 
 enum { MAX_FAULT_BITS = 8 };

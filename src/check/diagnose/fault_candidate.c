@@ -59,8 +59,8 @@ bool candidate_try(struct state *t, struct candidate *c, double max_mean, lam_er
     return true;
 }
 
-// Whether a candidate leaves as much as its parent, which lacks the last fault, of the first `count` scenes that this fault
-// changes: it leads nowhere.
+// Whether a candidate explains no more than its parent, which lacks the last fault, in the first `count` scenes that
+// this fault changes: it is not worth pursuing.
 static bool is_idle(const struct state *t, const struct candidate *c, const struct candidate *parent, const int *order,
                     int count)
 {

@@ -4,7 +4,7 @@
 
 #include "fault_measure.h"
 
-// As fractions of the difference without faults: what may remain of a scene, or of all, that is explained.
+// As fractions of the difference without faults: the largest remainder of a scene, or of all, that counts as explained.
 static const double max_ratio_explained = 0.125;
 // No limit of a mean difference.
 static const double no_limit = 1e9;
@@ -17,7 +17,7 @@ struct candidate {
     double mean;  // over all scenes
     double score; // the remaining share of each scene's difference, on average: 1 is all, so small highlights count too
     bool fits;
-    double parts[MAX_SCENES]; // of the score: what each scene adds to it
+    double parts[MAX_SCENES]; // of the score: the contribution of each scene
 };
 
 // The effect of a single fault.
@@ -25,8 +25,8 @@ struct outcome {
     struct found_fault fault;
     double mean, score;       // as of a candidate
     double parts[MAX_SCENES]; // likewise, of the scenes that differ
-    int order[MAX_SCENES];    // the scenes: those that differ first, and of these the ones that it changes most
-    int changed_count;        // how many of those that differ it changes
+    int order[MAX_SCENES];    // the scenes: differing ones first, the ones that it changes most in front
+    int changed_count;        // the number of differing scenes that it changes
     uint32_t explained;       // the scenes that differ and that it explains
     uint32_t exactly;         // the number of them that it explains up to rounding
     double changes[MAX_SCENES];
@@ -76,7 +76,7 @@ bool outcome_find_spoils(struct state *t, struct outcome *o, lam_error *error);
 // The outcome of a row of the table.
 struct outcome *outcome_of(const struct state *t, const struct fault *row);
 
-// Together, the faults that explain scenes of their own, those that explain most first. `all`: those must explain every
+// Together, faults that explain scenes of their own, the ones that explain most first. `all`: those must explain every
 // picture; otherwise, as many as explain further scenes and contradict none.
 bool sets_try_supported(struct state *t, bool all, struct candidate *c, lam_error *error);
 

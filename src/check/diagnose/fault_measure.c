@@ -8,8 +8,8 @@
 #include "linear.h"
 #include "shader_constants.h"
 
-// Copies a scene with those of its compared pixels that the fault shader draws. `memory`: 5 floats for each pixel of
-// its pictures.
+// Copies a scene with the compared pixels that the fault shader draws. `memory`: 5 floats for each pixel of its
+// pictures.
 static void reduce_scene(const struct fault_measure *t, const struct scene_comparison *from,
                          struct scene_comparison *to, float *memory)
 {
@@ -30,7 +30,7 @@ static void reduce_scene(const struct fault_measure *t, const struct scene_compa
     }
 }
 
-// Those that differ first, by descending difference.
+// Differing scenes first, by descending difference.
 static void order_scenes(struct fault_measure *t)
 {
     const struct scene_comparison *scenes = t->scenes;

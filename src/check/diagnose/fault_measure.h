@@ -1,4 +1,4 @@
-// fault_measure.h: draws the scenes of a search with faults switched on, and measures what difference they leave.
+// fault_measure.h: draws the scenes of a search with faults switched on, and measures the remaining difference.
 #ifndef FAULT_MEASURE_H
 #define FAULT_MEASURE_H
 
@@ -10,7 +10,7 @@ struct fault_measure {
     int stride, size;                // of the fault shader's pictures
     struct fault_shader *shader;     // opened when it is first needed
     float *pixels, *samples, *memory;
-    int order[MAX_SCENES]; // the scenes to use: those that differ first, by descending difference
+    int order[MAX_SCENES]; // the scenes to use: differing ones first, by descending difference
     int scene_count, differ_count;
     uint64_t pictures; // measured so far
 };

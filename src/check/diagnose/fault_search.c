@@ -1,11 +1,12 @@
 // fault_search.c: the search for the faults that explain the pictures.
 //
-// 1. Each fault alone, up to the first scene that it does not explain. 2. Together, those that explain scenes of their own. 3. A beam search: each of the best few with
-// one more fault, and so on. 4. If no set explains every picture: the faults that explain some, and spoil none.
+// 1. Each fault alone, up to the first scene that it does not explain. 2. Together, faults that explain scenes of their
+// own. 3. A beam search: each of the best few with one more fault, and so on. 4. If no set explains every picture: the
+// faults that explain some, and spoil none.
 //
-// Nearly all of the time goes into drawing, so few pictures are drawn of a set that leads nowhere: the added fault must
-// gain in the first of the scenes that it changes (is_idle). The search ends at its limit of pictures; they are counted
-// whether they come from the cache or not, so that the result does not depend on it.
+// Nearly all of the time goes into drawing, so few pictures are drawn of hopeless sets: the added fault must gain in
+// the first of the scenes that it changes (is_idle). The search ends at its limit of pictures; they are counted whether
+// they come from the cache or not, so that the result does not depend on it.
 #include "fault_candidate.h"
 
 #include <stdlib.h>
@@ -13,7 +14,8 @@
 
 #include "fail.h"
 
-// As mean differences: what rounding leaves of an exact explanation in one scene; and the difference between the same pictures.
+// As mean differences: the rounding error of an exact explanation in one scene; and the difference between the same
+// pictures.
 static const double max_exact_scene = 1e-4, same_mean = 1e-5;
 // The least change of a scene's mean difference, by one fault alone, that counts as a change of the scene.
 static const double min_change = 1e-6;
@@ -35,7 +37,7 @@ static bool measure_without(struct state *t, lam_error *error)
     return ok;
 }
 
-// Orders the scenes for sets with a fault: those that it changes most first.
+// Orders the scenes for sets with a fault: the ones that it changes most first.
 static void order_by_change(const struct state *t, struct outcome *o)
 {
     memcpy(o->order, t->m.order, sizeof o->order);
@@ -170,7 +172,7 @@ static bool find_also(struct state *t, const struct candidate *best, int i, stru
     return true;
 }
 
-// Stores a candidate as the result, that which explains most first.
+// Stores a candidate as the result; the fault that explains most comes first.
 static bool store(struct state *t, struct candidate *c, lam_error *error)
 {
     struct fault_search *s = t->s;

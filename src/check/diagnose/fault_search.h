@@ -8,7 +8,7 @@
 
 enum { MAX_FOUND_FAULTS = 4, MAX_SCENES = 32, MAX_ALSO = 3 };
 
-// A fault of the table, with what the search found out about it.
+// A fault of the table, with the result of the search.
 struct found_fault {
     const struct fault *row;
     float exponent;                     // fitted: the factor of the exponent, or the constant; 0: nothing is fitted
@@ -33,7 +33,7 @@ struct fault_search {
     bool has_unset_names;
     uint64_t max_pictures; // that it may draw, until it looks for no further sets
     double before;         // mean difference without faults, over the scenes that are not spoilt
-    // Results: the faults, that which explains most first, and whether they explain everything.
+    // Results: the faults, the one that explains most first, and whether they explain everything.
     struct found_fault found[MAX_FOUND_FAULTS];
     int count;
     bool certain;
@@ -46,10 +46,10 @@ struct fault_search {
     const struct fault **scene_faults;
 };
 
-// Searches for the fewest faults that explain every picture, and if there are none, for those that explain some of them.
-// A name is found only if pictures support it: the fault alone explains at least one scene, and spoils none that passes;
-// or it is needed in a set that explains everything exactly. The caller allocates `scene_faults`. A shader that has only
-// a style is found `certain`, with a count of 0.
+// Searches for the fewest faults that explain every picture, and if there are none, for faults that explain some of
+// them. A name is found only if pictures support it: the fault alone explains at least one scene, and spoils none that
+// passes; or it is needed in a set that explains everything exactly. The caller allocates `scene_faults`. A shader that
+// has only a style is found `certain`, with a count of 0.
 bool fault_search_run(struct fault_search *search, lam_error *error);
 
 // Draws a scene as a shader of search->styles does. `pixels`: size² × 4 floats.

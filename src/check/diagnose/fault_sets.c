@@ -25,8 +25,8 @@ static int count_bits(uint32_t bits)
 
 // --- several faults
 
-// Takes away what is not needed, and checks what is left: each name is supported by a scene that it explains alone, or
-// the explanation is exact.
+// Removes unnecessary faults, and checks the rest: each name is supported by a scene that it explains alone, or the
+// explanation is exact.
 static bool reduce(struct state *t, struct candidate *c, lam_error *error)
 {
     for (int i = 0; i < c->count && c->count > 1;) {

@@ -13,8 +13,8 @@
 
 enum switch_group { GROUP_VECTORS, GROUP_OUTPUT, GROUP_TERMS, GROUP_COUNT };
 
-// What a program is compiled for: constants of its text, so that it computes nothing that a picture does not need. A
-// software driver computes both sides of every branch.
+// The variant of a program: constants in its text, so that it computes only what a picture needs. A software driver
+// computes both sides of every branch.
 struct specialization {
     bool in_vertex, physical, phong, products, ambient_by_light, flat, two_sided;
     int masking, diffuse_share, tone, encoding;
@@ -59,7 +59,7 @@ static enum switch_group group_of(int bit)
     return bit <= BIT_MEAN_DISTANCE ? GROUP_VECTORS : bit <= BIT_USE_ACES ? GROUP_OUTPUT : GROUP_TERMS;
 }
 
-// Whether a switch can be on in a program: that of a shader with an exponent, or with metalness and roughness.
+// Whether a switch can be on in a program: for a shader with an exponent, or with metalness and roughness.
 static bool is_possible(const struct specialization *made_for, int bit)
 {
     if (!made_for->groups[group_of(bit)])

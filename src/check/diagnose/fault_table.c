@@ -1,7 +1,7 @@
 // fault_table.c: the table of known mistakes, their explanations and corrections.
 //
 // Most occur in lectures and tutorials (docs/mistakes.md shows them). Of two with the same picture the more common one
-// comes first. Rows of one id are forms of one mistake and stand together.
+// comes first. Rows of one id are forms of one mistake and are adjacent.
 //
 // Longer than 600 lines: one table.
 #include "fault.h"
@@ -105,7 +105,7 @@ const struct fault faults[] = {
         "the point itself is used as the normal: the vector from the origin to the point",
         "N = normalize({normal_matrix} * {normal}); // not {position}"),
     ROW("normal-flat", BITS(NORMAL_FLAT), WHERE_FRAGMENT | WHERE_FLAT, 0,
-        "the normal is declared flat: each triangle has that of its last vertex, and its edges are seen",
+        "the normal is declared flat: each triangle uses its last vertex's, and its edges are visible",
         "N; // in both shaders without the word flat"),
     // --- spaces
     ROW("eye-backwards", BITS(EYE_BACKWARDS), WHERE_BLINN, 0, "v points from the eye to the surface",
@@ -262,7 +262,7 @@ const struct fault faults[] = {
         "color = ambient + attenuation * (diffuse + specular); // once"),
     // --- terms
     ROW("no-gate", BITS(NO_GATE), WHERE_CLASSIC, 0,
-        "the highlight is kept where the surface faces away from the light (n.l <= 0)",
+        "the highlight remains on surfaces that face away from the light (n.l <= 0)",
         "float s = dot(N, L) > 0.0 ? {S} : 0.0;", .demand = DEMAND_GATE),
     ROW("no-clamp", BITS(NO_CLAMP), 0, 0, "n.l is not clamped at 0: the diffuse term subtracts light",
         "float d = max(dot(N, L), 0.0);"),
@@ -366,9 +366,9 @@ const struct fault faults[] = {
     ROW("last-light-only", BITS(LAST_LIGHT_ONLY), 0, NEED_LIGHTS,
         "only the last light counts: each one overwrites the one before",
         "color += ...; // in the loop: add, do not assign"),
-    ROW("one-light-too-few", BITS(LAST_LIGHT_MISSING), 0, NEED_LIGHTS, "the last light is left out",
+    ROW("one-light-too-few", BITS(LAST_LIGHT_MISSING), 0, NEED_LIGHTS, "the last light is missing",
         "for (int i = 0; i < {count}; i++) // not i < {count} - 1"),
-    ROW("first-light-missing", BITS(FIRST_LIGHT_MISSING), 0, NEED_LIGHTS, "the first light is left out",
+    ROW("first-light-missing", BITS(FIRST_LIGHT_MISSING), 0, NEED_LIGHTS, "the first light is missing",
         "for (int i = 0; i < {count}; i++) // from 0"),
     ROW("lights-multiplied", BITS(LIGHTS_MULTIPLIED), WHERE_CLASSIC, NEED_LIGHTS,
         "the lights are multiplied with one another; light adds up",
@@ -378,8 +378,8 @@ const struct fault faults[] = {
         "alpha is the roughness, not its square, in the distribution of the normals and in the masking",
         "float alpha = {roughness} * {roughness};"),
     ROW("alpha-is-roughness-in-d", BITS(ALPHA_IS_ROUGHNESS_D), WHERE_PHYSICAL, 0,
-        "alpha is the roughness, not its square, in the distribution of the normals, or stands there where its own "
-        "square belongs: either way the fourth power of the roughness is its second",
+        "alpha is the roughness, not its square, in the distribution of the normals, or its square is missing there: "
+        "either way the fourth power of the roughness becomes its second",
         "float a = {roughness} * {roughness}, a2 = a * a, f = dot(N, H) * dot(N, H) * (a2 - 1.0) + 1.0; float D = "
         "a2 / (PI * f * f);"),
     ROW("alpha-is-roughness-in-v", BITS(ALPHA_IS_ROUGHNESS_V), WHERE_PHYSICAL | WHERE_SMITH, 0,
@@ -399,7 +399,7 @@ const struct fault faults[] = {
         "/ 8",
         "float k = ({roughness} + 1.0) * ({roughness} + 1.0) / 8.0;"),
     ROW("k-of-alpha", BITS(K_OF_ALPHA), WHERE_PHYSICAL, 0,
-        "k of the masking is (alpha + 1)^2 / 8; it is made of the roughness as it stands, not of its square",
+        "k of the masking is (alpha + 1)^2 / 8; it must use the roughness, not its square",
         "float k = ({roughness} + 1.0) * ({roughness} + 1.0) / 8.0;"),
     ROW("no-masking", BITS(NO_MASKING), WHERE_PHYSICAL, 0, "the masking is missing: G is 1",
         "float specular = D * G * F / (4.0 * n_dot_l * n_dot_v); // G of l and of v"),
@@ -442,13 +442,13 @@ const struct fault faults[] = {
     ROW("metal-keeps-diffuse", BITS(METAL_KEEPS_DIFFUSE), WHERE_PHYSICAL, 0,
         "the diffuse part is not multiplied by 1 - metallic: metals have none", "kD *= 1.0 - {metallic};"),
     ROW("diffuse-not-reduced", BITS(SHARE_WHOLE), WHERE_PHYSICAL | WHERE_SHARED, 0,
-        "the diffuse part is not multiplied by 1 - F: light that is mirrored is scattered too",
+        "the diffuse part is not multiplied by 1 - F: reflected light is scattered too",
         "vec3 kD = (vec3(1.0) - F) * (1.0 - {metallic});"),
     ROW("metallic-roughness-swapped", BITS(METAL_ROUGH_SWAPPED), WHERE_PHYSICAL, 0,
         "metalness and roughness are swapped",
         "float roughness = {roughness}, metallic = {metallic}; // in a texture: green and blue"),
     ROW("roughness-inverted", BITS(ROUGHNESS_INVERTED), WHERE_PHYSICAL, 0,
-        "1 - roughness is used as the roughness, as where a file has glossiness",
+        "1 - roughness is used as the roughness, as in a file with glossiness",
         "float alpha = {roughness} * {roughness};"),
     ROW("albedo-decoded", BITS(ALBEDO_DECODED), WHERE_PHYSICAL, 0,
         "the base colour is decoded, pow(x, 2.2), although it is linear; only pictures of it are encoded",
@@ -462,7 +462,7 @@ const struct fault faults[] = {
         "the specular part is not multiplied by n.l",
         "Lo += (kD * {base} / PI + specular) * radiance * max(dot(N, L), 0.0);"),
     ROW("not-encoded", BITS(NOT_ENCODED), WHERE_PHYSICAL | WHERE_ENCODED, 0,
-        "the colour is written as it is: it is linear, and nothing encodes it; leave it so only where the framebuffer "
+        "the colour is written unchanged: it is linear, and nothing encodes it; leave it so only if the framebuffer "
         "encodes (GL_FRAMEBUFFER_SRGB)",
         "color = pow(color, vec3(1.0 / 2.2)); // last"),
     ROW("encoded-twice", BITS(ENCODED), WHERE_PHYSICAL | WHERE_ENCODED, 0, "the colour is gamma-encoded twice",
@@ -472,19 +472,18 @@ const struct fault faults[] = {
         "color = color / (color + vec3(1.0)); color = pow(color, vec3(1.0 / 2.2));"),
     // --- maps
     ROW("base-map-not-decoded", BITS(BASE_NOT_DECODED), WHERE_PHYSICAL, 0,
-        "the colour of the base colour map is used as it is, but it is encoded; leave it so only where the texture has "
-        "an "
-        "sRGB format (GL_SRGB8)",
+        "the colour of the base colour map is used unchanged, but it is encoded; leave it so only if the texture has "
+        "an sRGB format (GL_SRGB8)",
         "vec3 albedo = pow(texture({base_map}, {uv}).rgb, vec3(2.2));", .maps = MAPS_BASE | MAPS_ENCODED),
     ROW("base-map-decoded-twice", BITS(BASE_DECODED_TWICE), WHERE_PHYSICAL, 0,
         "the colour of the base colour map is decoded, pow(x, 2.2), twice",
         "vec3 albedo = pow(texture({base_map}, {uv}).rgb, vec3(2.2)); // once", .maps = MAPS_BASE | MAPS_ENCODED),
     ROW("base-map-decoded-twice", BITS(BASE_DECODED_TWICE), WHERE_PHYSICAL, 0,
         "the colour of the base colour map is decoded, pow(x, 2.2), although its texture has an sRGB format and the "
-        "sampler has decoded it; leave it so only where the texture has a plain format",
+        "sampler has decoded it; leave it so only if the texture has a plain format",
         "vec3 albedo = texture({base_map}, {uv}).rgb;", .maps = MAPS_BASE | MAPS_LINEAR),
     ROW("base-factor-left-out", BITS(BASE_MAP_ALONE), WHERE_PHYSICAL, 0,
-        "the base colour is that of the map alone; it is the product of map and factor",
+        "the base colour is only the map's; it must be the product of map and factor",
         "vec3 albedo = {base} * texture({base_map}, {uv}).rgb;", .maps = MAPS_BASE | MAPS_BASE_FACTOR),
     ROW("base-map-left-out", BITS(BASE_FACTOR_ALONE), WHERE_PHYSICAL, 0, "the base colour map is read but not used",
         "vec3 albedo = texture({base_map}, {uv}).rgb;", .maps = MAPS_BASE),
@@ -516,10 +515,10 @@ const struct fault faults[] = {
         "{uv}).b;",
         .maps = MAPS_METALLIC_ROUGHNESS),
     ROW("data-map-decoded", BITS(DATA_DECODED), WHERE_PHYSICAL, 0,
-        "metalness and roughness are decoded, pow(x, 2.2), as if their map held colours; it holds plain numbers",
+        "metalness and roughness are decoded, pow(x, 2.2), like colours; their map contains plain numbers",
         "float roughness = texture({roughness_map}, {uv}).g; // as it is", .maps = MAPS_DATA),
     ROW("metallic-roughness-factors-left-out", BITS(DATA_MAP_ALONE), WHERE_PHYSICAL, 0,
-        "metalness and roughness are those of the map alone; they are the products of map and factors",
+        "metalness and roughness are only the map's; they must be the products of map and factors",
         "float roughness = {roughness} * texture({roughness_map}, {uv}).g, metallic = {metallic} * "
         "texture({metallic_map}, {uv}).b;",
         .maps = MAPS_METALLIC_ROUGHNESS | MAPS_DATA_FACTOR),
@@ -527,41 +526,41 @@ const struct fault faults[] = {
         "the normal map has no effect: the light is computed with the normal of the mesh",
         "vec3 n = normalize(TBN * (texture({normal_map}, {uv}).xyz * 2.0 - 1.0));", .maps = MAPS_NORMAL),
     ROW("normal-map-not-unpacked", BITS(NORMAL_MAP_RAW), 0, NEED_NORMAL_MAP,
-        "the texel of the normal map is used as it is; its 0...1 stands for -1...1",
+        "the texel of the normal map is used unchanged; its 0...1 means -1...1",
         "vec3 bump = texture({normal_map}, {uv}).xyz * 2.0 - 1.0;", .maps = MAPS_NORMAL),
     ROW("normal-map-not-unpacked", BITS(NORMAL_MAP_RAW, FRAME_INTERPOLATED), 0, NEED_NORMAL_MAP,
-        "the texel of the normal map is used as it is; its 0...1 stands for -1...1",
+        "the texel of the normal map is used unchanged; its 0...1 means -1...1",
         "vec3 bump = texture({normal_map}, {uv}).xyz * 2.0 - 1.0;", .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("normal-map-not-unpacked", BITS(NORMAL_MAP_RAW, FRAME_DERIVED), 0, NEED_NORMAL_MAP,
-        "the texel of the normal map is used as it is; its 0...1 stands for -1...1",
+        "the texel of the normal map is used unchanged; its 0...1 means -1...1",
         "vec3 bump = texture({normal_map}, {uv}).xyz * 2.0 - 1.0;", .maps = MAPS_NORMAL | MAPS_DERIVATIVES),
     ROW("normal-map-not-unpacked", BITS(NORMAL_MAP_RAW, FRAME_DERIVED_SIGNED), 0, NEED_NORMAL_MAP,
-        "the texel of the normal map is used as it is; its 0...1 stands for -1...1",
+        "the texel of the normal map is used unchanged; its 0...1 means -1...1",
         "vec3 bump = texture({normal_map}, {uv}).xyz * 2.0 - 1.0;", .maps = MAPS_NORMAL | MAPS_DERIVATIVES),
     ROW("normal-map-not-unpacked", BITS(NORMAL_MAP_RAW, FRAME_COTANGENT), 0, NEED_NORMAL_MAP,
-        "the texel of the normal map is used as it is; its 0...1 stands for -1...1",
+        "the texel of the normal map is used unchanged; its 0...1 means -1...1",
         "vec3 bump = texture({normal_map}, {uv}).xyz * 2.0 - 1.0;", .maps = MAPS_NORMAL | MAPS_DERIVATIVES),
     ROW("normal-map-decoded", BITS(NORMAL_MAP_DECODED), 0, NEED_NORMAL_MAP,
-        "the normal map is decoded from sRGB, pow(x, 2.2), as if it held colours; it holds plain numbers",
+        "the normal map is decoded from sRGB, pow(x, 2.2), like colours; it contains plain numbers",
         "vec3 bump = texture({normal_map}, {uv}).xyz * 2.0 - 1.0; // no pow, and no sRGB format", .maps = MAPS_NORMAL),
     ROW("normal-map-decoded", BITS(NORMAL_MAP_DECODED, FRAME_INTERPOLATED), 0, NEED_NORMAL_MAP,
-        "the normal map is decoded from sRGB, pow(x, 2.2), as if it held colours; it holds plain numbers",
+        "the normal map is decoded from sRGB, pow(x, 2.2), like colours; it contains plain numbers",
         "vec3 bump = texture({normal_map}, {uv}).xyz * 2.0 - 1.0; // no pow, and no sRGB format",
         .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("normal-map-decoded", BITS(NORMAL_MAP_DECODED, FRAME_DERIVED), 0, NEED_NORMAL_MAP,
-        "the normal map is decoded from sRGB, pow(x, 2.2), as if it held colours; it holds plain numbers",
+        "the normal map is decoded from sRGB, pow(x, 2.2), like colours; it contains plain numbers",
         "vec3 bump = texture({normal_map}, {uv}).xyz * 2.0 - 1.0; // no pow, and no sRGB format",
         .maps = MAPS_NORMAL | MAPS_DERIVATIVES),
     ROW("normal-map-decoded", BITS(NORMAL_MAP_DECODED, FRAME_DERIVED_SIGNED), 0, NEED_NORMAL_MAP,
-        "the normal map is decoded from sRGB, pow(x, 2.2), as if it held colours; it holds plain numbers",
+        "the normal map is decoded from sRGB, pow(x, 2.2), like colours; it contains plain numbers",
         "vec3 bump = texture({normal_map}, {uv}).xyz * 2.0 - 1.0; // no pow, and no sRGB format",
         .maps = MAPS_NORMAL | MAPS_DERIVATIVES),
     ROW("normal-map-decoded", BITS(NORMAL_MAP_DECODED, FRAME_COTANGENT), 0, NEED_NORMAL_MAP,
-        "the normal map is decoded from sRGB, pow(x, 2.2), as if it held colours; it holds plain numbers",
+        "the normal map is decoded from sRGB, pow(x, 2.2), like colours; it contains plain numbers",
         "vec3 bump = texture({normal_map}, {uv}).xyz * 2.0 - 1.0; // no pow, and no sRGB format",
         .maps = MAPS_NORMAL | MAPS_DERIVATIVES),
     ROW("normal-map-without-frame", BITS(NORMAL_MAP_AS_WORLD), 0, NEED_NORMAL_MAP,
-        "what the normal map holds is used as a normal in the space of the lights; it is given along the surface's "
+        "the texel of the normal map is used as a normal in the space of the lights; it is given along the surface's "
         "tangent, bitangent and normal",
         "vec3 n = normalize(mat3(T, B, N) * (texture({normal_map}, {uv}).xyz * 2.0 - 1.0));", .maps = MAPS_NORMAL),
     ROW("frame-transposed", BITS(FRAME_TRANSPOSED), 0, NEED_NORMAL_MAP,
@@ -590,8 +589,8 @@ const struct fault faults[] = {
         "vec3 T = normalize(mat3({model_view}) * {tangent}.xyz); // and bump.x as it is",
         .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("tangent-reversed", BITS(FRAME_DERIVED), 0, NEED_NORMAL_MAP,
-        "the tangent points the wrong way, so that red of the normal map is reversed: here v runs downward in the "
-        "picture, and the expression of derivatives has to be divided by the determinant of those of the texture "
+        "the tangent points the wrong way, so that red of the normal map is reversed: v runs downward in the picture, "
+        "and the expression of derivatives must be divided by the determinant of the derivatives of the texture "
         "coordinates",
         "vec3 T = normalize((dFdx(p) * dFdy({uv}).y - dFdy(p) * dFdx({uv}).y) / (dFdx({uv}).x * dFdy({uv}).y - "
         "dFdy({uv}).x * "
@@ -605,7 +604,7 @@ const struct fault faults[] = {
         "tangent and bitangent are swapped: red of the normal map goes along v, green along u",
         "mat3 TBN = mat3(T, B, N);", .maps = MAPS_NORMAL),
     ROW("bitangent-sign-lost", BITS(SIGN_LOST), 0, NEED_NORMAL_MAP | NEED_TANGENT_SIGN,
-        "the sign of the bitangent, w of the tangent, is not used: where the texture is mirrored, green is reversed",
+        "the sign of the bitangent, w of the tangent, is not used: if the texture is mirrored, green is reversed",
         "vec3 B = cross(N, T) * {tangent}.w;", .maps = MAPS_NORMAL | MAPS_TANGENTS | MAPS_SIGN),
     ROW("tangent-not-unit", BITS(TANGENT_LONG), 0, NEED_NORMAL_MAP,
         "the tangent is not normalized after the matrix has stretched it",
@@ -641,15 +640,14 @@ const struct fault faults[] = {
     ROW("no-emission", BITS(NO_EMISSION), WHERE_PHYSICAL, NEED_EMISSION_MAP, "the light of the emission map is missing",
         "color += {emission} * texture({emission_map}, {uv}).rgb;", .maps = MAPS_EMISSION),
     ROW("emission-map-not-decoded", BITS(EMISSION_NOT_DECODED), WHERE_PHYSICAL, NEED_EMISSION_MAP,
-        "the colour of the emission map is used as it is, but it is encoded; leave it so only where the texture has an "
-        "sRGB "
-        "format (GL_SRGB8)",
+        "the colour of the emission map is used unchanged, but it is encoded; leave it so only if the texture has an "
+        "sRGB format (GL_SRGB8)",
         "color += pow(texture({emission_map}, {uv}).rgb, vec3(2.2));", .maps = MAPS_EMISSION | MAPS_ENCODED),
     ROW("emission-map-decoded-twice", BITS(EMISSION_DECODED_TWICE), WHERE_PHYSICAL, NEED_EMISSION_MAP,
         "the colour of the emission map is decoded, pow(x, 2.2), more often than it is encoded",
         "color += texture({emission_map}, {uv}).rgb;", .maps = MAPS_EMISSION),
     ROW("emission-factor-left-out", BITS(EMISSION_MAP_ALONE), WHERE_PHYSICAL, NEED_EMISSION_MAP,
-        "the emission is that of the map alone; it is the product of map and factor",
+        "the emission is only the map's; it must be the product of map and factor",
         "color += {emission} * texture({emission_map}, {uv}).rgb;", .maps = MAPS_EMISSION | MAPS_EMISSION_FACTOR),
     // --- spots, sides, output
     ROW("no-cone", BITS(NO_CONE), 0, NEED_SPOT, "the spot's cone is missing",
@@ -672,10 +670,10 @@ const struct fault faults[] = {
         "the angle to the spot's axis, acos(c), is compared with the cosine of the cutoff",
         "float spot = c >= cutoff ? pow(max(c, 0.0), exponent) : 0.0; // c and the cutoff are cosines"),
     ROW("cone-inside-out", BITS(CONE_INSIDE_OUT), 0, NEED_SPOT,
-        "the comparison with the cutoff is reversed: the spot lights what is outside of its cone",
+        "the comparison with the cutoff is reversed: the spot lights surfaces outside its cone",
         "float spot = c >= cutoff ? pow(max(c, 0.0), exponent) : 0.0;"),
     ROW("cone-inside-out", BITS(CONE_INSIDE_OUT, EVERY_LIGHT_A_SPOT), 0, NEED_SPOT,
-        "the comparison with the cutoff is reversed: the spot lights what is outside of its cone",
+        "the comparison with the cutoff is reversed: the spot lights surfaces outside its cone",
         "float spot = c >= cutoff ? pow(max(c, 0.0), exponent) : 0.0;"),
     ROW("cone-reversed", BITS(CONE_REVERSED), 0, NEED_SPOT,
         "the spot points backwards: c is computed from l, which points to the light, instead of -l",
@@ -729,18 +727,18 @@ const struct fault faults[] = {
         "whole triangles, which is the same but for pixels at the rim",
         NULL, .style = true),
     ROW("back-faces-flipped", BITS(FLIP), 0, 0,
-        "the normal is turned where gl_FrontFacing is false; this contract has no two-sided surfaces, but a few back "
-        "faces can be seen at rims",
+        "the normal is reversed if gl_FrontFacing is false; this contract has no two-sided surfaces, but a few back "
+        "faces can be visible at rims",
         NULL, .style = true),
     ROW("light-without-pi", BITS(LIGHT_WITHOUT_PI), WHERE_PHYSICAL, 0,
-        "the light's colours count as what a white surface that faces the light shows, as lambent's own lights do: "
+        "the light's colours mean the brightness of a white surface that faces the light, as in lambent's own lights: "
         "neither the base colour nor D is divided by pi, or both are multiplied by it; the contract's lights are "
         "radiance, so every picture is pi times as bright. Both are right: it is the number given to the light that "
         "differs",
         NULL, .style = true),
     ROW("smith-masking", BITS(USE_HEIGHT), WHERE_PHYSICAL | WHERE_SCHLICK, 0,
-        "the masking is Smith's for GGX, with the heights correlated, where the course takes Schlick's approximation "
-        "of it; both are right",
+        "the masking is Smith's for GGX, with correlated heights, but the course uses Schlick's approximation of it; "
+        "both are right",
         NULL, .style = true),
     ROW("separable-masking", BITS(USE_SEPARABLE), WHERE_PHYSICAL, 0,
         "the masking is Smith's for GGX as a product of a factor for l and one for v; that and the form with "
@@ -754,8 +752,8 @@ const struct fault faults[] = {
         "the masking is Schlick's approximation with k = alpha / 2, where Smith's for GGX is expected; both are in use",
         NULL, .style = true),
     ROW("diffuse-of-dielectric", BITS(SHARE_OF_DIELECTRIC), WHERE_PHYSICAL | WHERE_OF_MIX, 0,
-        "the diffuse part is reduced by the dielectric's Fresnel factor, as in glTF's appendix B, where the course "
-        "takes that of the mixed F0; they differ between dielectrics and metals",
+        "the diffuse part is reduced by the dielectric's Fresnel factor, as in glTF's appendix B, but the course uses "
+        "the factor of the mixed F0; they differ between dielectrics and metals",
         NULL, .style = true),
     ROW("diffuse-of-mix", BITS(SHARE_OF_MIX), WHERE_PHYSICAL | WHERE_NOT_OF_MIX, 0,
         "the diffuse part is reduced by the Fresnel factor of the mixed F0, kD = (1 - F)(1 - metallic); it differs "
@@ -766,19 +764,19 @@ const struct fault faults[] = {
         "use",
         NULL, .style = true),
     ROW("maps-of-srgb", BITS(MAPS_OF_SRGB), WHERE_PHYSICAL, 0,
-        "the maps of colours are decoded by the exact curve of sRGB, where the course has pow(x, 2.2)", NULL,
+        "the maps of colours are decoded by the exact curve of sRGB, but the course uses pow(x, 2.2)", NULL,
         .style = true, .maps = MAPS_BASE | MAPS_ENCODED),
     ROW("frame-from-derivatives", BITS(FRAME_DERIVED), 0, 0,
-        "tangent and bitangent are computed from derivatives, as LearnOpenGL does it, with green of the normal map "
-        "pointing against v; that is right where the texture is not mirrored",
+        "tangent and bitangent are computed from derivatives, as in LearnOpenGL, with green of the normal map pointing "
+        "against v; that is right if the texture is not mirrored",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_DERIVATIVES | MAPS_UP),
     ROW("frame-from-derivatives", BITS(FRAME_DERIVED, BITANGENT_REVERSED), 0, 0,
         "tangent and bitangent are computed from derivatives, with green of the normal map pointing along v; that is "
-        "right where the texture is not mirrored",
+        "right if the texture is not mirrored",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_DERIVATIVES | MAPS_UP),
     ROW("frame-from-derivatives", BITS(FRAME_DERIVED_SIGNED), 0, 0,
-        "tangent and bitangent are computed from derivatives, as Khronos' sample viewer does it; that is right where "
-        "the texture is not mirrored",
+        "tangent and bitangent are computed from derivatives, as in Khronos' sample viewer; that is right if the "
+        "texture is not mirrored",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_DERIVATIVES),
     ROW("frame-from-derivatives", BITS(FRAME_COTANGENT), 0, 0,
         "tangent and bitangent are computed from derivatives, as three.js does it, with green of the normal map "
@@ -801,7 +799,7 @@ const struct fault faults[] = {
         "normals at rims are turned so far, and lambent has |n.v| there, as glTF's appendix B",
         NULL, .style = true),
     ROW("no-tone-curve", BITS(USE_NO_TONE), WHERE_PHYSICAL | WHERE_TONED, 0,
-        "there is no tone curve, where the course has Reinhard's: the light is clamped at 1", NULL, .style = true),
+        "there is no tone curve, but the course uses Reinhard's: the light is clamped at 1", NULL, .style = true),
     ROW("reinhard", BITS(USE_REINHARD), WHERE_PHYSICAL | WHERE_UNTONED, 0, "the tone curve is Reinhard's, x / (1 + x)",
         NULL, .style = true),
     ROW("exponential", BITS(USE_EXPONENTIAL), WHERE_PHYSICAL, 0, "the tone curve is 1 - exp(-x)", NULL, .style = true),

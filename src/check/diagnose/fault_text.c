@@ -78,7 +78,7 @@ static bool is_wide(const struct line *line, enum uniform_semantic semantic) // 
 
 static bool is_world(const struct line *line) { return line->interface->space == LAM_FRAME_WORLD; }
 
-// The matrix from the model's space to that of the lighting.
+// The matrix from the model's space to the space of the lighting.
 static const char *to_lighting(const struct line *line)
 {
     const char *name = own_name(line, is_world(line) ? SEMANTIC_MODEL : SEMANTIC_MODEL_VIEW);
@@ -166,7 +166,7 @@ static const char *term_name(const struct line *line, enum uniform_semantic sema
     return name && !declared && colored ? color : name;
 }
 
-// A map of metalness or roughness: that which has both, or a map of it alone.
+// A map of metalness or roughness: one map for both, or a separate one.
 static const char *data_map(const struct line *line, enum uniform_semantic alone)
 {
     const char *name =

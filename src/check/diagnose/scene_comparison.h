@@ -34,11 +34,11 @@ void scene_comparison_leave_out_turns(struct scene_comparison *scene, const floa
 // Applies the tone curve of a shader printed by `lambent shader`. AUTO: none.
 void scene_comparison_apply_tone(lam_tone tone, float *pixels, size_t count);
 
-// Copies the compared pixels of a picture to `out`: red, green, blue (clamped to 0…1), and alpha where it is compared.
+// Copies the compared pixels of a picture to `out`: red, green, blue (clamped to 0…1), and alpha if it is compared.
 size_t scene_comparison_sample_count(const struct scene_comparison *scene);
 void scene_comparison_sample(const struct scene_comparison *scene, const float *picture, float *out);
 
-// The difference between scene->samples and those of another picture.
+// The difference between scene->samples and another picture's.
 struct difference scene_comparison_difference(const struct scene_comparison *scene, const float *other,
                                               double tolerance);
 

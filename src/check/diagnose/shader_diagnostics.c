@@ -28,7 +28,7 @@ static int line_of(const char *text, const char **words)
     return 0;
 }
 
-// Mesa's errors about the operands of an expression. Where its line has an error before, they follow from that.
+// Mesa's errors about the operands of an expression. If its line has an error before, they follow from it.
 static bool is_about_operands(const char *words)
 {
     return strstr(words, "operands to arithmetic operators") || strstr(words, "type mismatch");
@@ -78,7 +78,7 @@ void diagnostics_add_refusal(struct diagnostics *diagnostics, const struct draw_
         compiler_hints_for_link(diagnostics, interface, params);
         return;
     }
-    // A generated vertex shader is refused only because of what the fragment shader declares.
+    // A generated vertex shader is refused only because of the fragment shader's declarations.
     if (drawn->refused_vertex && (params->vertex || !drawn->refused_fragment)) {
         add_log(diagnostics, drawn->log, &interface->vertex, params->vertex_name);
         compiler_hints_for_text(diagnostics, &interface->vertex, params->vertex_name, true);

@@ -1,4 +1,4 @@
-// visible_names.c: follows the braces of a shader and keeps what is declared in those that are open.
+// visible_names.c: follows the braces of a shader and keeps the declarations of open blocks.
 #include "visible_names.h"
 
 #include <ctype.h>
@@ -15,7 +15,7 @@ static bool is_identifier(const struct declarations *d, int i)
     return isalpha((unsigned char)first) || first == '_';
 }
 
-// Words that may stand before a name without being its type.
+// Words that may precede a name without being its type.
 static bool is_keyword(const struct declarations *d, int i)
 {
     static const char *const words[] = {"return",    "else",      "do",      "in",        "out",    "inout", "uniform",

@@ -7,7 +7,7 @@
 enum { MAX_VISIBLE_NAMES = 256 };
 
 struct visible_names {
-    // The innermost scopes' last. Where there are more than fit, the innermost are kept.
+    // The innermost scopes' last. If there are more than fit, the innermost are kept.
     const char *names[MAX_VISIBLE_NAMES];
     int depths[MAX_VISIBLE_NAMES]; // of braces; 0: global
     int count;

@@ -5,7 +5,7 @@
 #include "shader_interface.h"
 
 // Returns the text, from malloc: it writes every varying that the fragment shader reads, by name and type. Unknown
-// varyings are set to zero; those that it uses are listed in `unknown`, separated by ", ". NULL: see `error`.
+// varyings are set to zero; the used ones are listed in `unknown`, separated by ", ". NULL: see `error`.
 char *default_vertex_shader(const struct shader_interface *interface, char unknown[256], lam_error *error);
 
 #endif

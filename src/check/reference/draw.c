@@ -43,7 +43,7 @@ static void report_unknown(struct draw_result *drawn, const char *name)
         snprintf(drawn->unknown[drawn->unknown_count++], sizeof drawn->unknown[0], "%.63s", name);
 }
 
-// Whether a uniform's type can hold the contract's: matrices fit matrices, vectors vectors, scalars scalars. A colour may
+// Whether a uniform's type fits the contract's: matrices fit matrices, vectors vectors, scalars scalars. A colour may
 // come as a texture.
 static bool type_fits(lam_check_type type, const struct contract_name *name)
 {
@@ -185,7 +185,7 @@ static bool draw_scene(struct shader_run *run, const struct reference_scene *sce
 
 // Software drivers leave an endless loop after some ten thousand iterations and continue with the values so far. Such a
 // shader is recognised by its processor time, over all threads: a correct shader takes a hundredth of the limit. The
-// limit follows the machine's speed: it is a multiple of the time of a sum of dependent terms, measured in pieces so
+// limit follows the machine's speed: it is a multiple of the time of a sum of dependent terms, measured in intervals so
 // short that at least one of them runs without an interruption.
 static double seconds(clockid_t clock)
 {
@@ -194,7 +194,7 @@ static double seconds(clockid_t clock)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-#ifdef __wasi__ // has no processor time: whoever draws there stops what does not end
+#ifdef __wasi__ // has no processor time: the caller stops endless loops there
 static double time_limit_s(int size) { return size > 0 ? DBL_MAX : 0; }
 #else
 enum { PIECES = 16, TERMS = 1 << 16, TERMS_PER_PIXEL = 2000, MIN_PIXELS = 128 * 128 };
@@ -218,7 +218,7 @@ static double time_limit_s(int size)
 }
 #endif
 
-// Compiles and links the texts as the painter's compiler reads them. `program` stays empty where they are refused.
+// Compiles and links the texts as the painter's compiler reads them. `program` stays empty if they are refused.
 static bool compile(struct shader_run *run, const char *vertex, const char *fragment, lam_check_program *program,
                     lam_error *error)
 {
@@ -238,8 +238,8 @@ static bool compile(struct shader_run *run, const char *vertex, const char *frag
     return ok;
 }
 
-// Errors are recorded in run->drawn. They are those of the texts as they stand; then both are built with full precision,
-// which a correct shader may lack (shader_dialect.h).
+// Errors are recorded in run->drawn. They are the inputs of the unchanged texts; then both are built with full
+// precision, which a correct shader may lack (shader_dialect.h).
 static bool build(struct shader_run *run, lam_error *error)
 {
     const char *vertex = shader_dialect_skip_mark(run->request.vertex),

@@ -27,7 +27,7 @@ struct gl_place {
     GLuint streams[MAX_STREAMS]; // buffers of the picture that is drawn
 };
 
-// Where the values of an input go.
+// The targets of an input's values.
 struct gl_input {
     GLint location;                             // of the first element; -1: in a block
     GLint block, offset, stride, matrix_stride; // in the block, of the first element, in bytes
@@ -420,7 +420,7 @@ static void upload_mesh(struct gl_place *t, const lam_check_mesh *mesh)
     own->there = true;
 }
 
-// Binds a buffer to an attribute, or to the built-in one where it is negative.
+// Binds a buffer to an attribute, or to the built-in one if it is negative.
 static void point_at(const struct gl *gl, GLuint buffer, int place, int width, bool is_normal)
 {
     gl->BindBuffer(GL_ARRAY_BUFFER, buffer);

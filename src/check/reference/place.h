@@ -21,14 +21,14 @@ bool place_open(struct place *place, const lam_check_painter *painter, lam_check
                 lam_error *error);
 void place_close(struct place *place); // a zeroed one is fine
 
-// The inputs of a program that get what maps need; -1: none.
+// The inputs of a program for data of maps; -1: none.
 struct map_inputs {
     int texture_coordinates[MAX_TEXTURE_COORDINATES], tangent, bitangent; // tangent: of four floats
     int factors[MAX_FACTORS];                                             // colours that are the same at every vertex
 };
 extern const struct map_inputs no_map_inputs;
 
-// Draws `mesh`, whatever drawing->mesh is. The streams are those of `inputs`.
+// Draws `mesh`, whatever drawing->mesh is. The streams are the ones of `inputs`.
 bool place_draw(struct place *place, enum reference_mesh mesh, const lam_check_drawing *drawing,
                 const struct map_inputs *inputs, float *pixels, lam_error *error);
 
@@ -39,7 +39,7 @@ struct type_shape {
 };
 struct type_shape type_shape(lam_check_type type);
 
-// The input with a name, as the painter says it; -1: the program has none.
+// The input with a name, as the painter reports it; -1: the program has none.
 int place_input(const lam_check_program *program, const char *name, bool attribute);
 
 #endif

@@ -184,8 +184,8 @@ static int add_mesh(lam_scene *scene, enum reference_mesh mesh, lam_error *error
     return -1;
 }
 
-// Fills `points`, whose arrays have a place for every corner. `heads`: of each position, its first vertex and −1; `next`: of
-// each vertex, the next one of its position.
+// Fills `points`, whose arrays have an element for every corner. `heads`: of each position, its first vertex and −1;
+// `next`: of each vertex, the next one of its position.
 static void share_vertices(const lam_mesh *m, struct reference_points *points, int32_t *heads, int32_t *next)
 {
     for (uint32_t p = 0; p < m->vertex_count; p++)

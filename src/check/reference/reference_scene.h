@@ -85,7 +85,8 @@ struct reference_scene {
     bool dims_ambient;         // OpenGL 1: the lights' own ambient light is attenuated, and there is no other
     float roughness_angle_rad; // of shaders of rough matt surfaces (Oren–Nayar)
     bool flat;
-    // What a normal map says, beside tangent, bitangent and normal. 0: it is flat. Not quite unit, as filtered maps are not.
+    // The normal in a normal map, along tangent, bitangent and normal. 0: it is flat. Not quite unit, as filtered maps
+    // are not.
     lam_vec3 bump;
     lam_rgb emission; // of an emission map
     // Of shaders that read maps: which (map_bit), and of these those whose factor they have a name for. Factor times texel is
@@ -103,8 +104,8 @@ extern const int reference_scene_count;
 
 int reference_scene_find(const char *name); // −1: none
 
-// Positions, normals and tangents of vertices, three floats each, no two with all the same, and three indices of them for each
-// triangle: few enough for OpenGL ES 2, whose indices have 16 bits. From malloc.
+// Positions, normals and tangents of vertices, three floats each, no two vertices equal, and three indices of them for
+// each triangle: few enough for OpenGL ES 2, whose indices have 16 bits. From malloc.
 struct reference_points {
     float *positions, *normals, *tangents;
     // For maps: two floats, linear in the position, so that their derivatives vanish nowhere; and four: the tangent, and the

@@ -64,7 +64,7 @@ static const char *find_qualifier(const char *text, size_t *length)
     return NULL;
 }
 
-// The end of the text's first `precision … float;`, where another statement may stand. NULL: it has none.
+// The end of the text's first `precision … float;`, after which another statement may follow. NULL: it has none.
 static const char *after_precision(const char *text)
 {
     static const char word[] = "precision";

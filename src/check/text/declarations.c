@@ -94,7 +94,7 @@ static bool add_declaration(struct declarations *d, const struct declaration *it
     return true;
 }
 
-// Adds a declared name; where its type is a struct of the source, each of its members.
+// Adds a declared name; if its type is a struct of the source, each of its members.
 static bool add_expanded(struct reader *r, const struct declaration *item)
 {
     for (int s = 0; s < r->struct_type_count; s++)
@@ -228,7 +228,7 @@ static bool read_statement(struct reader *r)
     return true;
 }
 
-// The slot of a word: its own, or the empty one where it belongs.
+// The slot of a word: its own, or the empty one for it.
 static int *slot_of(const struct declarations *d, const char *text)
 {
     uint32_t hash = 2166136261u; // FNV-1a

@@ -1,7 +1,7 @@
 // declarations.h: the declarations of a GLSL source: uniforms, attributes, varyings.
 //
 // They are parsed from the text, not queried from the compiled program: names and lines are needed of shaders that do
-// not compile, and of uniforms that a compiler optimises away. The words are those that the preprocessor leaves.
+// not compile, and of uniforms that a compiler optimises away. The words come from the preprocessor.
 #ifndef DECLARATIONS_H
 #define DECLARATIONS_H
 

@@ -1,4 +1,4 @@
-// expectation.h: what a pair of shaders is expected to compute: the terms that the exercise asks for, and the value of
+// expectation.h: the result expected from a pair of shaders: the terms that the exercise demands, and the value of
 // colours that the shaders do not declare.
 //
 // A term of whose names none is declared is not asked for. A colour that is not declared is white. Where the
@@ -25,18 +25,18 @@ enum expectation {
 
 enum { MAX_EXPECTATIONS = 16 };
 
-// Stores the possible expectations, bits of enum expectation, those with most terms first. `terms`: bits of
-// lam_check_term that are asked for; 0: those that the declarations tell. Returns their count, at least 1.
+// Stores the possible expectations, bits of enum expectation, those with most terms first. `terms`: demanded bits of
+// lam_check_term; 0: the terms that the declarations show. Returns their count, at least 1.
 int expectations_of(const struct shader_interface *interface, unsigned terms, unsigned out[MAX_EXPECTATIONS]);
 
-// Whether a fault of the table only does what the declarations leave open, so that it is none: some of the possible
-// expectations have what it changes, and others do not.
+// Whether a fault of the table only makes a choice that the declarations leave open, so that it is none: some of the
+// possible expectations include the change, and others do not.
 bool expectation_permits(const struct shader_interface *interface, unsigned terms, const char *fault);
 
 // Changes a scene from shader_interface_scene to the expected one.
 void expectation_apply(unsigned expectation, struct reference_scene *scene);
 
-// A sentence about what is not asked for or taken as white; "" where there is nothing to say.
+// A sentence about terms that are not expected or taken as white; "" if there is nothing to say.
 void expectation_describe(unsigned expectation, const struct shader_interface *interface, unsigned terms, char *out,
                           size_t capacity);
 

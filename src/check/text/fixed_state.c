@@ -27,7 +27,7 @@ static bool is_name(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-// The state whose name stands at `at`. −1: none.
+// The state whose name is at `at`. −1: none.
 static int state_at(const char *text, const char *at)
 {
     for (int i = 0; i < STATES; i++) {
@@ -48,7 +48,7 @@ static bool has_word(const char *text, const char *word)
     return false;
 }
 
-// Declares a state with the members that one of the texts uses, the same in both: what is not declared is not expected.
+// Declares a state with the members that one of the texts uses, the same in both: undeclared members are not expected.
 static void declare(int state, const char *text, const char *other, char out[MAX_DECLARATIONS])
 {
     size_t at = strlen(out);

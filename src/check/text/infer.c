@@ -62,7 +62,7 @@ static const char *last_part(const char *name)
     return dot ? dot + 1 : name;
 }
 
-// A name without what says nothing: u_, a leading u before a capital, Matrix, Mat.
+// A name without parts that mean nothing: u_, a leading u before a capital, Matrix, Mat.
 static void core_of(const char *name, char out[64])
 {
     size_t length = 0;
@@ -185,7 +185,7 @@ static bool find_matrix(struct inference *f, const struct declaration *item)
     else if (has(core, "model world object trans") || strcmp(core, "m") == 0)
         role = "model";
     if (!role)
-        return cannot(f, "the check does not know what the matrix '%s' (%s) is for", item->name, item->type);
+        return cannot(f, "the check does not know the role of the matrix '%s' (%s)", item->name, item->type);
     f->has_model = f->has_model || strcmp(role, "model") == 0;
     f->has_model_view = f->has_model_view || strcmp(role, "model_view") == 0;
     f->has_normal_matrix = f->has_normal_matrix || strcmp(role, "normal_matrix") == 0;
@@ -360,7 +360,7 @@ static bool find_role(struct inference *f, const struct declaration *item)
     }
     if (json_object_get(f->uniforms, item->name))
         return true;
-    if (!used || strcmp(item->type, "uint") == 0) { // a driver may know it all the same
+    if (!used || strcmp(item->type, "uint") == 0) { // a driver may know it nevertheless
         give(f->uniforms, item->name, "zero", strcmp(item->type, "uint") == 0 ? "int" : item->type, NULL);
         return true;
     }
@@ -449,7 +449,7 @@ static bool find_vector_of_light(const struct declarations *d, int number, const
     return false;
 }
 
-// A light whose place or direction is a number. `guess` counts them; which is left is that of the spaces.
+// A light whose place or direction is a number. `guess` counts them; the spaces' guess remains.
 static bool find_light_in_text(struct inference *f, int guess, int *left)
 {
     double v[3];
@@ -533,7 +533,7 @@ static bool infer(struct inference *f, int guess)
         const struct declaration *item = &f->fragment->items[i];
         if (item->kind == DECLARED_INPUT && declarations_uses(f->fragment, item->name) &&
             !declarations_find(f->vertex, DECLARED_OUTPUT, item->name))
-            return cannot(f, "the vertex shader does not write '%s' (%s): another stage stands between", item->name,
+            return cannot(f, "the vertex shader does not write '%s' (%s): another stage is between them", item->name,
                           item->type);
     }
     find_attributes(f);

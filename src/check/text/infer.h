@@ -6,9 +6,10 @@
 
 #include "contract.h"
 
-// The text of contract number `guess` (0, 1, …) for the shaders, from malloc; they differ in the spaces that the text leaves
-// open. NULL: no such guess; `reason` says what cannot be driven if it is the first, "" otherwise. `engine`: a contract whose
-// prefix the texts lack, or NULL. `all`: an input whose role is not found has the role `zero`, and `reason` says which is the first.
+// The text of contract number `guess` (0, 1, …) for the shaders, from malloc; they differ in the spaces that the text
+// leaves open. NULL: no such guess; if it is the first, `reason` names the input that cannot be set, "" otherwise.
+// `engine`: a contract whose prefix the texts lack, or NULL. `all`: an input whose role is not found has the role
+// `zero`, and `reason` says which is the first.
 char *contract_infer(const struct declarations *vertex, const struct declarations *fragment,
                      const struct contract *engine, int guess, bool all, char *reason, size_t capacity);
 

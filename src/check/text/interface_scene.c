@@ -1,5 +1,5 @@
-// interface_scene.c: a reference scene as a pair of shaders can express it. What they have no name for takes the value
-// that the contract gives to the undeclared; a term that the contract does not have is switched off.
+// interface_scene.c: a reference scene as a pair of shaders can express it. Undeclared inputs get the contract's value
+// for them; a term that the contract does not have is switched off.
 #include "maps.h"
 #include "shader_interface.h"
 
@@ -44,7 +44,7 @@ static lam_rgb *light_color(struct reference_light *light, enum light_term term)
 }
 
 // Gives a term the strength that is fixed where the shader has no name for it. A scene that switches the term off does
-// so by its strength: then the term's colour becomes black, else that of the lights. `color` NULL, `lit` false: the
+// so by its strength: then the term's colour becomes black, otherwise the lights'. `color` NULL, `lit` false: the
 // shader has no such colour of its own.
 static void fix_strength(struct reference_scene *s, const struct default_number *fixed, float *strength, lam_rgb *color,
                          bool lit, enum light_term term)
@@ -68,7 +68,7 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
     bool own_diffuse = diffuse || declares(r, SEMANTIC_COLOR);
     bool lit_specular = declares(r, SEMANTIC_LIGHT_SPECULAR);
     bool lit_ambient = declares(r, SEMANTIC_LIGHT_AMBIENT) || declares(r, SEMANTIC_AMBIENT_LIGHT);
-    // The highlight has the light's colour where the material has none.
+    // The highlight has the light's colour if the material has no colour for it.
     if (!own_specular && lit_specular && d->specular_color.source != COLOR_OF_SCENE)
         for (int i = 0; i < s->light_count; i++)
             s->lights[i].specular = times(s->lights[i].specular, s->specular);
@@ -81,11 +81,11 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
         s->ambient = color_of(&d->ambient_color, s->ambient, own_color, own_color);
     if (!own_specular)
         s->specular = color_of(&d->specular_color, s->specular, own_color, own_color);
-    // Black cannot stand for a missing strength where another term has the same colour.
+    // Black cannot replace a missing strength if another term has the same colour.
     bool shared = (!ambient && d->ambient_color.source == COLOR_OF_DIFFUSE) ||
                   (!own_specular && d->specular_color.source == COLOR_OF_DIFFUSE);
     bool lit_diffuse = declares(r, SEMANTIC_LIGHT_COLOR) && lit_specular;
-    // Where the light has an ambient colour, that says how strong it is.
+    // If the light has an ambient colour, it states its strength.
     struct default_number ambient_strength = d->ambient_strength;
     if (lit_ambient && !(r->constants >> SEMANTIC_KA & 1))
         ambient_strength.value = 1;
@@ -197,7 +197,7 @@ static void adapt_light(const struct shader_interface *r, int index, const struc
     set_axis(light, s->target);
 }
 
-// --- which light stands where
+// --- slots of the lights
 
 int shader_interface_light_count(const struct shader_interface *r)
 {
@@ -212,7 +212,7 @@ static unsigned kind_bit(lam_light_type type)
     return type == LAM_LIGHT_DIRECTIONAL ? NEED_DIRECTIONAL : type == LAM_LIGHT_SPOT ? NEED_SPOT : NEED_POINT;
 }
 
-// A group that can hold a light and has room for it. `taken`: the elements in use. −1: none.
+// A group that fits a light and has room for it. `taken`: the elements in use. −1: none.
 static int find_group(const struct shader_interface *r, lam_light_type type, const int taken[MAX_LIGHT_GROUPS])
 {
     for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
@@ -274,7 +274,7 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
         }
 }
 
-// What maps hold. The numbers of the scene stay as they are: factor and texel share them.
+// The contents of maps. The numbers of the scene stay as they are: factor and texel share them.
 static void adapt_maps(const struct shader_interface *r, struct reference_scene *s)
 {
     s->maps = r->vertex_lit ? r->maps & ~r->factors : r->maps; // of light from the vertices, maps beside a factor are 1
@@ -287,8 +287,8 @@ static void adapt_maps(const struct shader_interface *r, struct reference_scene 
         s->mesh += MESH_PATCH_DOWN - MESH_PATCH;
 }
 
-// Where the strengths and colours are the shader's own, each term has a channel: red ambient, green diffuse, blue specular.
-// The fit finds their factors.
+// If the strengths and colours are the shader's own, each term has a channel: red ambient, green diffuse, blue
+// specular. The fit finds their factors.
 static void separate_terms(struct reference_scene *s)
 {
     const lam_rgb white = {1, 1, 1}, black = {0, 0, 0};

@@ -1,5 +1,5 @@
-// lecture_style.h: what a shader printed by `lambent shader --style lecture` computes, read from its words. The lines that it reads are
-// those of ../../glsl/lecture.glsl, also with one of the known mistakes in them.
+// lecture_style.h: the lighting of a shader printed by `lambent shader --style lecture`, read from its words. It reads
+// the lines of ../../glsl/lecture.glsl, also with one of the known mistakes in them.
 #ifndef LECTURE_STYLE_H
 #define LECTURE_STYLE_H
 

@@ -7,8 +7,8 @@
 #include "fail.h"
 #include "fixed_state.h"
 
-// A copy in which a carriage return that stands alone, as old Macs end lines, is a line feed. NULL: there is none, or, with `ok`
-// false, no memory.
+// A copy in which a single carriage return, which ends lines on old Macs, is a line feed. NULL: there is none, or, with
+// `ok` false, no memory.
 static char *mend_lines(const char *text, bool *ok)
 {
     const char *lone = text ? strchr(text, '\r') : NULL;

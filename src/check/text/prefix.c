@@ -57,7 +57,7 @@ static char *join(const char *prefix, const char *text)
 {
     size_t size = strlen(prefix) + strlen(text) + 20;
     char *out = malloc(size);
-    if (strncmp(text, "\xef\xbb\xbf", 3) == 0) // a byte order mark may stand only at the beginning
+    if (strncmp(text, "\xef\xbb\xbf", 3) == 0) // a byte order mark is allowed only at the beginning
         text += 3;
     // The number of the next line, which in older versions of GLSL is the one after.
     bool modern = strncmp(prefix, "#version 3", 10) == 0;

@@ -7,8 +7,8 @@
 // The texts of a program as the contract's engine compiles them.
 struct complete_texts {
     const char *vertex, *fragment; // `vertex` NULL: none is given
-    char *owned[2];                // those that were written for it
-    int lines[2];                  // what stands before the texts: this many lines
+    char *owned[2];                // the author's
+    int lines[2];                  // the prefix of the texts: this many lines
 };
 
 // Whether a contract's engine completes texts with these declarations: they have no version line and declare none of the
@@ -20,14 +20,13 @@ bool prefix_applies(const struct contract *contract, const struct declarations *
 bool prefix_add(const struct contract *contract, const char *vertex, const char *fragment, struct complete_texts *out,
                 lam_error *error);
 
-// Completes the texts of a program for a contract: its prefix is added where it applies; otherwise they stay as
-// they are. `vertex` may be NULL. False: out of
-// memory. The caller frees `out`.
+// Completes the texts of a program for a contract: its prefix is added if it applies; otherwise they do not change.
+// `vertex` may be NULL. False: out of memory. The caller frees `out`.
 bool prefix_complete(const struct contract *contract, const char *vertex, const char *fragment,
                      struct complete_texts *out, lam_error *error);
 void prefix_free(struct complete_texts *texts);
 
-// Reads the declarations of such a text, with the lines of the text itself; what the prefix declares has line 0.
+// Reads the declarations of such a text, with the lines of the text itself; declarations of the prefix have line 0.
 bool prefix_read(const struct complete_texts *texts, bool vertex, struct declarations *out, lam_error *error);
 
 #endif

@@ -221,7 +221,7 @@ static void substitute(struct preprocessor *p, const struct macro *m, const stru
     }
 }
 
-// The name of a number, such as LIGHT_SPOT, stays where it is not the size of an array: it says more than the number.
+// The name of a number, such as LIGHT_SPOT, is kept unless it is the size of an array: it says more than the number.
 static bool is_named_number(const struct preprocessor *p, const struct macro *m)
 {
     const struct declarations *d = p->d;
@@ -353,7 +353,7 @@ static long primary(struct condition *c)
     return starts_name(text) ? value_of_name(c, text) : strtol(text, NULL, 0);
 }
 
-// Binary operators in ascending precedence; longer ones before those that they begin with.
+// Binary operators in ascending precedence; longer ones before their prefixes.
 static const struct {
     const char *text;
     int precedence;

@@ -4,9 +4,8 @@
 
 #include "declarations.h"
 
-// Stores the words of the text, and the version of its #version line, in `d`. Never fails for a wrong text: what cannot
-// be understood is left as it stands, and a text that expands to more than half a million words ends there. False: out of
-// memory.
+// Stores the words of the text, and the version of its #version line, in `d`. Never fails for a wrong text: unknown
+// parts do not change, and a text that expands to more than half a million words ends there. False: out of memory.
 bool preprocess(struct declarations *d, const char *text);
 
 #endif

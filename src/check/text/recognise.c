@@ -1,4 +1,4 @@
-// recognise.c: compares the names of a program with those of each contract.
+// recognise.c: compares the names of a program with each contract's.
 #include "recognise.h"
 
 #include <ctype.h>
@@ -76,7 +76,7 @@ bool contract_recognise(lam_check_contract *const *contracts, int count, const c
     return ok;
 }
 
-// --- what does not fit
+// --- names that do not fit
 
 static const struct declaration *find_uniform_or_attribute(const struct declarations *d, const char *name, bool vertex)
 {
@@ -108,7 +108,7 @@ static const struct declaration *find_either(const struct declarations *vertex, 
     return item ? item : find_uniform_or_attribute(fragment, name, false);
 }
 
-// The name of the contract that an unknown one probably stands for: of the same kind and a similar type, and not declared
+// The name of the contract that an unknown one probably means: of the same kind and a similar type, and not declared
 // under its own name. NULL: none.
 static const struct contract_name *meant_by(const struct contract *contract, const struct declarations *vertex,
                                             const struct declarations *fragment, const struct declaration *item)

@@ -1,4 +1,4 @@
-// recognise.h: finds the contract whose names a program uses, and says what does not fit it.
+// recognise.h: finds the contract whose names a program uses, and describes names that do not fit it.
 #ifndef RECOGNISE_H
 #define RECOGNISE_H
 

@@ -76,7 +76,7 @@ static bool read_exponent(const struct declarations *d, int at, double *out)
     return false;
 }
 
-// The exponent of a highlight among those of all pow(x, number): the largest. Squares and the like are something else.
+// The exponent of a highlight from all pow(x, number): the largest. Squares and the like are something else.
 static bool find_exponent(const struct declarations *d, double *out)
 {
     bool found = false;
@@ -164,7 +164,7 @@ void shader_constants_find(struct shader_interface *r)
 
 // --- numbers without a name
 
-// The colours and strengths that are found by trying: those of directions and exponents have names of their own.
+// The colours and strengths that are found by trying; directions and exponents have other names.
 static bool is_vector(enum uniform_semantic semantic)
 {
     return semantic == SEMANTIC_LIGHT_AMBIENT || semantic == SEMANTIC_LIGHT_COLOR ||

@@ -39,7 +39,7 @@ static void find_declared(struct shader_interface *r)
         }
 }
 
-// Maps stand for numbers of the material: what has a map is declared.
+// Maps replace numbers of the material: a number with a map is declared.
 static void find_maps(struct shader_interface *r)
 {
     static const struct {
@@ -176,9 +176,9 @@ static bool is_flat(const struct declarations *fragment)
     return false;
 }
 
-// What a shader printed by `lambent shader` computes, by the functions in it. Lambert's lobe does not count: the others call
-// it, and alone it is the contract's own model without a highlight. The last row wins, since a coat has GGX's lobe over that of
-// another base.
+// The lighting of a shader printed by `lambent shader`, by the functions in it. Lambert's lobe does not count: the
+// others call it, and alone it is the contract's own model without a highlight. The last row wins, since a coat has
+// GGX's lobe over another base.
 static void find_printed(struct shader_interface *r)
 {
     static const struct {
@@ -276,7 +276,7 @@ static unsigned kind_of(enum uniform_semantic semantic, const char *type)
     }
 }
 
-// How many elements of a list the texts read, where they do so by numbers alone; `count` otherwise.
+// The number of elements of a list that the texts read, if they use only numbers as indices; `count` otherwise.
 static int read_elements(const struct shader_interface *r, const char *name, int count)
 {
     const struct declarations *sides[] = {&r->vertex, &r->fragment};
@@ -341,7 +341,7 @@ static void find_lights(struct shader_interface *r)
             .count = 1, .kinds = r->contract->supports & (NEED_POINT | NEED_DIRECTIONAL), .list = false};
 }
 
-// The space in which the shaders light. Where the course lights in world space, shaders may use eye space as well: they
+// The space in which the shaders light. If the course lights in world space, shaders may use eye space as well: they
 // have the model-view matrix, and neither the model's own nor the eye's position.
 static lam_light_frame find_space(const struct shader_interface *r)
 {
@@ -364,7 +364,7 @@ static lam_light_frame find_light_frame(const struct shader_interface *r)
     return r->contract->light_frame;
 }
 
-// What follows from the kinds and counts of the lights.
+// Consequences of the kinds and counts of the lights.
 static void summarize_lights(struct shader_interface *r)
 {
     r->supports &= ~(unsigned)(NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT | NEED_LIGHTS);

@@ -8,7 +8,7 @@
 // The lights of one struct or list of a contract.
 struct light_group {
     int count;      // of lights that the shaders declare; 0: none
-    unsigned kinds; // NEED_POINT, NEED_DIRECTIONAL, NEED_SPOT: what they can be
+    unsigned kinds; // NEED_POINT, NEED_DIRECTIONAL, NEED_SPOT: their possible kinds
     bool list, has_direction;
 };
 
@@ -22,10 +22,10 @@ struct shader_interface {
     bool has_tangents; // as attributes: the frame of a normal map need not come from derivatives
     // The contract's, with the numbers that the shaders have instead.
     struct contract_defaults defaults;
-    // The space in which the shaders light, CAMERA or WORLD, and that of their first light.
+    // The space of the shaders' lighting, CAMERA or WORLD, and of their first light.
     lam_light_frame space, light_frame;
     unsigned supports; // bits of reference_need, and of reference_rule
-    // As contract->groups. Where the shaders declare no light, the first one holds the light that the contract fixes.
+    // As contract->groups. If the shaders declare no light, the first one is the light that the contract fixes.
     struct light_group groups[MAX_LIGHT_GROUPS];
     bool vertex_lit; // the fragment shader has no name of a material or light
     bool physical;   // metalness and roughness: contract->physical says how they are lit
@@ -46,18 +46,18 @@ void shader_interface_free(struct shader_interface *interface);
 bool shader_interface_declares(const struct shader_interface *interface, enum uniform_semantic semantic);
 bool shader_interface_uses(const struct shader_interface *interface, enum uniform_semantic semantic);
 
-// Raises the sizes of lists that the text does not tell to those that the driver knows.
+// Raises the sizes of lists that the text does not state to the driver's.
 void shader_interface_set_counts(struct shader_interface *interface, const int counts[MAX_LIGHT_GROUPS]);
 
 // The number of lights that the shaders have room for, at least 1.
 int shader_interface_light_count(const struct shader_interface *interface);
 
-// The reference scene as the shaders can express it: what they have no name for takes the contract's fixed values, and
-// lights of a kind that they do not have are left out.
+// The reference scene as the shaders can express it: undeclared inputs get the contract's fixed values, and lights of
+// missing kinds are omitted.
 struct reference_scene shader_interface_scene(const struct shader_interface *interface,
                                               const struct reference_scene *reference_scene);
 
-// The light of such a scene that stands in element `element` of a group; −1: none, it is black.
+// The light of such a scene in element `element` of a group; −1: none, it is black.
 int shader_interface_light(const struct shader_interface *interface, const struct reference_scene *scene, int group,
                            int element);
 

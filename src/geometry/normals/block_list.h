@@ -51,7 +51,7 @@ struct block_lists {
 // An empty block in front of `previous`; NULL: out of memory.
 struct list_block *list_block_new(struct block_lists *lists, struct list_block *previous);
 
-// The block of a list that takes one more entry, where a block holds `capacity` of them; NULL: out of memory.
+// The block of a list that takes one more entry, with `capacity` entries per block; NULL: out of memory.
 static inline struct list_block *list_block_with_space(struct block_lists *lists, struct list_block **list,
                                                        uint32_t capacity)
 {

@@ -162,8 +162,8 @@ static int compare_edges(const void *left, const void *right)
     return a->corner < b->corner ? -1 : a->corner > b->corner;
 }
 
-// For many corners: sorts their edges. On an edge with so many triangles that all pairs would be too many, each outgoing
-// one is tested against the incoming one of the same rank only; no real surface has such an edge.
+// For many corners: sorts their edges. On an edge with very many triangles, each outgoing one is tested only against
+// the incoming one of the same rank, because there would be too many pairs; no real surface has such an edge.
 static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_t count, double min_cosine)
 {
     enum { PAIRS_MAX = 256 };
@@ -194,7 +194,7 @@ static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_
     }
 }
 
-// The fan for a corner of a triangle without area: that of the first neighbour across an edge that has an area, else the
+// The fan for a corner of a triangle without area: the first neighbour's across an edge that has an area, otherwise the
 // fan of corner `otherwise`.
 static uint32_t neighbouring_fan(const struct fan_corner *around, uint32_t count, uint32_t i, uint32_t otherwise)
 {

@@ -37,7 +37,7 @@ bool corner_fan_scratch_reserve(struct corner_fan_scratch *scratch, uint32_t cou
 uint32_t corner_fan_normals(const lam_mesh *mesh, double min_cosine, struct corner_fan_scratch *scratch,
                             uint32_t count);
 
-// Sorts corners, quickly where they nearly are in order.
+// Sorts corners, quickly if they are nearly in order.
 void sort_corners(uint32_t *corners, uint32_t count);
 
 // The least cosine between two faces' normals that corner_fan_normals joins, from the crease angle.

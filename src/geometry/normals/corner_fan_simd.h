@@ -18,7 +18,7 @@ typedef uint32_t fan_row[FAN_POSITIONS];
 // Positions where equally many corners meet, one in each column: row i has their corners i.
 struct corner_fan_block {
     uint32_t count, positions;        // corners at each; the columns after the last position repeat it
-    bool by_vertex;                   // the corners in a column are those of one vertex
+    bool by_vertex;                   // the corners in a column belong to one vertex
     fan_row corners[FAN_CORNERS_MAX]; // ascending at each position once `make` has run
     fan_row open;                     // by_vertex and nonzero: the vertex is not closed (normals.h)
     fan_row flat;                     // nonzero: a degenerate triangle; the other fields are invalid

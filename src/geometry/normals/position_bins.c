@@ -30,7 +30,7 @@ static inline uint32_t position_of_corner(const struct position_search *s, uint3
     return corner == NONE ? NONE : 3 * triangles_before(s, corner / 3) + corner % 3;
 }
 
-// Lists those of BATCH or fewer corners from `first` on that lie at positions of the table. Positions that were looked up
+// Lists the corners from `first` on, at most BATCH, that lie at positions of the table. Positions that were looked up
 // recently come from the cache.
 static uint32_t look_up(const struct position_search *s, uint32_t first, uint32_t count, struct cached_position *cache,
                         uint32_t corners[BATCH], uint32_t positions[BATCH], size_t *probes)

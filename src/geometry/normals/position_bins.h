@@ -5,7 +5,7 @@
 
 #include "shared_positions.h"
 
-// Bin r of each thread's lists holds the corners whose position p has p >> shift = r.
+// Bin r of each thread's lists contains the corners whose position p has p >> shift = r.
 struct position_bins {
     struct position_search *search;
     unsigned shift;
@@ -18,7 +18,8 @@ bool position_bins_fill(struct position_bins *bins, struct position_search *sear
 // How many corners a bin has.
 size_t position_bin_corners(const struct position_bins *bins, size_t bin);
 
-// Sorts the corners of a bin by position; those of the bin's position i are sorted[starts[i]] to sorted[starts[i + 1]].
+// Sorts the corners of a bin by position; the corners of the bin's position i are sorted[starts[i]] to sorted[starts[i
+// + 1]].
 void position_bin_sort(const struct position_bins *bins, size_t bin, uint32_t *restrict sorted,
                        uint32_t *restrict starts);
 

@@ -21,11 +21,11 @@ struct position_hash {
     uint32_t part_lines, part_words;
 };
 
-// Chooses the number of parts for about so many vertices.
+// Chooses the number of parts for about this many vertices.
 void position_hash_plan(struct position_hash *table, size_t vertices);
 
-// The bytes that the table takes for so many vertices in all parts together. `strict` doubles the bits of the filter, so
-// that it lets fewer other positions pass.
+// The bytes of the table for this many vertices in all parts together. `strict` doubles the bits of the filter, so that
+// it lets fewer other positions pass.
 size_t position_hash_size(struct position_hash *table, size_t vertices, bool strict);
 void position_hash_place(struct position_hash *table, void *memory);
 
@@ -53,7 +53,7 @@ static inline void copy_bits(uint32_t to[3], const uint32_t from[3])
     to[2] = from[2];
 }
 
-// The vertex that represents a position; NONE: the table does not hold it. Adds the probes after the first line.
+// The vertex that represents a position; NONE: it is not in the table. Adds the probes after the first line.
 uint32_t position_hash_find(const struct position_hash *table, const uint32_t bits[3], uint32_t hash, size_t *probes);
 
 // Fills a part from its bin in each of `threads` lists, and empties the bins. With `duplicates`, each vertex whose

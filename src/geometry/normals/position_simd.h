@@ -44,11 +44,11 @@ static inline uint32_t hash_position(const uint32_t bits[3])
 
 struct position_simd {
     int lanes; // 32-bit numbers in a register
-    // Hashes WORD or fewer points of 3 floats. Bit i of the result: the filter may hold point i.
+    // Hashes WORD or fewer points of 3 floats. Bit i of the result: the filter may contain point i.
     uint64_t (*test)(const float *points, uint32_t count, const struct position_filter *filter, uint32_t hashes[WORD]);
     // Numbers the members of a word of a set from `first` on; the others get UINT32_MAX.
     void (*number)(uint64_t members, uint32_t first, uint32_t numbers[WORD]);
-    // Lists those of `count` corners from number `first` on whose vertices, at `indices`, have a position. The lists
+    // Lists the corners among `count` from number `first` on whose vertices, at `indices`, have a position. The lists
     // must have the capacity of `count` and one register.
     uint32_t (*list)(const uint32_t *indices, const uint32_t *position_of, uint32_t first, uint32_t count,
                      uint32_t *corners, uint32_t *positions);

@@ -16,7 +16,7 @@ enum {
 // A recent result of the table; bits that no position has: empty.
 struct cached_position {
     uint32_t bits[3];
-    uint32_t position; // NONE: the table does not hold it
+    uint32_t position; // NONE: it is not in the table
 };
 
 struct position_search {
@@ -37,8 +37,8 @@ struct position_search {
     int probe_limit_reached;   // set atomically: the file was made so that its positions collide
     struct rank_bitset done;   // vertices whose normals are made already; without bits: none
 
-    // Out. A position has the rank of the vertex that represents it among `wanted`; without indices, the rank of the
-    // corner among those of the set's triangles.
+    // Out. A position has the rank of its representative vertex among `wanted`; without indices, the rank of the corner
+    // in the set's triangles.
     struct rank_bitset wanted;       // vertices of the set's triangles; of a mesh with indices
     uint32_t *position_of;           // of each vertex, NONE: not wanted; NULL: corners are looked up in the table
     struct cached_position **caches; // of each thread
@@ -86,7 +86,7 @@ static inline uint32_t triangles_before(const struct position_search *s, size_t 
            s->triangles_of_others;
 }
 
-// Checks the probes of so many searches; false once the probe limit is reached.
+// Checks the probes of this many searches; false once the probe limit is reached.
 bool within_probe_limit(struct position_search *s, size_t probes, size_t searches);
 
 #endif

@@ -1,4 +1,4 @@
-// corner_weld.c: equal items have equal hashes. The items are sorted by their hash; where different ones share a hash,
+// corner_weld.c: equal items have equal hashes. The items are sorted by their hash; if different ones share a hash,
 // that run is sorted by the numbers themselves.
 #include "corner_weld.h"
 

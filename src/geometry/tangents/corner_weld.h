@@ -14,14 +14,14 @@ static inline uint32_t mesh_element(const uint32_t *own, const uint32_t *common,
     return own ? own[corner] : common ? common[corner] : (uint32_t)corner;
 }
 
-// The items that are welded: the mesh's vertices, where one index serves the three attributes, else its corners.
+// The items to weld: the mesh's vertices, if one index serves the three attributes, otherwise its corners.
 struct corner_weld {
     uint32_t items;
     const uint32_t *of; // of each corner the first item that is equal to its own: the number that equal corners share
 };
 
-// Numbers are compared as floats: −0 equals 0. Normals and texture coordinates that the mesh lacks are all equal. n·log n steps at worst, n
-// for files that were not made to collide. `memory` holds the result and the scratch memory.
+// Numbers are compared as floats: −0 equals 0. Normals and texture coordinates that the mesh lacks are all equal. n·log
+// n steps at worst, n for files that were not made to collide. `memory` owns the result and the scratch memory.
 bool corner_weld(struct corner_weld *weld, const lam_mesh *mesh, struct arena *memory, struct call_control *call,
                  lam_error *error);
 

@@ -1,8 +1,8 @@
 // mikktspace.c: the groups of triangles around each corner, and their tangents.
 //
-// Triangles are taken in order, and each corner that has no group yet starts one: it grows across the edges that leave the
-// corner, then across those that lead to it. A triangle without an orientation takes that of the first group that reaches
-// it, so this order is part of the definition.
+// Triangles are taken in order, and each corner that has no group yet starts one: it grows across the edges that leave
+// the corner, then across those that lead to it. A triangle without an orientation gets the first reaching group's, so
+// this order is part of the definition.
 #include "mikktspace.h"
 
 #include "cpu_features.h"
@@ -73,8 +73,8 @@ static void make_group(struct tangent_maker *m, uint32_t corner)
             break;
 }
 
-// The corners that no group has reached: those of degenerate triangles copy the first other corner that is equal to them,
-// the rest have a group of their own.
+// The corners that no group has reached: corners of degenerate triangles copy the first equal corner, the rest get a
+// group of their own.
 static void finish_corner(struct tangent_maker *m, uint32_t corner)
 {
     uint32_t v = m->weld.of[corner];
@@ -107,7 +107,7 @@ static bool make_groups(struct tangent_maker *m, struct call_control *call, lam_
     return true;
 }
 
-// Makes the sums unit. What has none takes the tangent without texture coordinates: its normal is that of its corners.
+// Makes the sums unit. Without one it uses the tangent without texture coordinates, with its corners' normal.
 static void finish_sums(const struct tangent_maker *m, float (*sums)[4])
 {
     bool zeros = false;

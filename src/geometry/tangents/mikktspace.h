@@ -1,4 +1,4 @@
-// mikktspace.h: the tangents that normal maps are baked for: those of MikkTSpace.
+// mikktspace.h: MikkTSpace's tangents, for which normal maps are baked.
 //
 // From M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited" (2008), and glTF 2.0, section 3.7.2.1, which names it:
 //
@@ -32,9 +32,9 @@ struct mesh_tangents {
     uint32_t *indices; // of each corner
 };
 
-// Makes the tangents of a mesh with normals and texture coordinates; the results are in `arena`. The bitangent points to where
-// the second texture coordinate grows, with `t_down` to where it falls (glTF, whose texture coordinates begin at the top of
-// the picture while the green of its normal maps points up).
+// Makes the tangents of a mesh with normals and texture coordinates; the results are in `arena`. The bitangent points
+// to where the second texture coordinate grows, with `t_down` to where it falls (glTF, whose texture coordinates begin
+// at the top of the picture while the green of its normal maps points up).
 bool mikktspace(struct mesh_tangents *out, const lam_mesh *mesh, bool t_down, struct arena *arena,
                 struct call_control *call, lam_error *error);
 

@@ -1,5 +1,5 @@
-// tangent_kernels.h: what MikkTSpace computes for each triangle and for each corner, for LANES triangles at a time, compiled
-// once for each instruction set (meson.build). Every one gives the same bytes.
+// tangent_kernels.h: MikkTSpace's calculations for each triangle and for each corner, for LANES triangles at a time,
+// compiled once for each instruction set (meson.build). Every one gives the same bytes.
 #ifndef TANGENT_KERNELS_H
 #define TANGENT_KERNELS_H
 
@@ -17,9 +17,9 @@ enum { TRIANGLES_AFTER = 15 }; // flags that may be written after the last trian
 struct tangent_kernels {
     // Sets the flags of the triangles from `first` to `end`, but for TRIANGLE_HAS_A_GROUP.
     void (*look)(const lam_mesh *mesh, uint32_t first, uint32_t end, uint8_t *flags);
-    // Adds the corners of these triangles, in order, to their groups' sums: the triangle's ∂p/∂s, made perpendicular to the
-    // normal and unit, times the angle at the corner in the plane perpendicular to the normal; the fourth number is the sum of
-    // these angles. Those that join any group and degenerate ones add nothing.
+    // Adds the corners of these triangles, in order, to their groups' sums: the triangle's ∂p/∂s, made perpendicular to
+    // the normal and unit, times the angle at the corner in the plane perpendicular to the normal; the fourth number is
+    // the sum of these angles. Corners that join any group and degenerate ones add nothing.
     void (*add)(const lam_mesh *mesh, uint32_t first, uint32_t end, const uint8_t *flags, const uint32_t *groups,
                 float (*sums)[4]);
 };

@@ -1,8 +1,8 @@
 // apng.c: animated PNG: https://www.w3.org/TR/png-3/ (acTL, fcTL, fdAT).
 //
-// Each frame is encoded as it comes, as a PNG of the smallest rectangle that holds all changes since the frame before,
-// with the channels that it needs. All frames of a file have one colour type, which is known with the last one: a frame
-// that was encoded with fewer channels is then decoded and encoded again. Its chunks become those of the animation.
+// Each frame is encoded as it comes, as a PNG of the smallest rectangle that contains all changes since the previous
+// frame, with the necessary channels. All frames of a file have one colour type, which is known with the last one: a
+// frame that was encoded with fewer channels is then decoded and encoded again. Its chunks become the animation's.
 #include "animation.h"
 #include "codec.h"
 #include "fail.h"
@@ -53,7 +53,7 @@ static void *apng_start(const struct animation_settings *settings, lam_error *er
     return apng;
 }
 
-// The smallest box outside of which two pictures are equal; one pixel where they are equal.
+// The smallest box outside which two pictures are equal; one pixel if they are equal.
 static struct box changed_box(const lam_image *a, const lam_image *b)
 {
     const size_t row = 4 * (size_t)a->width;
@@ -200,7 +200,7 @@ static void put_frame_control(struct writer *writer, const struct apng *apng, co
     png_put_u32(data + 16, (uint32_t)box->y);
     put_delay(apng->settings.frames_per_second, data + 20);
     data[24] = 0; // APNG_DISPOSE_OP_NONE: the frame stays
-    data[25] = 0; // APNG_BLEND_OP_SOURCE: it replaces what is there, alpha included
+    data[25] = 0; // APNG_BLEND_OP_SOURCE: it replaces the previous pixels, alpha included
     close_chunk(writer, "fcTL", CONTROL_BYTES);
 }
 
@@ -209,7 +209,8 @@ static uint32_t u32_of(const uint8_t *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-// The most bytes that put_frame appends for a frame: its chunks, each with a number, one that is open, and those of the animation.
+// The most bytes that put_frame appends for a frame: its chunks, each with a number, one that is open, and the
+// animation's.
 static size_t frame_bytes(const struct apng_frame *frame)
 {
     const uint8_t *at = frame->png.data, *end = at + frame->png.size;

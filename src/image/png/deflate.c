@@ -54,7 +54,7 @@ void deflate_start(struct deflate *deflate, uint8_t filter, bool matches)
         memset(deflate->last_positions, 0xFF, sizeof *deflate->last_positions << DEFLATE_HASH_BITS); // nowhere
 }
 
-// A token whose quarters after the first `used` (1 … 4) hold nothing, and the others zero.
+// A token whose quarters after the first `used` (1 … 4) are empty, and the others zero.
 static inline uint64_t unused_after(int used)
 {
     const uint64_t all = (uint64_t)DEFLATE_NOTHING * 0x0001000100010001u;
@@ -218,7 +218,7 @@ static inline uint64_t key_of(const uint32_t *at, int bytes_per_pixel)
 }
 
 // At each pixel, the first of these that is possible: a run; a match with the last position of the same key; literals,
-// as many pixels as a token holds. Where a match may be as short as one pixel, a single repetition is a match too.
+// as many pixels as fit into a token. If a match may be as short as one pixel, a single repetition is a match too.
 // Matches stay within a row on both sides, so they contain no filter byte.
 static inline __attribute__((always_inline)) void find_matches(struct deflate *deflate, const int bytes_per_pixel,
                                                                int first, int end)

@@ -8,7 +8,7 @@
 //            strips of coloured ones, where the three channels repeat each other, which codes of single bytes cannot
 //            use (measured: 20 % smaller).
 // No match leaves the strip, so a strip can be encoded by itself, with Huffman codes from its own counts. Between the
-// filter and the bits stands a flat list of tokens. The loops over it, and the search for runs, have no branch that
+// filter and the bits there is a flat list of tokens. The loops over it, and the search for runs, have no branch that
 // depends on the picture: a mispredicted one costs as much as writing two pixels.
 #ifndef DEFLATE_H
 #define DEFLATE_H

@@ -16,7 +16,7 @@ enum {
     MAX_STORED = 65535, // bytes of a stored block
 };
 
-// A writer of bits; those that do not fill a byte yet wait, the first lowest. After put() fewer than 8 wait.
+// A writer of bits; bits of an incomplete byte wait, the first lowest. After put() fewer than 8 wait.
 struct bits {
     uint8_t *at;
     uint64_t waiting;
@@ -68,7 +68,7 @@ unsigned length_symbol(unsigned length, unsigned *extra);
 static inline unsigned distance_extra(int symbol) { return symbol < 4 ? 0 : (unsigned)symbol / 2 - 1; }
 
 // Makes the codes of a block from the number of times that each symbol occurs; the end of the block occurs once.
-// `extra_bits`: those of all lengths; those of the distances are added here.
+// `extra_bits`: of all lengths; the distances' are added here.
 void codes_make(struct codes *codes, const uint32_t counts[LITERALS], const uint32_t distance_counts[DISTANCES],
                 uint64_t extra_bits);
 

@@ -84,7 +84,7 @@ static size_t stream_bytes(const struct deflate *deflate)
 // Writes the stream's bytes unchanged, in blocks of at most MAX_STORED.
 struct storing {
     uint8_t *at;
-    size_t left, in_block; // bytes still to come, and those of them in this block
+    size_t left, in_block; // bytes still to come, and the ones in this block
 };
 
 static void store(struct storing *storing, uint8_t byte)

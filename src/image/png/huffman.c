@@ -18,8 +18,8 @@ static void sort(uint32_t *keys, int count)
 }
 
 // The depth of each leaf in Huffman's tree over at least two ascending weights. Leaves are nodes 0 … leaves−1; each
-// further node joins the two lightest that are left. These stand at the front of one of two queues: the leaves, and the
-// joined nodes in the order they were made.
+// further node joins the two lightest that are left. These are at the front of one of two queues: the leaves, and the
+// joined nodes in order of creation.
 static void tree_depths(const uint32_t *weights, int leaves, uint8_t *depths)
 {
     uint32_t weight[2 * HUFFMAN_SYMBOLS];

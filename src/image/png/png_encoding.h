@@ -33,7 +33,7 @@ struct png_method {
     // to `adler`. Returns the number of bytes; 0: out of memory, or the call must stop.
     size_t (*strip)(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out);
 
-    // Frees what the arena does not own; also after a start that failed. NULL: nothing.
+    // Frees memory that the arena does not own; also after a failed start. NULL: nothing.
     void (*end)(struct png_encoding *encoding);
 };
 
@@ -42,12 +42,12 @@ extern const struct png_method png_fast, png_best;
 // The channels of a picture besides grey, as bits.
 enum png_channels { PNG_COLORED = 1, PNG_TRANSLUCENT = 2, PNG_ALL_CHANNELS = 3 };
 
-// As png_write, with at least the channels of *channels; *channels becomes those that the file has.
+// As png_write, with at least the channels of *channels; *channels becomes the file's.
 bool png_write_channels(const lam_image *image, const lam_save_params *params, struct pool *pool, int *channels,
                         lam_bytes *out, lam_error *error);
 
-// Numbers of a PNG file, highest byte first; and the end of a chunk whose `size` bytes of data stand at out + 8, which
-// returns the chunk's size.
+// Numbers of a PNG file, highest byte first; and the end of a chunk with `size` bytes of data at out + 8, which returns
+// the chunk's size.
 void png_put_u32(uint8_t *at, uint32_t value);
 size_t png_close_chunk(const struct crc_tables *crc, const char *type, uint8_t *out, size_t size);
 

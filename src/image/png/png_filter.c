@@ -25,9 +25,9 @@ INLINE u8x16 average(u8x16 a, u8x16 b)
     return (a & b) + (u8x16)half;
 }
 
-// Paeth's predictor in bytes. With p = a + b − c: |p − a| = |b − c|, |p − b| = |a − c|, and |p − c| is the
-// difference of these two where a and b lie on different sides of c. On the same side it is their sum, never
-// the smallest: 255 stands for it. Ties go to a, then b.
+// Paeth's predictor in bytes. With p = a + b − c: |p − a| = |b − c|, |p − b| = |a − c|, and |p − c| is the difference
+// of these two where a and b lie on different sides of c. On the same side it is their sum, never the smallest: 255
+// represents it. Ties go to a, then b.
 INLINE u8x16 paeth(u8x16 a, u8x16 b, u8x16 c)
 {
     u8x16 b_below = below(b, c), a_below = below(a, c);

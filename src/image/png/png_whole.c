@@ -64,7 +64,7 @@ static size_t find_pixels(const struct picture_file *file)
     return 0;
 }
 
-// Joins the compressed bytes of the chunks of pixels, which the file's end follows. 0: something else is there.
+// Joins the compressed bytes of the chunks of pixels, which the file's end follows. 0: something else follows.
 static size_t join_pixels(const struct inflater *d, const struct picture_file *file, size_t at, uint8_t *joined)
 {
     size_t used = 0;
@@ -130,7 +130,7 @@ static inline wide8 max8(wide8 x, wide8 y)
 
 // Of the pixels to the left, above, and above to the left, per channel the one that is nearest to a + b − c, of equals the
 // first. For c between a and b the lower of them is at the distance high − c, the higher at c − low, and c at |low + high − 2c|: the
-// lower is nearest where 3c − a − b ≥ high, and the higher where it is ≤ low; which also holds for c outside. Few steps depend
+// lower is nearest where 3c − a − b ≥ high, and the higher if it is ≤ low; which also holds for c outside. Few steps depend
 // on a, the pixel that was made last.
 static inline wide8 paeth(wide8 a, wide8 b, wide8 c)
 {
@@ -203,7 +203,8 @@ static bool decompress(const struct inflater *d, const uint8_t *compressed, size
     return ok;
 }
 
-// Unfilters rows in place: those of the file end where the picture's memory does, so that no pixel is written before it is read.
+// Unfilters rows in place: the file's rows end at the end of the picture's memory, so that no pixel is written before
+// it is read.
 static bool unfilter_rows(const lam_image *image, const uint8_t *rows, const uint8_t *zeros, int channels)
 {
     size_t width = (size_t)image->width, height = (size_t)image->height, size = pixel_bytes(image->format);

@@ -9,9 +9,9 @@ static inline uint32_t png_u32_at(const uint8_t *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-// Fills an image, LAM_RGBA8 or LAM_RGB8, from a PNG of 1, 3 or 4 channels of 8 bits (4 only to LAM_RGBA8), not interlaced,
-// whose chunks before the pixels are in order. Behind the image's pixels there are png_whole_extra more bytes: the rows of the
-// file are unfiltered in place. False: another reader has to read it, and to name what is wrong.
+// Fills an image, LAM_RGBA8 or LAM_RGB8, from a PNG of 1, 3 or 4 channels of 8 bits (4 only to LAM_RGBA8), not
+// interlaced, whose chunks before the pixels are in order. Behind the image's pixels there are png_whole_extra more
+// bytes: the rows of the file are unfiltered in place. False: another reader must read it, and name the error.
 bool png_read_whole(const struct picture_file *file, int channels, lam_image *image);
 size_t png_whole_extra(uint32_t width, uint32_t height, lam_pixel_format format, int channels);
 

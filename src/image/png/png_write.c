@@ -1,8 +1,8 @@
-// png_write.c: pictures become PNG files: grey, grey and alpha, RGB or RGBA, whichever holds the picture exactly.
+// png_write.c: pictures become PNG files: grey, grey and alpha, RGB or RGBA, whichever stores the picture exactly.
 //
 // The picture is cut into strips of rows, whose height depends on the width alone. Each strip is filtered and
-// compressed by itself (png_fast.c, png_best.c) and becomes one IDAT chunk with its own CRC, so any thread can take any
-// strip and the bytes do not depend on threads; only the Adler-32 of the whole is joined at the end.
+// compressed separately (png_fast.c, png_best.c) and becomes one IDAT chunk with its own CRC, so any thread can process
+// any strip and the bytes do not depend on threads; only the Adler-32 of the whole is joined at the end.
 #include "codec.h"
 #include "fail.h"
 #include "png_encoding.h"
@@ -155,7 +155,7 @@ static size_t put_tail(const struct png_writer *writer, const struct adler_part 
 }
 
 // Encodes the strips of a batch, and moves their chunks together at bytes + *size. Strips are encoded at a distance
-// that fits the worst case; pages that none reaches are never touched, so the distance costs address space only.
+// that fits the worst case; unused pages are never touched, so the distance costs only address space.
 static bool encode_batch(struct png_writer *writer, int count, struct pool *pool, uint8_t *bytes, size_t *size,
                          struct adler_part *adler, lam_error *error)
 {

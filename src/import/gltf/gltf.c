@@ -35,17 +35,17 @@ static int gltf_probe(const uint8_t *bytes, size_t size)
     return memmem(bytes + at, size - at, key, sizeof key - 1) ? 2 : 0;
 }
 
-// Warns of what is not drawn; the error of a file that holds nothing else.
+// Warns of primitives that are not drawn; the error of a file that contains nothing else.
 static bool report_skipped(struct gltf *gltf)
 {
     struct lam_scene *scene = gltf->scene;
     const char *name = gltf->source->name;
     if (!scene->objects.count && gltf->without_positions)
         return fail(gltf->json.error, LAM_CANNOT_READ,
-                    "%s: holds nothing to draw: its primitives (%zu) have no attribute POSITION", name,
+                    "%s: contains nothing to draw: its primitives (%zu) have no attribute POSITION", name,
                     gltf->without_positions);
     if (!scene->objects.count)
-        return fail(gltf->json.error, LAM_CANNOT_READ, "%s: holds no triangles in its scene", name);
+        return fail(gltf->json.error, LAM_CANNOT_READ, "%s: contains no triangles in its scene", name);
     if (gltf->without_positions)
         scene_warn(scene, "%s: not drawn: primitives without the attribute POSITION (%zu)", name,
                    gltf->without_positions);

@@ -1,4 +1,4 @@
-// gltf_extensions.c: the extensions that a file names, beside those that are known here.
+// gltf_extensions.c: the extensions that a file names, and their support.
 #include "gltf_extensions.h"
 
 #include "gltf_json.h"
@@ -85,7 +85,7 @@ bool gltf_check_asset(struct gltf *gltf)
     return true;
 }
 
-// A list of texts; NULL where it is missing or, with *ok false, wrong.
+// A list of texts; NULL if it is missing or, with *ok false, wrong.
 static const json_t *take_names(struct gltf *gltf, const char *key, bool *ok)
 {
     const json_t *list = json_object_get(gltf->root, key);

@@ -1,4 +1,4 @@
-// gltf_extensions.h: the extensions that a file names, beside those that are known here.
+// gltf_extensions.h: the extensions that a file names, and their support.
 #ifndef GLTF_EXTENSIONS_H
 #define GLTF_EXTENSIONS_H
 

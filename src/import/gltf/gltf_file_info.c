@@ -1,5 +1,5 @@
-// gltf_file_info.c: what the file says of itself: names, lengths of animations, extensions. Values of a wrong type count as
-// missing: nothing of them is drawn.
+// gltf_file_info.c: information about the file: names, lengths of animations, extensions. Values of a wrong type count
+// as missing: nothing of them is drawn.
 #include "gltf_file_info.h"
 
 #include "gltf_extensions.h"
@@ -9,7 +9,7 @@
 
 #define NEW(gltf, count, type) ((type *)arena_alloc_zeroed(&(gltf)->scene->arena, (size_t)(count) * sizeof(type)))
 
-// A copy of a text; *out NULL where there is none. False: out of memory.
+// A copy of a text; *out NULL if there is none. False: out of memory.
 static bool take(struct gltf *gltf, const json_t *object, const char *key, const char **out)
 {
     const char *text = json_string_value(json_object_get(object, key));

@@ -21,7 +21,7 @@ bool gltf_take_whole(struct gltf *gltf, const struct place *place, const json_t 
 // An index into a list of the file; −1 where the key is missing.
 bool gltf_take_index(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                      const char *list, int *index);
-// The same for a value that stands alone.
+// The same for a value without a key.
 bool gltf_index_of(struct gltf *gltf, const struct place *place, const json_t *value, const char *list, int *index);
 
 // `count` numbers. *out stays as it is where the key is missing.
@@ -36,7 +36,7 @@ bool gltf_take_factors(struct gltf *gltf, const struct place *place, const json_
 // The weights of morph targets; *out NULL: there are none.
 bool gltf_take_weights(struct gltf *gltf, const struct place *place, const json_t *object, double **out, size_t *count);
 
-// The key's value, which is an object (or a list, of objects alone); NULL where it is missing or, with *ok false, wrong.
+// The key's value, which is an object (or a list, only of objects); NULL if it is missing or, with *ok false, wrong.
 const json_t *gltf_take_object(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                                bool *ok);
 const json_t *gltf_take_list(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,

@@ -103,7 +103,7 @@ static bool order_nodes(struct gltf *gltf)
 }
 
 // Marks the roots of the wanted scene: the caller's, else the file's default, else the first. A file without scenes is
-// drawn whole. Some files list nodes that are no roots: they stand where their parents place them.
+// drawn whole. Some files list nodes that are no roots: their parents place them.
 static bool mark_roots(struct gltf *gltf)
 {
     const char *wanted = gltf->source->params->scene;

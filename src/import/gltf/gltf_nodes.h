@@ -17,7 +17,7 @@ struct gltf_node {
     lam_mat4 world; // to the file's space
 };
 
-// Reads all nodes, checks that they are trees, and marks those of the scene that the caller wants.
+// Reads all nodes, checks that they are trees, and marks the nodes of the requested scene.
 bool gltf_nodes_read(struct gltf *gltf);
 
 // Computes node->world and node->visible of all nodes.

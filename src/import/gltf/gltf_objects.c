@@ -69,7 +69,7 @@ static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, siz
     return true;
 }
 
-// False: the call must end. The clock is read once for so many objects.
+// False: the call must end. The clock is read once for this many objects.
 static bool continues(struct gltf *gltf, size_t number)
 {
     struct call_control *call = gltf->source->call;

@@ -11,7 +11,7 @@
 #include <emmintrin.h>
 #endif
 
-// Bit i stands for byte i.
+// Bit i represents byte i.
 struct byte_masks {
     uint64_t newline; // '\n'
     uint64_t white;   // all bytes up to the space, '\n' included

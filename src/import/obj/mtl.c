@@ -101,8 +101,8 @@ static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *
 
 static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
-// Replaces a material whose colours are all 0: by white where a texture holds the colour, else, since exporters write such
-// materials by mistake, by the neutral grey, with a warning.
+// Replaces a material whose colours are all 0: by white if a texture has the colour, otherwise (exporters write such
+// materials by mistake) by the neutral grey, with a warning.
 static void replace_black(struct reader *reader, lam_material *m)
 {
     lam_rgb kd = {m->diffuse.r, m->diffuse.g, m->diffuse.b};
@@ -356,7 +356,7 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
         return true;
     }
     switch (statement) {
-    case TR: // d decides where both are there, in whatever order
+    case TR: // d decides if both are present, in any order
         if (!reader->d && read_numbers(reader, at, end, &number, 1, 1) == 1) {
             m->diffuse.a = 1 - within(reader, at, number, 0, 1, "Tr");
             reader->opacity = word;
@@ -422,7 +422,7 @@ bool mtl_read(struct mtl_set *set, const struct import_source *source, struct la
     if (!close_material(&reader, error))
         return false;
     if (reader.wide_count)
-        scene_warn(scene, "%s:%zu: with Ns 0 the highlight would cover all that is lit; there is none%s", name,
+        scene_warn(scene, "%s:%zu: with Ns 0 the highlight would cover all lit points; it is omitted%s", name,
                    text_line(reader.begin, reader.wide), reader.wide_count > 1 ? ", here and in other materials" : "");
     return true;
 }

@@ -51,8 +51,8 @@ static void warn_option(const struct options *o, const char *found, const char *
 {
     char shown[SHOWN_NAME_SIZE];
     shown_name(o->material ? o->material : "", shown);
-    scene_warn(o->scene, "%s: material '%s': option %s of its %s map is %s, expected %s; it is left out", o->file,
-               shown, o->option, lam_map_name((lam_map)o->slot), found, expected);
+    scene_warn(o->scene, "%s: material '%s': option %s of its %s map is %s, expected %s; it is ignored", o->file, shown,
+               o->option, lam_map_name((lam_map)o->slot), found, expected);
 }
 
 // Takes up to `most` numbers; returns how many there are.
@@ -69,7 +69,7 @@ static int take_numbers(struct options *o, float *out, int most)
     return count;
 }
 
-// The same for numbers that count: where one is absurd, none is taken, with a warning.
+// The same for numbers that matter: if one is absurd, all are ignored, with a warning.
 static int take_checked(struct options *o, float *out, int most)
 {
     float numbers[3];

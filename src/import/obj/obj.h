@@ -55,7 +55,7 @@ struct obj_chunk {
     float brightest;                    // the largest colour channel
     // Some corner names, or does not name, a texture coordinate or a normal.
     bool texcoord_used, texcoord_missing, normal_used, normal_missing;
-    // Some corner names one although the file has none.
+    // Some corner names one although the file contains none.
     bool texcoord_unknown, normal_unknown;
     uint64_t short_faces;                              // of one or two corners
     uint64_t nonfinite_numbers;                        // normals and texture coordinates that are not finite
@@ -165,8 +165,8 @@ bool obj_complete_normals(struct obj *obj, lam_error *error);
 // obj_groups.c
 bool obj_read_statements(struct obj *obj, lam_error *error);
 
-// obj_strokes.c. The corners that a statement l (lines) or p makes, so many of which are reserved, with parts; then each
-// statement is read in turn, and in the end both are added to the scene. `texcoords`: those of the file.
+// obj_strokes.c. The corners that a statement l (lines) or p makes, so many of which are reserved, with parts; then
+// each statement is read in turn, and in the end both are added to the scene. `texcoords`: the file's.
 size_t obj_strokes_corners(const struct obj *obj, const uint8_t *at, bool lines);
 bool obj_strokes_reserve(struct obj *obj, bool lines, size_t corners, size_t parts, lam_error *error);
 bool obj_strokes_read(struct obj *obj, const struct obj_statement *statement, bool lines, lam_error *error);

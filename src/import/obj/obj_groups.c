@@ -110,7 +110,7 @@ static bool same_name(const char *a, const char *b) { return a == b || (a && b &
 
 // --- parts
 
-// *name: "object/group", or the one of the two that is there.
+// *name: "object/group", or whichever is given.
 static bool join_names(const struct state *state, const char *object, const char *group, const char **out,
                        lam_error *error)
 {
@@ -121,7 +121,7 @@ static bool join_names(const struct state *state, const char *object, const char
     char *name = arena_alloc(&state->obj->scene->arena, length + rest + 2);
     if (!name)
         return no_memory(state, length + rest, error);
-    // NOLINTNEXTLINE(bugprone-not-null-terminated-result): what follows has its zero
+    // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the text after it has its zero
     memcpy(name, object, length);
     name[length] = '/';
     memcpy(name + length + 1, group, rest + 1);
@@ -284,16 +284,16 @@ static bool fail_without_faces(struct state *state, lam_error *error)
     const char *name = obj->source->name;
     char found[TEXT_FOUND_SIZE];
     if (state->counts[FREE_FORM])
-        return fail(error, LAM_UNSUPPORTED,
-                    "%s:%zu: holds no faces, only free-form curves and surfaces (%s), which this version cannot draw",
-                    name, obj_line_number(obj, state->first[FREE_FORM]),
-                    text_found(state->first[FREE_FORM], obj->end, found));
+        return fail(
+            error, LAM_UNSUPPORTED,
+            "%s:%zu: contains no faces, only free-form curves and surfaces (%s), which this version cannot draw", name,
+            obj_line_number(obj, state->first[FREE_FORM]), text_found(state->first[FREE_FORM], obj->end, found));
     if (obj->total.positions)
-        return fail(error, LAM_CANNOT_READ, "%s: holds vertices (%llu), but no faces, lines or points of them", name,
+        return fail(error, LAM_CANNOT_READ, "%s: contains vertices (%llu), but no faces, lines or points of them", name,
                     (unsigned long long)obj->total.positions);
     if (state->counts[UNKNOWN])
         return fail(error, LAM_CANNOT_READ,
-                    "%s:%zu: found %s, expected a statement of OBJ (v, f, …); the file holds nothing to draw", name,
+                    "%s:%zu: found %s, expected a statement of OBJ (v, f, …); the file contains nothing to draw", name,
                     obj_line_number(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found));
     return true;
 }

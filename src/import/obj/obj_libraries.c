@@ -28,7 +28,7 @@ static bool try_library(struct obj *obj, const char *name, enum attempt *attempt
     struct companion file;
     bool cut;
     if (!companion_name(obj->source, name, confined, &cut))
-        confined[0] = 0; // invalid names are all the same
+        confined[0] = 0; // invalid names are equivalent
     int before = name_table_find(&libraries->tried, confined);
     *attempt = before > 0 ? READ : before == 0 ? MISSING_BEFORE : LEFT_OUT;
     if (before >= 0 || libraries->tried.count == OBJ_LIBRARIES_MAX)

@@ -33,8 +33,8 @@ static const uint8_t *fail_expected(struct obj_reader *reader, const uint8_t *at
     return NULL;
 }
 
-// Reads `count` numbers, of which those after the first `min` are optional and 0 by default. Returns the next word;
-// NULL: error. `expected` describes a number for the message.
+// Reads `count` numbers; those after the first `min` are optional and 0 by default. Returns the next word; NULL: error.
+// `expected` describes a number for the message.
 static inline const uint8_t *read_numbers(struct obj_reader *reader, const uint8_t *at, float *to, int min, int count,
                                           const char *expected)
 {
@@ -195,8 +195,8 @@ static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t
     return next;
 }
 
-// The index of a corner's texture coordinate or normal. Where the elements of its kind are not kept (not `kept`), it is
-// read past, and *unknown is set.
+// The index of a corner's texture coordinate or normal. If the elements of its kind are not kept (not `kept`), it is
+// skipped, and *unknown is set.
 static inline const uint8_t *read_further_index(struct obj_reader *reader, const uint8_t *at, bool kept, uint64_t total,
                                                 uint64_t so_far, const char *what, bool *unknown, uint32_t *out)
 {

@@ -22,7 +22,7 @@ static inline uint64_t mask_bits(__mmask64 bytes)
 }
 static inline uint32_t pack(unsigned a, unsigned b, unsigned c) { return a | b << 8 | c << 16; }
 
-// Constants that stay in registers from line to line; the compiler would otherwise reload each where it is used.
+// Constants that stay in registers from line to line; the compiler would otherwise reload each before its use.
 struct constants {
     __m512i newline, zero, nine, space, point, minus, one;
     __m512i lanes_of_8, lanes_of_16;       // shuffle: byte k of a packed number to each byte of lane k

@@ -1,4 +1,5 @@
-// obj_strokes.c: the statements `l` (lines: v or v/t for each vertex) and `p` (points) as meshes beside that of the faces.
+// obj_strokes.c: the statements `l` (lines: v or v/t for each vertex) and `p` (points) as meshes beside the faces'
+// mesh.
 #include "obj.h"
 
 #include "fail.h"
@@ -7,7 +8,7 @@
 
 // --- vertices of a statement
 
-// One statement, and what precedes it.
+// One statement, and its context.
 struct reading {
     struct obj *obj;
     const struct obj_statement *statement;
@@ -132,7 +133,7 @@ bool obj_strokes_read(struct obj *obj, const struct obj_statement *statement, bo
 
 // --- meshes
 
-// The texture coordinates of every corner, (0, 0) for those that name none.
+// The texture coordinates of every corner, (0, 0) for corners without any.
 static bool take_texcoords(struct obj *obj, const struct obj_strokes *s, const float *texcoords, lam_mesh *mesh,
                            lam_error *error)
 {

@@ -88,7 +88,7 @@ static bool check_vertices(const struct reader *reader, lam_error *error)
 {
     bool surface = reader->elements[FACES] || reader->elements[STRIPS];
     if (!reader->elements[VERTICES] && (surface || reader->elements[EDGES]))
-        return fail(error, LAM_CANNOT_READ, "%s: the file holds %s and no vertices, expected element vertex",
+        return fail(error, LAM_CANNOT_READ, "%s: the file contains %s and no vertices, expected element vertex",
                     reader->source->name, surface ? "faces" : "edges");
     return true;
 }
@@ -190,7 +190,7 @@ static bool build(struct reader *reader, lam_error *error)
         return false;
     ply_warn_header(source, scene, &reader->header);
     if (!reader->elements[VERTICES])
-        return true; // the caller reports a file that holds nothing
+        return true; // the caller reports a file without contents
     if (!read_elements(reader, error))
         return false;
 

@@ -1,4 +1,4 @@
-// ply_rows.c: what the readers of ASCII and binary rows share.
+// ply_rows.c: functions shared by the readers of ASCII and binary rows.
 #include "ply_rows.h"
 
 #include "fail.h"

@@ -25,7 +25,7 @@ struct ply_reader {
     int mixed; // atomic; some row has another number of items
 };
 
-// Allocates what the serial pass fills.
+// Allocates the arrays that the serial pass fills.
 bool ply_start_rows(struct ply_reader *reader, struct arena *scratch, lam_error *error);
 
 // The serial pass at the start of a row. False: the call must end.

@@ -18,8 +18,8 @@ enum { SAMPLE = 1024 }; // bytes that are inspected
 // Text contains no zero byte; a binary STL does: up to 16 million facets, the number of facets has one.
 static bool has_zero(const uint8_t *bytes, size_t size) { return memchr(bytes, 0, size < SAMPLE ? size : SAMPLE); }
 
-// ASCII files begin with "solid" (some with "facet"), and have "facet" or "endsolid" near the start. "solid" alone proves
-// nothing: many binary files begin with it too. With a zero byte it is a text where the words of a facet stand around
+// ASCII files begin with "solid" (some with "facet"), and have "facet" or "endsolid" near the start. "solid" alone
+// proves nothing: many binary files begin with it too. With a zero byte it is a text if the words of a facet surround
 // it; the reader of texts then reports the byte.
 static bool looks_ascii(const uint8_t *bytes, size_t size)
 {

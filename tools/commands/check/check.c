@@ -1,4 +1,4 @@
-// check.c: the command `check`: compares what shaders draw with the reference scenes.
+// check.c: the command `check`: compares pictures of shaders with the reference scenes.
 #include "check.h"
 
 #include <errno.h>
@@ -16,7 +16,7 @@
 enum { MAX_SCENES = 32 };
 static const size_t max_cache_bytes = (size_t)384 << 20; // of pictures cached for several shaders
 
-// The contract of a command line, by its name or from its file. *contract stays NULL for one that is to be recognised.
+// The contract of a command line, by its name or from its file. *contract stays NULL for one to recognise.
 static bool read_contract(const char *name, lam_check_contract **contract, lam_error *error)
 {
     if (!name || strcmp(name, "auto") == 0)
@@ -93,7 +93,7 @@ static bool find_submissions(struct check_command *c, int operand_count, char **
     return true;
 }
 
-// The formats of what is written are checked before the work; whether it can be written is seen later.
+// The formats of output files are checked before the work; writing them may still fail later.
 static bool check_outputs(const struct check_command *c, lam_error *error)
 {
     const struct options *o = c->options;
@@ -141,7 +141,7 @@ static bool open_tables(struct check_command *c, lam_error *error)
     return true;
 }
 
-// The folder of the page and the sheets. Without it the verdicts are printed all the same.
+// The folder of the page and the sheets. Without it the verdicts are still printed.
 static bool prepare_page(struct check_command *c, lam_error *error)
 {
     char *page = check_page_path(c->options->picture.output, error);
@@ -171,7 +171,7 @@ static bool prepare(struct check_command *c, int operand_count, char **operands,
     return c->batch.count == 1 || (c->batch.cache = lam_check_cache_make(max_cache_bytes, error));
 }
 
-// Writes what is complete only at the end. A failure is reported; the verdicts are out already.
+// Writes files that need all results at the end. A failure is reported; the verdicts are out already.
 static int finish(struct check_command *c)
 {
     const struct options *o = c->options;

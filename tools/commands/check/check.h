@@ -34,7 +34,7 @@ struct check_submission {
 };
 void check_free_submissions(struct check_submission *submissions, int count);
 
-// The length of a path without its ending: for "a/phong.frag" and "a/phong.frag.glsl" that of "a/phong".
+// The length of a path without its extension: "a/phong" of "a/phong.frag" and "a/phong.frag.glsl".
 size_t check_stem_length(const char *path);
 bool check_same_stem(const char *a, const char *b);
 bool check_is_vertex(const char *path);   // by its ending: .vert, .vs, .vsh or .vertex, each also followed by .glsl
@@ -66,6 +66,9 @@ struct check_result {
     int code;                // the exit code for this shader alone
 };
 
+// A scene's result in one or two words: same, differs, or black (equal to a black reference, which earns no points).
+const char *check_scene_word(const lam_check_scene *scene);
+
 // A scene's part of the points: its weight or 0; −1: it does not count, since the exercise asks for none of its terms.
 double check_scene_points(const lam_check_scene *scene);
 
@@ -89,14 +92,15 @@ void check_report_json(FILE *file, const struct check_result *result, const char
 // Prints contracts, scenes and mistakes.
 bool check_print_lists(FILE *file, lam_error *error);
 
-// One sentence: what the first mistake is, or else the first message, or else what the verdict means; "" for one that passes.
+// One sentence: the first mistake, or else the first message, or else the meaning of the verdict; "" if the shader
+// passes.
 const char *check_says(const lam_check_report *report);
 
-// A value of a line of comma-separated values, in quotes where it needs them. A spreadsheet would run a name that begins like a
-// formula.
+// A value of a line of comma-separated values, in quotes if it needs them. A spreadsheet would run a name that begins
+// like a formula.
 void check_csv_text(FILE *file, const char *text);
 
-// Lines of comma-separated values, and Moodle's. 0, or the errno of what could not be written.
+// Lines of comma-separated values, and Moodle's. 0, or the errno of the file that could not be written.
 int check_csv_head(FILE *file);
 int check_csv_row(FILE *file, const struct check_result *result);
 int check_moodle_head(FILE *file);
@@ -110,7 +114,7 @@ int check_submitty(FILE *file, const struct check_result *result);
 struct check_table {
     const char *path; // NULL: not asked for
     FILE *file;
-    int error; // errno of what could not be written; 0: none
+    int error; // errno of the file that could not be written; 0: none
     int (*head)(FILE *file);
     int (*row)(FILE *file, const struct check_result *result);
 };

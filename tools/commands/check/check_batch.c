@@ -60,8 +60,8 @@ struct work {
 
 // --- one submission
 
-// Writes the contract of a pair of shaders, which costs no verdict if it fails. Without a verdict, what is known is of more use
-// yet. A file that exists is kept: it may have been corrected by hand.
+// Writes the contract of a pair of shaders, which costs no verdict if it fails. Without a verdict, the earlier findings
+// are still useful. A file that exists is kept: it may have been corrected by hand.
 static void write_contract(const char *path, const lam_check_params *params, struct check_result *result)
 {
     lam_bytes text = {0};

@@ -1,10 +1,9 @@
 // check_find.c: finds the submissions of a class in a folder.
 //
-// A folder with one fragment shader is one submission, named after the folder, with the one vertex shader in it if there
-// is one. In other folders, and in the class's own, each fragment shader is a submission, named after the file; its
-// vertex shader is the one of the same name beside it, else the only one beside it without a fragment shader of its
-// name. Hidden files and links are left out. What lies
-// below MAX_DEPTH folders is reported as a problem.
+// A folder with one fragment shader is one submission, named after the folder, with the one vertex shader in it if
+// there is one. In other folders, and in the class's own, each fragment shader is a submission, named after the file;
+// its vertex shader is the one of the same name beside it, else the only one beside it without a fragment shader of its
+// name. Hidden files and links are left out. Folders below MAX_DEPTH are reported as a problem.
 #include "check.h"
 
 #include <dirent.h>
@@ -98,7 +97,7 @@ static char *name_of(const char *top, const char *path, bool is_file)
     return strndup(name, is_file ? check_stem_length(name) : strlen(name));
 }
 
-// The vertex shader for a fragment shader among those of its folder. NULL: none.
+// The vertex shader for a fragment shader, from the same folder. NULL: none.
 static const char *vertex_for(const char *fragment, char **fragments, int fragment_count, char **vertices,
                               int vertex_count)
 {

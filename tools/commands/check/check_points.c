@@ -1,4 +1,4 @@
-// check_points.c: what a report is worth, and its verdict in words.
+// check_points.c: the points of a report, and its verdict in words.
 #include "check.h"
 
 const char *check_verdict_text(lam_check_verdict verdict)
@@ -20,6 +20,13 @@ const char *check_verdict_text(lam_check_verdict verdict)
         return "needs more memory than it may use (--memory-limit)";
     }
     return "";
+}
+
+const char *check_scene_word(const lam_check_scene *scene)
+{
+    if (!scene->passes && scene->maximum == 0 && !scene->not_numbers)
+        return "black, no points"; // equal, but a black picture proves nothing
+    return scene->passes ? "same" : "differs";
 }
 
 double check_scene_points(const lam_check_scene *scene)

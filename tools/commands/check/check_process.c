@@ -23,7 +23,7 @@
 #include "interrupt.h"
 
 enum { MAX_BYTES = 1 << 30, WALL_TIMES = 20 };
-// Exit codes of the drawing process besides those of lam_code: it used up its memory; the driver called exit().
+// Exit codes of the drawing process besides lam_code's: it used up its memory; the driver called exit().
 enum { EXIT_MEMORY = 200, EXIT_DRIVER = 201 };
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -69,7 +69,7 @@ static bool write_all(int to, const void *data, size_t size)
     return true;
 }
 
-// Whether the process has used up its memory: not even half of the limit can be had. Called where the driver gives up.
+// Whether the process has used up its memory: not even half of the limit can be had. Called if the driver aborts.
 static rlim_t memory_limit;
 static bool is_out_of_memory(void)
 {
@@ -104,7 +104,7 @@ static uint64_t max_resident_bytes(void)
     return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024 : 0;
 }
 
-// Ends the process as soon as it holds more than its limit. The system's maximum counts from before exec(), when the
+// Ends the process as soon as it uses more than its limit. The system's maximum counts from before exec(), when the
 // process still was a copy of its parent: a parent that is larger than the limit raises it.
 static void *watch_memory(void *unused)
 {
@@ -116,8 +116,8 @@ static void *watch_memory(void *unused)
     return unused;
 }
 
-// Two limits: what the process holds is watched, and what it asks for is bounded, with a margin for the stacks of the
-// driver's threads, which ask for more than they use.
+// Two limits: the used memory is watched, and requests are bounded, with a margin for the stacks of the driver's
+// threads, which request more than they use.
 static void bound_memory(const char *bytes)
 {
     memory_limit = (rlim_t)strtoull(bytes, NULL, 10);
@@ -183,7 +183,7 @@ static double processor_time_s(pid_t pid)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-// Starts this program anew. Where /proc is missing, by the path that started it.
+// Starts this program anew. If /proc is missing, by the path that started it.
 static void become_worker(const char *memory, const char *path)
 {
     execl("/proc/self/exe", "lambent", CHECK_WORKER, memory, (char *)NULL);
@@ -193,7 +193,7 @@ static void become_worker(const char *memory, const char *path)
 static bool start(struct child *child, const struct check_process *how, lam_error *error)
 {
     const char *path = (const char *)getauxval(AT_EXECFN);
-    char memory[32]; // written before the fork: other threads may hold any lock
+    char memory[32]; // written before the fork: other threads may have locked any lock
     snprintf(memory, sizeof memory, "%llu", (unsigned long long)how->memory_limit_bytes);
     int in[2] = {-1, -1}, out[2] = {-1, -1};
     *child = (struct child){-1, -1, -1};

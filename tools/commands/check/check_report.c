@@ -25,8 +25,7 @@ static void print_scenes(FILE *file, const lam_check_report *r, double tolerance
     for (int i = 0; i < r->scene_count; i++) {
         const lam_check_scene *s = &r->scenes[i];
         fprintf(file, "  %-12s %8.4f %8.5f %8.2f %%   %s%s%s", s->name, s->maximum, s->mean, s->share_over * 100,
-                s->passes ? "same" : "differs", s->looks_like ? ", looks like " : "",
-                s->looks_like ? s->looks_like : "");
+                check_scene_word(s), s->looks_like ? ", looks like " : "", s->looks_like ? s->looks_like : "");
         if (s->not_numbers)
             fprintf(file, ", %llu pixels are NaN or infinite", (unsigned long long)s->not_numbers);
         putc('\n', file);

@@ -9,7 +9,7 @@
 enum { INK = 0x222222, GREY = 0x777777, GOOD = 0x0a7d33, BAD = 0xb3261e, GAP = 12, HEAD = 96, SIDE = 196 };
 
 // Converts floats to bytes without an encoding, as a screen shows a shader's output. Clear pixels become white, so that
-// the model stands out.
+// the model is visible.
 static bool to_bytes(const lam_image *from, lam_image *bytes, lam_error *error)
 {
     if (!lam_image_make(bytes, from->width, from->height, LAM_RGBA8, error))
@@ -58,7 +58,7 @@ static void put_words(struct drawing *d, const lam_check_scene *s, int top)
 {
     char line[96];
     draw_text(d, (struct point){GAP, top + 20}, 18, ALIGN_LEFT, INK, s->name);
-    draw_text(d, (struct point){GAP, top + 42}, 14, ALIGN_LEFT, s->passes ? GOOD : BAD, s->passes ? "same" : "differs");
+    draw_text(d, (struct point){GAP, top + 42}, 14, ALIGN_LEFT, s->passes ? GOOD : BAD, check_scene_word(s));
     snprintf(line, sizeof line, "largest %.3f", s->maximum);
     draw_text(d, (struct point){GAP, top + 62}, 13, ALIGN_LEFT, GREY, line);
     snprintf(line, sizeof line, "mean %.4f", s->mean);

@@ -38,7 +38,7 @@ static bool read_pixel(const char *text, const struct options *o, int *x, int *y
                         text, o->picture.width / 2, o->picture.height / 2);
     if (*x >= o->picture.width || *y >= o->picture.height)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "explain: pixel %d,%d lies outside the picture of %dx%d pixels, expected 0,0 to %d,%d", *x, *y,
+                        "explain: pixel %d,%d is outside the picture of %dx%d pixels, expected 0,0 to %d,%d", *x, *y,
                         o->picture.width, o->picture.height, o->picture.width - 1, o->picture.height - 1);
     return true;
 }
@@ -54,7 +54,7 @@ static int report_job_failure(const struct job *job, lam_error *error)
 
 // --- the figure
 
-// Where the figure goes; NULL without an error: there is none. `*failed`: memory was out.
+// The target of the figure; NULL without an error: there is none. `*failed`: memory was out.
 static char *figure_path(const struct options *o, const char *model, bool *failed)
 {
     *failed = false;
@@ -120,7 +120,7 @@ static void print(const lam_explanation *explanation, const struct job *job)
         explain_text(explanation, job->model);
 }
 
-// Explains the pixel, prints it unless standard output is taken, and draws its figure where one is wanted.
+// Explains the pixel, prints it unless standard output is in use, and draws its figure if requested.
 static int explain(struct job *job, int x, int y, const char *figure)
 {
     lam_error error = {0};

@@ -100,8 +100,8 @@ static double distance_of(struct point p, const struct diagram *g, int arrow)
     return length_of((struct point){to.x - along * way.x, to.y - along * way.y});
 }
 
-// Finds a place for an arrow's letter around its tip, clear of the arrows and of the letters before it; the farthest that was
-// tried where none is.
+// Finds a position for an arrow's letter around its tip, clear of the arrows and of earlier letters; if none is free,
+// the farthest position tried.
 static struct point find_place(const struct diagram *g, int arrow, const struct point *letters, int count)
 {
     struct point way = minus(g->tips[arrow], g->from), at = g->tips[arrow];
@@ -160,8 +160,8 @@ static bool draw_arrow(const struct diagram *g, int arrow, struct drawing *d, la
            draw_line(d, line, 2, 2.6 * unit, color, 0, error) && draw_line(d, wings, 3, 2.6 * unit, color, 0, error);
 }
 
-// h lies over l in the picture, as v points at the reader, and is the shorter of the two: it is drawn after l. n comes next, and last
-// what points at the reader.
+// h covers l in the picture, because v points at the reader, and is the shorter one: it is drawn after l. n comes next,
+// and vectors towards the reader last.
 static bool draw_diagram(const struct diagram *g, struct drawing *d, lam_error *error)
 {
     static const int order[ARROWS] = {2, 3, 5, 1, 4, 0};
@@ -387,7 +387,7 @@ static bool put_terms(const lam_explanation *e, const struct subject *s, struct 
     return true;
 }
 
-// The head of the panel: the surface, the methods, and which light the arrows are those of.
+// The head of the panel: the surface, the methods, and the light that the arrows belong to.
 static void put_words(const struct explain_figure *f, const struct subject *s, struct drawing *d,
                       struct sheet_layout *at)
 {
@@ -470,7 +470,7 @@ static bool describe(const struct explain_figure *f, const struct subject *s, co
     return drawing_describe(d, title, text, error);
 }
 
-// Where nothing is lit: a ring around the pixel.
+// If nothing is lit: a ring around the pixel.
 static bool draw_ring(struct drawing *d, struct point middle, double unit, lam_error *error)
 {
     struct point round[33];

@@ -10,7 +10,7 @@ void explain_layers_over(char text[60], const lam_explained_layers *layers, floa
     snprintf(text, 60, "%s%s", layers->coat > 0 ? "(1 − share) · " : "", sheen_left < 1 ? "left · " : "");
 }
 
-// What the layers of the surface return of light 1 (docs/lighting/layers.md).
+// The light of light 1 that the layers of the surface reflect (docs/lighting/layers.md).
 void explain_light_layers(const lam_explained_light_layers *layers, const lam_explained_layers *all)
 {
     row_color(4, "base", layers->base, "F S");
@@ -22,7 +22,7 @@ void explain_light_layers(const lam_explained_light_layers *layers, const lam_ex
         row_number(4, "coat", (double)layers->coat, "share · S of the coat");
 }
 
-// The layers that hold for light from everywhere.
+// The layers for light from all directions.
 void explain_layers(const lam_explained_layers *layers)
 {
     printf("\n  layers\n");
@@ -34,14 +34,14 @@ void explain_layers(const lam_explained_layers *layers)
         row_color(4, "transmittance", layers->transmittance, "factor of the light behind the surface");
     if (layers->sheen_left < 1)
         row_number(4, "left", (double)layers->sheen_left,
-                   "1 − max(sheen_color) E(|n·v|): what the sheen leaves of the base");
+                   "1 − max(sheen_color) E(|n·v|): the light that the sheen leaves to the base");
     if (!is_zero(layers->coat_normal))
         row_vector(4, "n_c", layers->coat_normal, "the coat's normal");
     if (layers->coat > 0)
         row_number(4, "share", (double)layers->coat, "of the coat: clearcoat (0.04 + 0.96 (1 − |n_c·v|)⁵)");
 }
 
-// What the parts of the surface return of environment light; they add up to the term.
+// The environment light that each part of the surface reflects; their sum is the term.
 void explain_environment_parts(const lam_explained_point *p)
 {
     const lam_explained_layers *layers = p->layers;

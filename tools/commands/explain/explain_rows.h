@@ -17,9 +17,9 @@ static inline bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0
 // The matrices, and a triangle's corners and the point in each space (explain_places.c). Nothing of lines and points.
 void explain_places(const lam_explanation *explanation, const lam_explained_fragment *fragment);
 
-// The layers of a physical material (explain_layers.c): those that hold for light from everywhere; what they return of light
-// 1 from one direction; what each part of the surface returns of environment light.
-// `explain_layers_over` writes the factors of what lies over the base, "(1 − share) · left · ", of those that are there.
+// The layers of a physical material (explain_layers.c): the ones for light from all directions; the reflected light of
+// light 1 from one direction; the reflected environment light of each part of the surface. `explain_layers_over` writes
+// the factors of the layers over the base, "(1 − share) · left · ", of those present.
 void explain_layers(const lam_explained_layers *layers);
 void explain_layers_over(char text[60], const lam_explained_layers *layers, float sheen_left);
 void explain_light_layers(const lam_explained_light_layers *layers, const lam_explained_layers *all);

@@ -9,7 +9,7 @@
 #include "explain_rows.h"
 #include "explain_words.h"
 
-enum { FEW_LIGHTS = 16 }; // up to this number all lights are printed; of more, those that contribute
+enum { FEW_LIGHTS = 16 }; // up to this number all lights are printed; above it only contributing ones
 
 static void named(const char *name)
 {
@@ -60,7 +60,8 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
         return;
     if (model->microfacet) {
         if (!layers || f->surface.anisotropy == 0) {
-            row_number(4, "D(h)", (double)l->distribution, "how many mirrors face h: α² / (π (|n × h|² + (n·h)² α²)²)");
+            row_number(4, "D(h)", (double)l->distribution,
+                       "share of microfacets that face h: α² / (π (|n × h|² + (n·h)² α²)²)");
             row_number(4, "V", (double)l->visibility, "how many of them are in sight of light and eye");
         }
         row_color(4, "F", l->fresnel, "how much they reflect: f0 + (1 − f0) (1 − v·h)⁵");
@@ -197,7 +198,7 @@ static void print_hemisphere(const lam_explained_hemisphere *h, int number_in_li
     row_color(4, "ambient", h->term, "ka ⊙ mix(ground, sky, ½ + ½ n·up)");
 }
 
-// Prints all lights; of many, only those that contribute here.
+// Prints all lights; if there are many, only contributing ones.
 static void print_lights(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
 {
     int nothing = 0, left_out = 0;
@@ -466,7 +467,7 @@ static void print_fragment(const lam_explanation *e, const lam_explained_fragmen
     }
     lam_rgb c = {f->color.r, f->color.g, f->color.b};
     row_color(2, "colour", c,
-              f->ground == LAM_GROUND_SHADOW   ? "black: the ground holds what is taken away as its alpha"
+              f->ground == LAM_GROUND_SHADOW   ? "black: the ground stores the blocked light as its alpha"
               : f->point_count == 3            ? "c0 + weight1 · (c1 − c0) + weight2 · (c2 − c0), the corners' sums"
               : e->shading == LAM_SHADING_FLAT ? "the sum, constant over the triangle"
                                                : "the sum");
@@ -508,7 +509,7 @@ static void print_pixel(const lam_explanation *e)
     printf("%13.7g %13.7g %13.7g %13.7g\n", (double)e->background.r, (double)e->background.g, (double)e->background.b,
            (double)e->background.a);
     row_label(2, "over it");
-    printf("%13.7g %13.7g %13.7g %13.7g   %ssum + (1 − alpha) · background; .pfm holds this\n", (double)e->result.r,
+    printf("%13.7g %13.7g %13.7g %13.7g   %ssum + (1 − alpha) · background; .pfm stores this\n", (double)e->result.r,
            (double)e->result.g, (double)e->result.b, (double)e->result.a, e->exposure == 1 ? "" : "exposure · ");
     row_color(2, "colour ÷ alpha", e->straight, "");
     if (e->tone != LAM_TONE_NONE)

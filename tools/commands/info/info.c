@@ -1,4 +1,4 @@
-// info.c: the command `info`: prints what is in a model, without drawing it.
+// info.c: the command `info`: prints the contents of a model, without drawing it.
 #include "info.h"
 
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "report.h"
 #include "sandbox_start.h"
 
-// A file that requires what this version does not know is read without it.
+// A file that requires an unknown extension is read without it.
 static bool load(struct info *info, struct job *job, struct options *options, lam_error *error)
 {
     struct progress progress;
@@ -30,7 +30,7 @@ static bool load(struct info *info, struct job *job, struct options *options, la
     return ok;
 }
 
-// Finds what drawing takes, by drawing the depths once: lighting takes no more but for an environment's light.
+// Finds the memory for drawing, by drawing the depths once: lighting needs no more except for an environment's light.
 static void measure_drawing(struct info *info, const struct job *job)
 {
     lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = job->options->work.threads}, NULL);

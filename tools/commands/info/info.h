@@ -6,7 +6,7 @@
 
 #include "job.h"
 
-// A texture as materials read it, or a picture of the file that none reads.
+// A texture as materials read it, or an unused picture of the file.
 struct info_texture {
     const lam_texture *texture;  // NULL: no material reads the picture, or it could not be read
     const lam_file_image *image; // NULL: the file does not list its pictures
@@ -35,7 +35,7 @@ struct info {
 };
 enum { INFO_SIDE = 1024 };
 
-// The numbers of what is stored; a mesh that several objects show counts once.
+// The numbers of stored data; a mesh that several objects show counts once.
 struct info_counts {
     uint64_t parts, triangles, vertices;
 };
@@ -55,13 +55,13 @@ struct info_measure {
     double area;
     // Every edge belongs to as many triangles in one direction as in the other, so that the surface has an inside.
     bool closed;
-    double volume; // of what a closed surface encloses; objects that overlap count twice
+    double volume; // of the space inside closed surfaces; overlapping objects count twice
 };
 struct info_measure info_measure(const lam_scene *scene);
 
 const char *info_material_kind(const lam_material *material); // "metallic-roughness", "classic" or "unlit"
-// The numbers of a field that is not among those printed of every material, where they differ from the default, as scene
-// files write them. Returns how many there are; 0: it has its default.
+// The numbers of a field that is not printed for every material, if they differ from the default, as scene files write
+// them. Returns how many there are; 0: it has its default.
 int info_changed_field(const lam_field *field, const lam_material *material, double numbers[4]);
 const char *info_alpha_mode(const lam_material *material); // "opaque", "mask" or "blend"
 const char *info_support(lam_extension_support support);   // in words

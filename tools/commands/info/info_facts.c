@@ -1,4 +1,4 @@
-// info_facts.c: what both forms of the command `info` say of a model.
+// info_facts.c: the facts about a model that both forms of the command `info` print.
 #include "info.h"
 
 #include <string.h>

@@ -90,8 +90,7 @@ static bool read_timeout(struct batch_job *job, const json_t *root, const struct
 {
     const json_t *value = json_object_get(root, "timeout_s");
     double most = limits_time(base), seconds = json_number_value(value);
-    job->options.limits.time_limit_s =
-        most > 0 ? most : (double)INFINITY; // of the whole job, also where it is an animation
+    job->options.limits.time_limit_s = most > 0 ? most : (double)INFINITY; // of the whole job, also for an animation
     if (!value || json_is_null(value))
         return true;
     if (!json_is_number(value) || !(seconds > 0 && seconds <= 1e9) || (most > 0 && seconds > most))
@@ -141,7 +140,7 @@ static bool read_model(struct batch_job *job, const json_t *root, const struct b
     return batch_plan_add(&job->plan, model ? model : name ? name : "model", NULL, error);
 }
 
-// Where the pictures go: a name that the options get. In an answer they have names too, for their format.
+// The target of the pictures: a name that the options get. In an answer they have names too, for their format.
 static bool read_output(struct batch_job *job, const json_t *root, lam_error *error)
 {
     const char *output, *format;
@@ -158,7 +157,7 @@ static bool read_output(struct batch_job *job, const json_t *root, lam_error *er
     if (output)
         job->output = strdup(output);
     else if (format && (strlen(format) > 10 || strspn(format, "abcdefghijklmnopqrstuvwxyz") != strlen(format)))
-        return refuse(error, "format", "expected that of a picture, such as png");
+        return refuse(error, "format", "expected the format of a picture, such as png");
     else if (asprintf(&job->output, "{stem}%s%s.%s", o->batch.view_count > 1 ? "-{view}" : "",
                       o->batch.size_count > 1 ? "-{size}" : "", format ? format : "png") < 0)
         job->output = NULL;

@@ -1,4 +1,4 @@
-// batch_job.h: one job of --jobs: what a line asks for, with the options, the plan and the model that it is drawn by.
+// batch_job.h: one job of --jobs: the request of a line, with its options, plan and model.
 #ifndef BATCH_JOB_H
 #define BATCH_JOB_H
 
@@ -10,7 +10,7 @@
 struct batch_job {
     struct batch_job *next; // in a list of jobs
     json_t *id;             // a string or an integer
-    struct options options; // the worker's, with those of the job
+    struct options options; // the worker's, followed by the job's
     char **words;           // which the options point into
     int word_count;
     struct batch_plan plan; // of one model
@@ -18,7 +18,7 @@ struct batch_job {
     bool in_answer;         // the pictures' files are part of the answer
     char *output;           // that the options point to
     char *options_text;     // for keys; NULL: there are none
-    lam_cancel cancel;      // raised where it is cancelled
+    lam_cancel cancel;      // set to cancel it
     bool cancelled;         // it was
 };
 
@@ -33,8 +33,8 @@ struct batch_job_rules {
 // The kind of a line. REFUSED: it is not valid; `error` has the reason.
 enum batch_line { LINE_JOB, LINE_CANCEL, LINE_REFUSED };
 
-// Reads a line of JSON. *id: of the job, or of the one to be cancelled, also of a job that is refused; NULL: it has none. The
-// caller calls json_decref, and frees the job.
+// Reads a line of JSON. *id: of the job, or of the job to cancel, also for refused jobs; NULL: it has none. The caller
+// calls json_decref, and frees the job.
 enum batch_line batch_job_read(const char *line, size_t size, const struct batch_job_rules *rules,
                                struct batch_job **job, json_t **id, lam_error *error);
 

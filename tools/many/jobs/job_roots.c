@@ -1,7 +1,7 @@
 // job_roots.c: the folders that files of jobs may lie in.
 //
-// The kernel holds a worker to them too, where it has Landlock (sandbox_start.c): this check makes a sentence of it, and holds
-// without Landlock as long as nobody moves links about in these folders meanwhile.
+// With Landlock the kernel also restricts a worker to them (sandbox_start.c): this check makes the error message, and
+// protects without Landlock as long as nobody moves links in these folders meanwhile.
 #include "job_roots.h"
 
 #include <errno.h>
@@ -50,8 +50,8 @@ static bool is_below(const struct job_roots *roots, const char *real)
     return false;
 }
 
-// The real path of a path, or of the nearest folder above it that exists. NULL: there is none, or what is missing is more than
-// folders to be made: "..", or a link that leads nowhere.
+// The real path of a path, or of the nearest folder above it that exists. NULL: there is none, or more is missing than
+// folders to create: "..", or a link without a target.
 static char *resolve(const char *path, bool *exists)
 {
     char *real = realpath(path, NULL), *copy = real ? NULL : strdup(path);
@@ -90,6 +90,5 @@ bool job_roots_have(const struct job_roots *roots, const char *path, bool writes
     free(real);
     if (odd)
         return complain(error, code, "%.400s: cannot write: is not a regular file", path);
-    return below ||
-           complain(error, code, "%.400s: lies outside of the folders that jobs may reach (--allow-path)", path);
+    return below || complain(error, code, "%.400s: is outside the folders that jobs may access (--allow-path)", path);
 }

@@ -8,7 +8,7 @@
 
 enum { PIECE = 64 << 10, KEPT = 1 << 20 };
 
-// Room for another piece: what has been taken makes room first, and a large buffer is given back once it is empty.
+// Makes room for more bytes: consumed bytes are removed first, and a large buffer is freed once it is empty.
 static bool make_room(struct job_stream *s)
 {
     if (s->start) {

@@ -8,16 +8,17 @@
 
 struct job_stream {
     int file;
-    char *data; // what has been read, from `start` on
+    char *data; // the bytes read, from `start` on
     size_t start, end, capacity;
-    size_t searched; // from `start` on there is no line end in so many bytes
+    size_t searched; // from `start` on there is no line end in this many bytes
     size_t limit;    // bytes of a line
     uint64_t line;   // of the last line that was taken, from 1
     bool skips;      // the rest of a line that is too long
     bool ended;      // nothing more can be read
 };
 
-// Reads what is there, once; waits if nothing is. False: errno (ENOMEM: out of memory). An end is none of that.
+// Reads the available bytes, once; waits if there are none. False: errno (ENOMEM: out of memory). An end is none of
+// that.
 bool job_stream_read(struct job_stream *stream);
 
 // A line that is whole, without its end; at the end of the stream also one without an end. It lives until the next call of any

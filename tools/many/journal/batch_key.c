@@ -1,4 +1,4 @@
-// batch_key.c: what a picture depends on.
+// batch_key.c: the hash of everything that determines a picture.
 #include "batch_key.h"
 
 #include <errno.h>
@@ -15,7 +15,8 @@
 // Options outside of the groups of the picture that change it.
 static const char *const also[] = {"files-inside", "device", "gl-device", "texture-filter", NULL};
 
-// Options of those groups that do not; sides and sizes belong to each picture, and a look is what its options are.
+// Options of those groups without an influence; sides and sizes belong to each picture, and a look is replaced by its
+// options.
 static const char *const without[] = {"output", "save-scene", "size", "view", "durable", "look", NULL};
 
 static bool is_in(const char *const *names, const char *name)
@@ -87,8 +88,8 @@ static void print_value(FILE *out, const struct option *option, const struct opt
         fputs(o->values[option - option_table], out);
 }
 
-// The names and the hashes of the environment's files, which are read once and count for every model. How their folder is spelled does
-// not matter.
+// The names and the hashes of the environment's files, which are read once and apply to every model. How their folder
+// is spelled does not matter.
 static bool print_environment(FILE *out, const struct options *o, lam_error *error)
 {
     const char *paths[LAM_FACE_COUNT] = {o->shading.environment};
@@ -218,7 +219,7 @@ uint64_t batch_key(const struct batch_key_parts *p)
     xxh64_add_text(&hash, lam_version());
     xxh64_add_text(&hash, lam_build_info());
     xxh64_add_text(&hash, p->options);
-    // A scene file's own settings count where the command line has none: there it matters what was typed.
+    // A scene file's own settings apply if the command line has none, so it matters which options were typed.
     for (int i = 0; strcmp(p->format, "scene") == 0 && option_table[i].name; i++)
         if (p->parsed->given[i] && changes_picture(&option_table[i]))
             xxh64_add_text(&hash, option_table[i].name);

@@ -1,11 +1,12 @@
-// batch_key.h: what a picture depends on: the options with their defaults, the program's version, the contents of files.
+// batch_key.h: everything that determines a picture: the options with their defaults, the program's version, the
+// contents of files.
 #ifndef BATCH_KEY_H
 #define BATCH_KEY_H
 
 #include "options.h"
 
-// The options that a picture depends on, one `name=value` on each line, whether given or by default, without side and size;
-// files that they name stand with their hash. From malloc; NULL: see `error` (LAM_CANNOT_READ: such a file).
+// The options that determine a picture, one `name=value` per line, given or by default, without side and size; files
+// that they name appear with their hash. From malloc; NULL: see `error` (LAM_CANNOT_READ: such a file).
 char *batch_options_text(const struct options *options, lam_error *error);
 
 // The options of the command line that change the picture, as they are typed: "--size 256 --light 'eye=1/2/3'". Relative paths stay as
@@ -19,7 +20,7 @@ void batch_options_difference(const char *then, const char *now, char text[300])
 struct batch_key_parts {
     const char *options;          // batch_options_text
     const struct options *parsed; // the same, for scene files: which options were given
-    const char *model;            // counts where no file was read: a built-in shape
+    const char *model;            // used if no file was read: a built-in shape
     const char *format;           // of the model: lam_scene_format
     const char *picture;          // the ending of the picture's name
     int side, width, height;

@@ -223,7 +223,7 @@ static bool check_options(const char *path, const char *then, const char *option
                     path, difference);
 }
 
-// Takes up the journal that is there.
+// Continues the existing journal.
 static bool read_journal(struct journal *j, enum journal_way way, const char *options, lam_error *error)
 {
     size_t size;
@@ -242,7 +242,7 @@ static bool read_journal(struct journal *j, enum journal_way way, const char *op
     return ok;
 }
 
-// A journal that is there is kept under another name; another file is not touched.
+// An existing journal is kept under another name; other files do not change.
 static bool set_aside(const struct journal *j, lam_error *error)
 {
     char *before = NULL, head[64] = "";
@@ -275,8 +275,9 @@ static bool wait_for_lock(int file, double until_ms)
     return false;
 }
 
-// Only one run at a time writes a journal: the lock is that of FILE.running. The processes of a run that was killed hold it until they
-// have ended too, so this waits two seconds. If the other run removes the file at its end, the lock is of no use, and a new file is locked.
+// Only one run at a time writes a journal: FILE.running is locked. The processes of a killed run keep the lock until
+// they have ended too, so this waits two seconds. If the other run removes the file at its end, the lock is of no use,
+// and a new file is locked.
 static bool lock_running(struct journal *j, lam_error *error)
 {
     const double until_ms = clock_ms() + 2000;
@@ -307,7 +308,7 @@ static bool open_running(struct journal *j, lam_error *error)
     return true;
 }
 
-// The slots of this run take the place of those of the run before, which stay if this run cannot begin.
+// The slots of this run replace the previous run's, which remain if this run cannot begin.
 static bool take_over_running(struct journal *j, int slots, lam_error *error)
 {
     j->begun = ftruncate(j->running, 0) == 0 && ftruncate(j->running, (off_t)slots * SLOT) == 0;
@@ -330,7 +331,7 @@ struct journal *journal_open(const char *path, enum journal_way way, const struc
         j->file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
         ok = j->file >= 0 || complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno));
     }
-    // A torn line is ended, so that the next one stands alone.
+    // A truncated line is ended, so that the next line is complete.
     ok = ok && (!j->torn || write_all(j->file, "\n", 1) ||
                 complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno)));
     ok = ok && begin_run(j, run, error) && take_over_running(j, slots, error);
@@ -374,7 +375,7 @@ bool journal_add(struct journal *j, const json_t *record, lam_error *error)
     return ok;
 }
 
-// --- what is being drawn
+// --- models in progress
 
 // A slot of FILE.running.
 struct slot {
@@ -394,7 +395,7 @@ void journal_begin(struct journal *j, int slot, int process, const char *model)
     else
         length = 0;
     host_name(text.host);
-    // Where it cannot be written, a killed run is resumed without its models being drawn first.
+    // If it cannot be written, a killed run is resumed without drawing its models first.
     if (pwrite(j->running, &text, offsetof(struct slot, model) + length + 1, (off_t)slot * SLOT) < 0)
         return;
 }
@@ -410,7 +411,7 @@ void journal_each_running(const struct journal *j,
     }
 }
 
-// The line that ends a run. Where it cannot be written, the run counts for one that was killed at its very end.
+// The line that ends a run. If it cannot be written, the run looks like one that was killed at its very end.
 static void end_run(struct journal *j)
 {
     lam_error error;

@@ -1,8 +1,8 @@
 // journal.h: a file with one JSON line for each picture that is done or has failed.
 //
-// A line is appended by one write() after its picture is in place, so that a run may end anywhere: at worst the last line is
-// torn, which is seen by its missing end. Beside the journal lies FILE.running while a run goes on: which models are being
-// drawn, by which process. A run that was killed leaves it behind.
+// A line is appended by one write() after its picture is in place, so that a run may end anywhere: at worst the last
+// line is torn, which is seen by its missing end. During a run, FILE.running beside the journal lists the models in
+// progress and their processes. A run that was killed leaves it behind.
 #ifndef JOURNAL_H
 #define JOURNAL_H
 
@@ -12,8 +12,8 @@
 
 struct journal;
 
-// How a journal is opened. START: a journal that is there is kept as FILE.before. RESUME and SAME: it is read, and lines are
-// added to it; for RESUME its options must be these.
+// How a journal is opened. START: an existing journal is kept as FILE.before. RESUME and SAME: it is read, and lines
+// are added to it; for RESUME its options must be these.
 enum journal_way { JOURNAL_START, JOURNAL_RESUME, JOURNAL_SAME };
 
 // The contents of the line that begins a run.
@@ -21,7 +21,7 @@ struct journal_run {
     const char *options; // batch_options_text, and the names of the pictures
     const char *folder;  // that the pictures lie below, with its '/', as `output` of their lines begins
     const char *shard;   // "2/3"; NULL: there are no shards
-    size_t pictures;     // that the run will have, with those that are written already
+    size_t pictures;     // of the whole run, those already written included
 };
 
 // `slots`: the most models that are drawn at once. NULL: LAM_BAD_ARGUMENT (other options; in use by another run),
@@ -56,8 +56,8 @@ char *journal_read(const char *path, size_t *size);
 // NULL is fine.
 void journal_close(struct journal *journal, bool done, bool interrupted);
 
-// Text as JSON can hold it, from malloc: bytes that are not UTF-8 become U+FFFD and two hexadecimal digits. NULL: out of
-// memory.
+// Text as JSON can store it, from malloc: bytes that are not UTF-8 become U+FFFD and two hexadecimal digits. NULL: out
+// of memory.
 char *journal_text(const char *text);
 
 // The path that journal_text has made such a text of, from malloc. NULL: out of memory.

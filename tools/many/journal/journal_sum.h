@@ -1,4 +1,4 @@
-// journal_sum.h: several journals of one batch taken together: what is done, what failed, what is missing.
+// journal_sum.h: several journals of one batch together: finished, failed and missing pictures.
 #ifndef JOURNAL_SUM_H
 #define JOURNAL_SUM_H
 
@@ -43,7 +43,7 @@ struct journal_sum {
 // those before), LAM_LIMIT.
 bool journal_sum_add(struct journal_sum *sum, const char *path, lam_error *error);
 
-// Adds the journals in a folder: those of shards, in alphabetical order; where there are none, lambent.jsonl.
+// Adds the journals in a folder: the shards', in alphabetical order; if there are none, lambent.jsonl.
 bool journal_sum_add_folder(struct journal_sum *sum, const char *folder, lam_error *error);
 
 // The record of an entry; the caller calls json_decref. NULL: out of memory.

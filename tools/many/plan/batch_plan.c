@@ -48,9 +48,9 @@ static bool check_together(const struct options *o, lam_error *error)
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' goes by a journal, and '--journal none' has none",
                         wants);
     if (o->batch.resume && o->batch.skip_same)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "options '--resume' and '--skip-same' cannot be used together; --skip-same goes on after a "
-                        "killed run too");
+        return complain(
+            error, LAM_BAD_ARGUMENT,
+            "options '--resume' and '--skip-same' cannot be used together; --skip-same also continues a killed run");
     if (o->batch.shard_by == SHARD_BY_LIST && !o->batch.shard)
         return complain(error, LAM_BAD_ARGUMENT, "option '--shard-by' goes with --shard K/N");
     if (o->batch.size_count && option_given(o, "size"))

@@ -19,7 +19,7 @@ struct batch_plan {
     size_t count, capacity;
     struct job_view views[VIEWS_MAX * VIEWS_MAX]; // of each model
     int view_count;
-    char *pattern;            // of the names; NULL: that of the model
+    char *pattern;            // of the names; NULL: the model's
     struct batch_shard shard; // --shard
     bool by_list;             // --shard-by list: only the models of this shard are added
     size_t listed;            // models that came from lists

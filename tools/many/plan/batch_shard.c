@@ -1,8 +1,8 @@
-// batch_shard.c: which models are this process's, where several share the work.
+// batch_shard.c: selects this process's models, if several processes share the work.
 //
-// A model's shard follows from its name alone, so that shards need not speak to each other, and a model that is added moves no
-// other one. The environment's variables are read only with --shard auto, and only where they leave no doubt: a wrong guess
-// would leave models out, and nobody would notice.
+// A model's shard follows from its name alone, so that shards need not speak to each other, and a model that is added
+// moves no other one. The environment's variables are read only with --shard auto, and only if they are unambiguous: a
+// wrong guess would skip models, and nobody would notice.
 #include "batch_shard.h"
 
 #include <dirent.h>
@@ -57,7 +57,7 @@ static bool set_index(struct batch_shard *shard, const char *variable, long inde
     return true;
 }
 
-// A job array that is there as a whole: from 0 or 1 on, and without gaps. One that was submitted again for some of its tasks
+// A complete job array: from 0 or 1 on, and without gaps. One that was submitted again for some of its tasks
 // (--array=17,23) speaks of fewer tasks, and would deal out all models anew.
 static bool slurm_array(struct batch_shard *shard, lam_error *error)
 {
@@ -139,7 +139,7 @@ bool batch_shard_of(const char *text, struct batch_shard *shard, lam_error *erro
 
 // --- names
 
-// The part of a path below a folder; the path, where it does not lie there.
+// The part of a path below a folder; the whole path if it is elsewhere.
 static const char *below(const char *path, const char *root)
 {
     size_t length = root ? strlen(root) : 0;
@@ -181,7 +181,7 @@ int batch_shard_of_name(const char *name, int count)
     return (int)(xxh64_end(&hash) % (uint64_t)count) + 1;
 }
 
-// Where the ending of a path begins: ".jsonl"; its end, where there is none.
+// The position of a path's extension: ".jsonl"; its end if there is none.
 static const char *ending_of(const char *path)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
@@ -230,9 +230,8 @@ bool batch_shard_check_folder(const char *path, const struct batch_shard *shard,
         int count = ours ? batch_shard_count_of(found) : 0;
         if (count && count != shard->count)
             ok = complain(error, LAM_BAD_ARGUMENT,
-                          "option '--shard': %.200s%.200s is of a run with %d shards, and this one has %d; go on with "
-                          "%d, or move "
-                          "the journals away",
+                          "option '--shard': %.200s%.200s is of a run with %d shards, and this run has %d; continue "
+                          "with %d, or move the journals away",
                           slash ? folder : "", found, count, shard->count, count);
     }
     if (list)

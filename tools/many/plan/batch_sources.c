@@ -25,8 +25,8 @@ static bool is_below(const char *real, const char *folder)
     return below;
 }
 
-// Whether a link leads to a file that is neither below the folder that was given nor below one of --allow-path. One that leads
-// nowhere does not.
+// Whether a link leads to a file that is neither below the folder that was given nor below one of --allow-path. A
+// broken link does not.
 static bool leads_out(const struct batch_plan *plan, const char *path, const char *root)
 {
     const struct texts *allowed = &plan->options->limits.allow_paths;
@@ -38,7 +38,7 @@ static bool leads_out(const struct batch_plan *plan, const char *path, const cha
     return out;
 }
 
-// Adds a name whatever it stands for: pipes and links that lead nowhere are reported when they are read.
+// Adds a name without checking it: pipes and broken links are reported when they are read.
 static bool add_file(struct batch_plan *plan, const char *path, const char *root, bool is_link, lam_error *error)
 {
     struct stat target;

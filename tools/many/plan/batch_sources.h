@@ -8,7 +8,7 @@
 // LAM_CANNOT_READ, LAM_LIMIT.
 bool batch_add_operand(struct batch_plan *plan, const char *operand, lam_error *error);
 
-// Adds the models of a folder and of all below it. Errors: LAM_CANNOT_READ (also where it has none), LAM_LIMIT.
+// Adds the models of a folder and of all below it. Errors: LAM_CANNOT_READ (also if it has none), LAM_LIMIT.
 bool batch_add_folder(struct batch_plan *plan, const char *folder, lam_error *error);
 
 // The same, and a folder without models is no error.

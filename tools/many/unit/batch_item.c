@@ -1,4 +1,4 @@
-// batch_item.c: draws one model, and records what became of its pictures.
+// batch_item.c: draws one model, and records the results of its pictures.
 #include "batch_item.h"
 
 #include <errno.h>
@@ -258,7 +258,7 @@ struct reading {
     json_t *found; // by the use of the picture; NULL: it is written
 };
 
-// Prints and records what became of a picture.
+// Prints and records the result of a picture.
 static void finish_picture(struct reading *r, struct job *job, int view, bool ok, lam_error *error)
 {
     const struct options *o = r->item->options;

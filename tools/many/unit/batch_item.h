@@ -1,4 +1,4 @@
-// batch_item.h: draws one model: all of its pictures, with the messages and the records of what became of them.
+// batch_item.h: draws one model: all of its pictures, with their messages and records.
 #ifndef BATCH_ITEM_H
 #define BATCH_ITEM_H
 

@@ -1,4 +1,4 @@
-// batch_state.h: the state of a batch: what has become of each picture, and who is drawing.
+// batch_state.h: the state of a batch: the result of each picture, and the running workers.
 #ifndef BATCH_STATE_H
 #define BATCH_STATE_H
 
@@ -21,14 +21,14 @@ enum picture_outcome {
 
 struct batch_picture {
     uint8_t outcome;   // enum picture_outcome
-    uint8_t class;     // where it failed: its place in tally.classes
-    uint16_t attempts; // tries so far, those of earlier runs included
+    uint8_t class;     // if it failed: its index in tally.classes
+    uint16_t attempts; // tries so far, earlier runs included
 };
 
 struct batch_job;
 struct batch_jobs;
 
-// The task of a worker: a model of the batch's plan, or that of a job, which has a plan of its own.
+// The task of a worker: a model of the batch's plan, or of a job, which has its own plan.
 struct batch_task {
     const struct batch_plan *plan; // the options, the views and the names
     size_t model;                  // of the plan
@@ -55,7 +55,7 @@ struct batch {
     json_t **records;               // the same, for the page; NULL: it is not wanted
     bool *taken;                    // for each model: this pass has given it to a worker
     size_t next;                    // model that this pass looks at next
-    size_t read_from;               // where the thread that reads ahead goes on
+    size_t read_from;               // the position of the thread that reads ahead
     int drawing;                    // workers that are not done
     struct batch_tally tally;
     struct batch_texts texts;

@@ -1,4 +1,4 @@
-// batch_tell.c: what a batch prints.
+// batch_tell.c: the messages of a batch.
 #include "batch_tell.h"
 
 #include <stdio.h>

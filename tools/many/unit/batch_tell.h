@@ -1,4 +1,4 @@
-// batch_tell.h: what a batch prints: messages in the order of the models, a line of progress, a summary.
+// batch_tell.h: the messages of a batch, in the order of the models, a line of progress, a summary.
 #ifndef BATCH_TELL_H
 #define BATCH_TELL_H
 
@@ -18,7 +18,7 @@ struct batch_tally {
         const char *name;
         size_t count;
     } classes[TALLY_CLASSES]; // of the failed ones
-    size_t retried;           // of `failed`, those that will be tried again
+    size_t retried;           // of `failed`, those to be retried
     double start_ms;
     bool has_progress; // on the terminal
     double drawn_ms;   // when the line of progress was last drawn
@@ -47,7 +47,7 @@ struct batch_texts {
     size_t count, next;
 };
 
-// Takes over a model's messages, and prints those that are due. `ok`: all of its pictures are written.
+// Takes over a model's messages, and prints the messages that are due. `ok`: all of its pictures are written.
 void batch_print(struct batch_texts *texts, size_t model, char *out, char *err, bool ok, struct batch_tally *tally);
 // Prints the rest, and frees the list.
 void batch_print_rest(struct batch_texts *texts, struct batch_tally *tally);

@@ -58,7 +58,7 @@ void batch_unit_free(struct batch_unit *u)
     *u = (struct batch_unit){0};
 }
 
-// --- what the journal says
+// --- decisions by the journal
 
 static const char *text_of(const json_t *record, const char *key)
 {
@@ -66,7 +66,7 @@ static const char *text_of(const json_t *record, const char *key)
     return text ? text : "";
 }
 
-// Whether the picture is there, with the hash that the journal has.
+// Whether the picture exists, with the journal's hash.
 static bool is_untouched(const json_t *record, const char *output)
 {
     uint64_t hash, recorded;

@@ -1,4 +1,4 @@
-// batch_unit.h: the work on one model of a batch: which of its pictures are to be drawn, the drawing, and what came of it.
+// batch_unit.h: the work on one model of a batch: selects the pictures to draw, draws them, and records the results.
 #ifndef BATCH_UNIT_H
 #define BATCH_UNIT_H
 
@@ -24,8 +24,7 @@ bool batch_unit_start(struct batch_unit *unit, const struct batch *batch, const 
                       lam_error *error);
 void batch_unit_free(struct batch_unit *unit);
 
-// Finds out what the journal makes of open pictures: those that --resume and --skip-same leave as they are. True: some are
-// to be drawn. Any thread may call it.
+// Finds the open pictures that --resume and --skip-same skip. True: some remain to draw. Any thread may call it.
 bool batch_unit_look(struct batch_unit *unit, const struct batch *batch);
 
 // Draws the open pictures. `cancel` stops it; NULL: Ctrl-C does. `capture`: messages are kept; else they are printed at once, and

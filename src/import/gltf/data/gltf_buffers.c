@@ -42,7 +42,7 @@ static bool read_buffer(struct gltf *gltf, int index)
     }
     if (size < length)
         return json_fail(&gltf->json, KEY_OF(place, "byteLength"), "found %zu, but %s only %zu bytes", length,
-                         uri ? "its data are" : "the binary chunk holds", size);
+                         uri ? "its data are" : "the binary chunk contains", size);
     buffer->data = data;
     buffer->size = length;
     return true;

@@ -78,7 +78,7 @@ static bool take(struct gltf *gltf, const struct place *place, const json_t *obj
     return check(gltf, place, c);
 }
 
-// Opens the library and finds the functions for a view; gltf->meshopt stays NULL where it is not installed.
+// Loads the library and finds the functions for a view; gltf->meshopt stays NULL if it is not installed.
 static bool find_functions(struct gltf *gltf, const struct compressed *c, decode_fn **decode, filter_fn **filter)
 {
     static const char *const names[] = {"libmeshoptimizer.so.2d", "libmeshoptimizer.so.2", "libmeshoptimizer.so"};

@@ -9,7 +9,7 @@
 bool gltf_meshopt_decode(struct gltf *gltf, const struct place *place, const json_t *view, struct gltf_view *out,
                          bool *done);
 
-// Whether a buffer only stands for bytes that every view of it has compressed elsewhere.
+// Whether a buffer is only a placeholder for bytes that every view of it has compressed elsewhere.
 bool gltf_meshopt_is_fallback(const json_t *buffer);
 
 #endif

@@ -204,7 +204,7 @@ const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gl
     if (a->floats[1])
         return a->floats[1];
     if (!a->floats[0] || (keep && !own_bytes)) {
-        // The bytes of the file are this load's own, and may be cleaned where they are.
+        // The bytes of the file belong to this load, and may be cleaned in place.
         float *floats =
             own_bytes ? (float *)(uintptr_t)a->data : convert_all(gltf, a, keep ? &gltf->scene->arena : gltf->scratch);
         if (!floats || !check_finite(gltf, place, a, floats, flags & GLTF_REQUIRED))
@@ -359,7 +359,7 @@ bool gltf_colors(struct gltf *gltf, const struct place *place, struct gltf_acces
         out->items = a->colors[opaque] = a->data;
         return true;
     }
-    // Floats of four channels are cleaned where they are.
+    // Floats of four channels are cleaned in place.
     coloring.out = bytes || opaque ? arena_array(&gltf->scene->arena, a->count, bytes ? 4 : 4 * sizeof(float))
                                    : (float *)(uintptr_t)coloring.floats;
     if (!coloring.out)

@@ -4,8 +4,9 @@
 
 #include "gltf.h"
 
-// The numbers as floats, `width` for each element one after the other: the file's own bytes where they already are
-// that, else converted; kept for the next call. Normalised integers become −1…1 or 0…1 (section 3.6.2.2). NULL: an error.
+// The numbers as floats, `width` for each element one after the other: the file's own bytes if they have this layout,
+// otherwise converted; kept for the next call. Normalised integers become −1…1 or 0…1 (section 3.6.2.2). NULL: an
+// error.
 enum {
     GLTF_KEEP = 1,     // the array lives as long as the scene, not only until the load ends
     GLTF_REQUIRED = 2, // a number that is not finite is an error at `place`; else it becomes 0 with a warning

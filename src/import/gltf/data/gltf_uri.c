@@ -28,7 +28,7 @@ void gltf_uri_unescape(const char *uri, char *out)
 {
     while (*uri) {
         int byte = escaped(uri);
-        *out++ = byte > 0 ? (char)byte : *uri; // %00 stays as it is: no name holds a zero
+        *out++ = byte > 0 ? (char)byte : *uri; // %00 is kept: no name contains a zero
         uri += byte > 0 ? 3 : 1;
     }
     *out = 0;

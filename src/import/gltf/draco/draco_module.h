@@ -15,8 +15,8 @@ enum { DRACO_MODULE_VERSION = 2 };
 
 enum { DRACO_REASON_SIZE = 160 };
 
-// The memory that decoding may take. A file of some kilobytes can name thousands of attributes for each of thousands of vertices:
-// what a header says bounds nothing.
+// The memory that decoding may take. A file of some kilobytes can name thousands of attributes for each of thousands of
+// vertices, so a header bounds nothing.
 struct draco_memory {
     size_t granted; // bytes
     // Asks for more; 0: there is no more, and decoding ends as where memory has run out. It adds what it grants to `granted`.
@@ -26,8 +26,8 @@ struct draco_memory {
 
 struct draco_functions {
     int version;
-    // Decodes a mesh: 1 and *mesh, with its numbers of vertices and triangles; 0: the bytes are damaged, and `reason` says why;
-    // −1: out of memory, or of what was granted.
+    // Decodes a mesh: 1 and *mesh, with its numbers of vertices and triangles; 0: the bytes are damaged, and `reason`
+    // says why; −1: out of memory, or of the granted memory.
     int (*decode)(const uint8_t *bytes, size_t size, struct draco_memory *memory, void **mesh, uint32_t *vertices,
                   uint32_t *triangles, char reason[DRACO_REASON_SIZE]);
     // Writes the attribute of this unique id, `width` numbers of a glTF component type for each vertex, without gaps. Results as
@@ -39,7 +39,7 @@ struct draco_functions {
     void (*free)(void *mesh);
 };
 
-// The only symbol of the shared object, besides C++'s operators new and delete, by which it counts what Draco takes.
+// The only symbol of the shared object, besides C++'s operators new and delete, with which it counts Draco's memory.
 const struct draco_functions *lambent_draco_functions(void);
 
 #ifdef __cplusplus

@@ -61,8 +61,7 @@ bool gltf_take_layers(struct gltf *gltf, const struct place *place, const json_t
         return false;
     if (material->transmission > 0 && !gltf->transmits)
         scene_warn(gltf->scene,
-                   "%s: materials[%d]: what lies behind a surface that transmits is seen straight through it, neither "
-                   "bent nor blurred",
+                   "%s: materials[%d]: light passes straight through a transmitting surface, neither bent nor blurred",
                    gltf->source->name, index);
     gltf->transmits |= material->transmission > 0;
     return true;

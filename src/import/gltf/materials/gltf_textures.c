@@ -20,7 +20,7 @@ struct gltf_picture {
     lam_texture_values values;
     const uint8_t *data;
     size_t size;
-    struct file_bytes file; // the owner of `data`, where it is not a buffer
+    struct file_bytes file; // the owner of `data`, unless it is a buffer
     const char *name;       // for messages
     struct lam_texture *texture;
     lam_error error;
@@ -100,7 +100,8 @@ static bool take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
 
 // --- pictures
 
-// The image of a texture: that of EXT_texture_webp if WebP can be decoded here, else its own, the fallback. −1: an error.
+// The image of a texture: EXT_texture_webp's if WebP can be decoded here, otherwise its own, the fallback. −1: an
+// error.
 static int image_of(struct gltf *gltf, int texture)
 {
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "textures"), (size_t)texture);
@@ -115,8 +116,7 @@ static int image_of(struct gltf *gltf, int texture)
         image = webp_image;
     if (image < 0 && gltf_extension(object, "KHR_texture_basisu"))
         fail(gltf->json.error, LAM_UNSUPPORTED,
-             "%s: textures[%d]: its picture is KTX 2 alone (KHR_texture_basisu), which this version cannot decode, and "
-             "it has no other",
+             "%s: textures[%d]: its only picture is KTX 2 (KHR_texture_basisu), which this version cannot decode",
              gltf->source->name, texture);
     else if (image < 0)
         json_fail(&gltf->json, place, "source is missing");
@@ -269,7 +269,7 @@ static void decode_picture(void *user, size_t index, int thread)
         texture_decode(picture->data, picture->size, picture->name, picture->values, decoding->call, &picture->error);
 }
 
-// Whether a load goes on without a picture that could not be read.
+// Whether a load continues without a picture that could not be read.
 static bool can_do_without(const lam_error *error)
 {
     return error->code == LAM_CANNOT_READ || error->code == LAM_UNSUPPORTED || error->code == LAM_BAD_ARGUMENT;

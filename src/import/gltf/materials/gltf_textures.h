@@ -6,8 +6,8 @@
 
 bool gltf_textures_start(struct gltf *gltf);
 
-// A map of a material, as its textureInfo under `key` says. `material` has its number in the file's list. Without the key
-// `material->maps[slot]` stays as it is. *present (may be NULL): whether the key is there.
+// A map of a material, as its textureInfo under `key` says. `material` has its number in the file's list. Without the
+// key `material->maps[slot]` stays as it is. *present (may be NULL): whether the key is present.
 struct gltf_map_request {
     int material;
     lam_map slot;

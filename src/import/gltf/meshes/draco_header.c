@@ -1,6 +1,6 @@
-// draco_header.c: what a mesh compressed by Draco claims to hold.
-// https://google.github.io/draco/spec/ (version 2.2), sections "Draco Header", "Metadata", "Sequential Connectivity
-// Decode" and "EdgeBreaker Decode"; older versions as Draco's decoder reads them.
+// draco_header.c: the claims of a mesh compressed by Draco. https://google.github.io/draco/spec/ (version 2.2),
+// sections "Draco Header", "Metadata", "Sequential Connectivity Decode" and "EdgeBreaker Decode"; older versions as
+// Draco's decoder reads them.
 #include "draco_header.h"
 
 #include <string.h>

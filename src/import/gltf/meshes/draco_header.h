@@ -1,4 +1,4 @@
-// draco_header.h: what a mesh compressed by Draco claims to hold, read before its decoder takes memory for it.
+// draco_header.h: the claims of a mesh compressed by Draco, read before its decoder allocates memory for it.
 #ifndef DRACO_HEADER_H
 #define DRACO_HEADER_H
 
@@ -14,8 +14,8 @@ struct draco_claim {
 // False: the header of a mesh cannot be read, nor could the decoder read it.
 bool draco_header_read(const uint8_t *bytes, size_t size, struct draco_claim *out);
 
-// The memory that the decoder takes for a claim, at most: its tables of corners and edges, and the attributes in the form
-// of the file and in that of the mesh.
+// The largest memory of the decoder for a claim: its tables of corners and edges, and the attributes in the form of the
+// file and of the mesh.
 uint64_t draco_claim_bytes(const struct draco_claim *claim);
 
 #endif

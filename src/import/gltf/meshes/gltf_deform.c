@@ -145,7 +145,7 @@ static bool fail_joint(const struct skinning *s, int set, size_t vertex, size_t 
                      vertex, joint, s->skin->count);
 }
 
-// The joints' matrices, weighted. Weights are made to add up to 1; where all are 0 the first joint has all.
+// The joints' matrices, weighted. Weights are normalized to a sum of 1; if all are 0 the first joint gets all.
 static bool blend(const struct skinning *s, size_t vertex, lam_mat4 *out, lam_error *error)
 {
     double sum = 0;

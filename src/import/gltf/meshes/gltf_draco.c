@@ -18,7 +18,7 @@
 
 #define NAME "KHR_draco_mesh_compression"
 
-// Opens the module; *functions stays NULL where it or Draco's library is missing.
+// Loads the module; *functions stays NULL if it or Draco's library is missing.
 static void find_functions(struct gltf *gltf, const struct draco_functions **functions)
 {
     const struct draco_functions *(*get)(void) = NULL;
@@ -123,7 +123,7 @@ static bool decode_indices(const struct decoding *d, const struct place *primiti
         (accessor->component != GLTF_U8 && accessor->component != GLTF_U16 && accessor->component != GLTF_U32))
         return true; // gltf_indices reports it
     if (strip)
-        accessor->count = count; // that of a strip; decoded are triangles
+        accessor->count = count; // a strip's; decoded are triangles
     if (accessor->count != count)
         return json_fail(&gltf->json, here, "the compressed mesh has %zu corners, expected %zu, the accessor's count",
                          count, accessor->count);
@@ -135,8 +135,8 @@ static bool decode_indices(const struct decoding *d, const struct place *primiti
     size_t size = gltf_component_size(accessor->component);
     for (size_t i = 0; i < count; i++) {
         if (size < 4 && corners[i] >> (8 * size))
-            return json_fail(&gltf->json, here, "number %zu of the compressed mesh is %u, which its type cannot hold",
-                             i, corners[i]);
+            return json_fail(&gltf->json, here, "number %zu of the compressed mesh is %u, which exceeds its type", i,
+                             corners[i]);
         memcpy(elements + i * size, &corners[i], size); // little-endian, as glTF's buffers are
     }
     keep(d, accessor, elements);
@@ -161,7 +161,7 @@ static bool has_plain_bytes(struct gltf *gltf, const json_t *primitive)
     return there && json_object_get(gltf_list_item(gltf, "accessors", (int)number), "bufferView");
 }
 
-// Accounts for what the decoder is going to take, which is Draco's own.
+// Accounts for the decoder's memory, which Draco allocates itself.
 static bool charge_claim(const struct decoding *d, const struct gltf_view *view, size_t *charged)
 {
     struct gltf *gltf = d->gltf;
@@ -182,7 +182,8 @@ static bool charge_claim(const struct decoding *d, const struct gltf_view *view,
     return true;
 }
 
-// Memory that decoding may take beyond what the file claims. It is granted a megabyte at a time, which is when a long decoding can be ended.
+// Memory that decoding may use beyond the file's claims. It is granted a megabyte at a time, which is when a long
+// decoding can be ended.
 struct grants {
     struct call_control *call;
     size_t refused;

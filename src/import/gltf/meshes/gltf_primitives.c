@@ -100,7 +100,7 @@ static bool take_colors(struct gltf *gltf, const struct place *place, const json
     return true;
 }
 
-// A set of texture coordinates that the material reads; the first set where it reads none.
+// A set of texture coordinates that the material reads; the first set if it reads none.
 static bool take_texcoords(struct gltf *gltf, const struct place *place, const json_t *attributes, int which,
                            lam_mesh *mesh)
 {

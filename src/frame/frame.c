@@ -457,7 +457,9 @@ static void leave_normals(struct frame *frame)
 static void set_glass(struct frame *frame, const lam_mat4 *pixel)
 {
     static const lam_rgba white = {1, 1, 1, 1};
-    const lam_rgba *back = frame->settings.background.a > 0 ? &frame->settings.background : &white;
+    bool clear =
+        frame->settings.background.a <= 0 && output_is_picture(frame->settings.output); // a term has none of it
+    const lam_rgba *back = clear ? &white : &frame->settings.background;
     for (int c = 0; c < 3; c++)
         frame->glass_background[c] = (&back->r)[c] * back->a / frame->exposure;
     frame->glass_background[3] = back->a;

@@ -131,7 +131,7 @@ struct frame {
     bool refracts;          // and one is rough or thick: it blurs and bends what is behind it (src/cpu/shade/behind.h)
     bool makes_normals;     // a draw has a crease_rad, and the output needs its normals
     // What transmitting layers are in front of if no surface is behind them: colour times alpha over the exposure, and alpha.
-    // White if the background is transparent: the colour of glass is then that over white, the alpha 1 − its smallest channel.
+    // White if the background is transparent and the output the picture: the colour of glass is then that over white, the alpha 1 − its smallest channel.
     float glass_background[4];
     float eye_pixel[3][4]; // eye space to pixels: rows X·w, Y·w, w
     // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.

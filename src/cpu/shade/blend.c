@@ -271,7 +271,7 @@ static __attribute__((noinline)) void blend_tinted_pixel(const struct fragments 
             add_behind(&l, sums->behind, p);
         float least = l.left[0] < l.left[1] ? l.left[0] : l.left[1];
         least = least < l.left[2] ? least : l.left[2];
-        bool open = refracts || ids[s] == NOTHING;
+        bool open = (refracts || ids[s] == NOTHING) && sums->background[3] > 0;
         for (int c = 0; c < 3; c++) {
             float whole = l.sum[c] + (open ? (l.left[c] - least) * sums->background[c] : 0);
             sums->sum[c][pixel] += whole * share;

@@ -303,7 +303,7 @@ typedef struct lam_explanation {
     // A part of `sum`: the light that the pixel's glass lets through from the picture behind it, where rough or thick glass shows that
     // blurred or bent, and the colour that it gives to the background. No fragment has it.
     lam_rgb behind;
-    LAM_RESERVED(1);
+    LAM_RESERVED(2);
 } lam_explanation;
 
 // Draws the part of the picture around pixel (x, y), counted from the upper left corner, and records every number of

@@ -114,8 +114,9 @@ bool layers_leaning(struct demo *d, lam_error *error)
     return ok && lam_scene_add_light(d->scene, &light, error) >= 0;
 }
 
-// Coloured glass in front of a white box and of one another, over a background; the last ball is tinted by its volume.
-bool layers_transmission(struct demo *d, lam_error *error)
+// Coloured glass in front of a white box and of one another, over a background; the last ball is tinted by its volume. `refracts`: the
+// first is rough, the second thick, the last both; else light goes straight through.
+static bool glass_balls(struct demo *d, bool refracts, lam_error *error)
 {
     static const lam_rgba colors[3] = {{1, 0.8f, 0.1f, 1}, {0.2f, 0.9f, 0.4f, 1}, {0.9f, 0.9f, 0.9f, 1}};
     lam_shape_params params = {.slices = 32, .stacks = 24};
@@ -129,12 +130,13 @@ bool layers_transmission(struct demo *d, lam_error *error)
     o.transform.m[2][3] = -1.5;
     bool ok = ball >= 0 && o.mesh >= 0 && o.material >= 0 && lam_scene_add_object(d->scene, &o, error) >= 0;
     for (int i = 0; ok && i < 3; i++) {
-        lam_material m = base_material(0, 0.4f);
+        lam_material m = base_material(0, i == 2 || (i == 0 && refracts) ? 0.4f : 0);
         m.diffuse = colors[i];
         m.alpha_mode = LAM_ALPHA_OPAQUE;
+        m.ior = i == 2 && !refracts ? 1 : 1.5f;
         m.transmission = i == 1 ? 0.6f : 1;
-        m.thickness = i == 2 ? 0.8f : 0;
-        m.attenuation_distance = 0.5f;
+        m.thickness = i == 2 ? 0.8f : i == 1 && refracts ? 1.5f : 0;
+        m.attenuation_distance = i == 2 ? 0.5f : 0;
         m.attenuation_color = (lam_rgb){0.9f, 0.3f, 0.5f};
         m.clearcoat = i == 0 ? 0.5f : 0;
         m.clearcoat_roughness = 0.3f;
@@ -143,8 +145,12 @@ bool layers_transmission(struct demo *d, lam_error *error)
         o.material = lam_scene_add_material(d->scene, &m, error);
         o.transform.m[0][3] = 1.5 * (i - 1);
         o.transform.m[2][3] = 0.4 * i;
+        o.cull = refracts ? LAM_CULL_BACK : LAM_CULL_NONE;
         ok = o.material >= 0 && lam_scene_add_object(d->scene, &o, error) >= 0;
     }
     d->params.background = (lam_rgba){0.5f, 0.6f, 0.9f, 1};
     return ok && textured_light_up(d, error);
 }
+
+bool layers_transmission(struct demo *d, lam_error *error) { return glass_balls(d, false, error); }
+bool layers_refraction(struct demo *d, lam_error *error) { return glass_balls(d, true, error); }

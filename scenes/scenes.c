@@ -726,6 +726,8 @@ const struct demo_row demos[] = {
      layers_leaning},
     {"layers-transmission", "coloured glass over a box, a background and other glass; a volume that tints",
      layers_transmission},
+    {"layers-refraction", "rough, thick and tinted glass over the same: blurred, bent; seen through one another",
+     layers_refraction},
     {"textured-layers-environment", "every map of the layers in a studio, lit at the vertices",
      layers_mapped_environment},
     {"textured-layers", "a coat of bricks over a smooth ball, a brushed ring under a film: every map of the layers",

@@ -19,6 +19,7 @@ bool layers_environment(struct demo *d, lam_error *error);
 bool layers_mapped_environment(struct demo *d, lam_error *error);
 bool layers_leaning(struct demo *d, lam_error *error);
 bool layers_transmission(struct demo *d, lam_error *error);
+bool layers_refraction(struct demo *d, lam_error *error);
 
 // Sets the built-in environment `name`, turned about y.
 bool textured_surround(struct demo *d, const char *name, double rotation_rad, lam_error *error);

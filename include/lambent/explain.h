@@ -110,7 +110,9 @@ typedef struct lam_explained_layers {
     float coat_level;         // of the prefiltered environment, for the coat's roughness
     float coat_albedo;        // scale + bias of the coat's lobe
     lam_rgb coat_prefiltered; // around the mirror image of v about n_c
-    LAM_RESERVED(8);
+    // How rough or thick glass shows the picture behind it: moved by so many pixels to the right and down, and blurred over so many.
+    float behind_x, behind_y, behind_blur;
+    LAM_RESERVED(6);
 } lam_explained_layers;
 
 // A point that was lit: the fragment itself (Phong), a corner (Gouraud), or the last corner (flat).
@@ -285,7 +287,7 @@ typedef struct lam_explanation {
     const lam_explained_fragment *fragments;
     int fragment_count; // of `fragments`; 0: the background alone
 
-    lam_rgba sum;        // Σ weight · alpha · color, and Σ weight · alpha
+    lam_rgba sum;        // Σ weight · alpha · color + behind, and Σ weight · alpha
     double stops;        // lam_draw_params.exposure
     float exposure;      // 2^stops
     lam_rgba background; // not premultiplied
@@ -302,7 +304,10 @@ typedef struct lam_explanation {
     // The point, directional and spot lights in the order of each point's, as they were given: with their cones.
     const lam_light *lights;
     int light_count; // of `lights`
-    LAM_RESERVED(3);
+    // A part of `sum`: the light that the pixel's glass lets through from the picture behind it, where rough or thick glass shows that
+    // blurred or bent, and the colour that it gives to the background. No fragment has it.
+    lam_rgb behind;
+    LAM_RESERVED(2);
 } lam_explanation;
 
 // Draws the part of the picture around pixel (x, y), counted from the upper left corner, and records every number of

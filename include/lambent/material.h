@@ -166,8 +166,9 @@ typedef struct lam_material {
     float iridescence_ior;           // of the film, ≥ 0; less than 1 is taken as 1; default 1.3
     float iridescence_thickness_min; // nanometres, where the map is 0; default 100
     float iridescence_thickness_max; // where the map is 1, and without a map; default 400
-    // The share of the light that enters the dielectric and continues behind it, coloured by the base colour, instead
-    // of leaving on the side where it came in (KHR_materials_transmission). Nothing is bent or blurred.
+    // The share of the light that enters the dielectric and continues behind it, coloured by the base colour, instead of
+    // leaving on the side where it came in (KHR_materials_transmission). A roughness blurs what is behind the surface, a
+    // thickness bends it.
     float transmission; // 0..1; default 0
     // The volume behind the surface (KHR_materials_volume): of white light, attenuation_color is left after
     // attenuation_distance.

@@ -1,6 +1,7 @@
 // cpu_device.c: the software device, and the order of a frame's steps.
 #include "device_type.h"
 
+#include "behind.h"
 #include "cpu_frame.h"
 #include "environment_lamp.h"
 #include "fail.h"
@@ -82,6 +83,40 @@ static void tile_task(void *user, size_t index, int thread)
     draw_tile(cpu, index, thread);
     if (thread == 0)
         call_progress(cpu->call, (double)index / (double)tile_count(cpu), "frame");
+}
+
+static void behind_task(void *user, size_t index, int thread)
+{
+    struct cpu_frame *cpu = user;
+    struct thread_state *state = &cpu->threads[thread];
+    uint64_t covered = state->pixels_covered;
+    state->layers.glass = false;
+    if (work_continues(&cpu->work))
+        draw_tile(cpu, index, thread);
+    cpu->target.behind->glass[index] = state->layers.glass;
+    if (state->layers.glass) // its pixels are counted when it is drawn with them
+        state->pixels_covered = covered;
+}
+
+// Draws the picture behind rough and thick glass, which the tiles of the frame then read: what glass shows of it may lie in any
+// tile.
+static bool draw_behind(struct cpu_frame *cpu, struct behind *behind, struct buffer *memory, lam_error *error)
+{
+    const lam_image *image = cpu->target.image;
+    struct recorder *recorder = cpu->shade.recorder;
+    if (!behind_make(behind, memory, image->width, image->height, tile_count(cpu), cpu->call, error))
+        return false;
+    cpu->shade.recorder = NULL;
+    cpu->raster.without_glass = true;
+    cpu->target.behind = behind;
+    pool_run(cpu->pool, tile_count(cpu), behind_task, cpu);
+    cpu->shade.recorder = recorder;
+    cpu->raster.without_glass = false;
+    cpu->target.behind = NULL;
+    for (int i = 0; i < cpu->raster.thread_count; i++)
+        cpu->threads[i].sums.behind = behind;
+    behind_fill(behind);
+    return true;
 }
 
 // Draws the one tile with the explained pixel once more; its values are recorded.
@@ -229,6 +264,9 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
         base->report.occlusion_ms = milliseconds_since(&clock);
         ok = step_done(&cpu, error);
     }
+    struct behind behind;
+    if (ok && frame->refracts)
+        ok = draw_behind(&cpu, &behind, &device->memory.behind, error) && step_done(&cpu, error);
     if (ok && base->recorder)
         record_tile(&cpu, base->recorder);
     else if (ok)

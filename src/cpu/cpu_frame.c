@@ -75,7 +75,8 @@ static void lay_out_thread(struct suballocator *from, struct thread_state *threa
     if (frame->settings.output == LAM_OUTPUT_CLIPPED)
         ARRAY(thread->sums.unclipped, TILE * TILE * 4);
     for (int c = 0; c < 3; c++)
-        thread->fragments.through[c] = thread->sums.tint[c] = NULL;
+        thread->fragments.through[c] = thread->fragments.bend[c] = thread->sums.tint[c] = NULL;
+    thread->sums.behind = NULL;
     if (!frame->translucent)
         return;
     ARRAY(thread->layers.samples, LAYERS_MAX);
@@ -87,10 +88,10 @@ static void lay_out_thread(struct suballocator *from, struct thread_state *threa
     for (int c = 0; frame->transmits && c < 3; c++) {
         ARRAY(thread->fragments.through[c], fragments);
         ARRAY(thread->sums.tint[c], samples);
-        thread->sums.background[c] =
-            (&frame->settings.background.r)[c] * frame->settings.background.a / frame->exposure;
     }
-    thread->sums.background[3] = frame->settings.background.a;
+    for (int c = 0; frame->refracts && c < 3; c++)
+        ARRAY(thread->fragments.bend[c], fragments);
+    thread->sums.background = frame->glass_background;
 }
 
 static bool set_up_thread(struct thread_state *thread, const struct cpu_frame *cpu, lam_error *error)
@@ -235,7 +236,7 @@ bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_er
 uint64_t frame_memory_bytes(const struct frame_memory *memory)
 {
     return memory->vertices.capacity + memory->pieces.capacity + memory->products.capacity + memory->lights.capacity +
-           memory->bins.capacity + memory->reference.capacity + memory->occlusion.capacity;
+           memory->bins.capacity + memory->reference.capacity + memory->occlusion.capacity + memory->behind.capacity;
 }
 
 void frame_memory_free(struct frame_memory *memory)
@@ -247,4 +248,5 @@ void frame_memory_free(struct frame_memory *memory)
     buffer_free(&memory->bins);
     buffer_free(&memory->reference);
     buffer_free(&memory->occlusion);
+    buffer_free(&memory->behind);
 }

@@ -72,6 +72,7 @@ struct frame_memory {
     struct buffer bins;      // heads of all threads' bins
     struct buffer reference; // directions
     struct buffer occlusion; // planes of struct screen_occlusion, or a struct occlusion_pattern
+    struct buffer behind;    // the picture behind glass
     struct light_bounds light_bounds;
     struct environment_samples samples;
 };

@@ -1,6 +1,7 @@
 // draw_tile.c: one tile through all steps, from its bins to the picture.
 #include "cpu_frame.h"
 
+#include "behind.h"
 #include "encode_values.h"
 #include "output.h"
 
@@ -59,7 +60,7 @@ static void draw_layers(const struct cpu_frame *cpu, struct thread_state *thread
         return;
     uint64_t shaded = now_ns();
     thread->pixels_covered += blend_layers(pattern, &thread->fragments, &thread->layers, &thread->blend,
-                                           thread->samples.ids, area, &thread->sums, cpu->shade.recorder);
+                                           thread->samples.ids, tile, area, &thread->sums, cpu->shade.recorder);
     thread->coverage_ns += covered - start;
     thread->lighting_ns += shaded - covered;
     thread->resolve_ns += now_ns() - shaded;
@@ -115,6 +116,10 @@ static void resolve_tile(const struct cpu_frame *cpu, struct thread_state *threa
 {
     const struct resolve_target *target = &cpu->target;
     const lam_image *converted = target->converted;
+    if (target->behind) {
+        cpu->kernels->resolve(target, &thread->fragments, &thread->samples, &thread->sums, tile);
+        return;
+    }
     if (!converted) {
         resolve_into(target, cpu, thread, tile);
         return;
@@ -130,6 +135,20 @@ static void resolve_tile(const struct cpu_frame *cpu, struct thread_state *threa
                             (char *)image_row(converted, tile->y * TILE + y) + left);
 }
 
+// A tile without glass is the same in the picture behind glass, whose sums are there already.
+static void take_behind(const struct behind *behind, struct thread_state *thread, const struct tile *tile)
+{
+    for (int y = 0; y < tile->height; y++) {
+        const float *from =
+            behind->texels[0] + 4 * ((size_t)(tile->y * TILE + y) * (size_t)behind->width[0] + (size_t)tile->x * TILE);
+        for (int x = 0; x < tile->width; x++)
+            for (int c = 0; c < 4; c++)
+                thread->sums.sum[c][y * TILE + x] = from[4 * x + c];
+    }
+    thread->fragments.count = 0;
+    thread->samples.translucent_triangles = 1; // the sums are begun
+}
+
 void draw_tile(struct cpu_frame *cpu, size_t index, int number)
 {
     const struct kernels *kernels = cpu->kernels;
@@ -137,10 +156,17 @@ void draw_tile(struct cpu_frame *cpu, size_t index, int number)
     struct tile tile = tile_number(cpu, index);
     const struct fragment_store *store = cpu->fragment_stores ? &cpu->fragment_stores[index] : NULL;
     if (!cpu->shade.recorder && !(store ? store->count > 0 : tile_has_triangles(&cpu->raster, index))) {
-        fill_empty_tile(&cpu->target, &tile);
+        if (!cpu->target.behind)
+            fill_empty_tile(&cpu->target, &tile);
         return;
     }
     uint64_t start = now_ns();
+    if (thread->sums.behind && !cpu->shade.recorder && !thread->sums.behind->glass[index]) {
+        take_behind(thread->sums.behind, thread, &tile);
+        resolve_tile(cpu, thread, &tile);
+        thread->resolve_ns += now_ns() - start;
+        return;
+    }
     if (store) {
         kernels->load_fragments(store, &thread->fragments, cpu->raster.frame->settings.samples);
         thread->samples.translucent_triangles = 0;

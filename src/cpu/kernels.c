@@ -13,6 +13,7 @@
 #include "shading_batch.h"
 #include "translucent_fragments.h"
 #include "vertex_colors.h"
+#include "behind.h"
 #include "blend.h"
 
 #include "arena.h"

@@ -38,6 +38,16 @@ void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int
     out->weight += transmittance * share;
 }
 
+void recorder_behind(struct recorder *recorder, int pixel, const float light[3])
+{
+    if (pixel != recorder->pixel || !recorder->layer_slots)
+        return;
+    lam_rgb *behind = &recorder->out->behind;
+    behind->r += light[0];
+    behind->g += light[1];
+    behind->b += light[2];
+}
+
 void *recorder_alloc(struct recorder *recorder, size_t count, size_t size)
 {
     void *memory = arena_array(&recorder->arena, count, size);

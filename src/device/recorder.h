@@ -38,6 +38,9 @@ lam_explained_fragment *recorder_add(struct recorder *recorder);
 void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int sample, float transmittance,
                     float share);
 
+// Records the light that a sample's layers let through from the picture behind them or from the background, in the sum's units.
+void recorder_behind(struct recorder *recorder, int pixel, const float light[3]);
+
 // Memory for the explanation, zeroed; NULL: out of memory.
 void *recorder_alloc(struct recorder *recorder, size_t count, size_t size);
 

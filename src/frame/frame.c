@@ -126,6 +126,13 @@ static bool transmits(const struct frame *frame, int material, lam_reflection mo
     return frame_is_physical(model) && frame_layers(frame, frame->materials[material]) & LAYER_TRANSMISSION;
 }
 
+// Whether what is behind a material is blurred or bent: not at an index of 1, which is that of air, nor at 0, which lets no light in.
+static bool refracts(const struct frame *frame, int material, lam_reflection model)
+{
+    const lam_material *m = frame->materials[material];
+    return transmits(frame, material, model) && m->ior > 1 && (m->roughness > 0 || m->thickness > 0);
+}
+
 static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_index)
 {
     const struct frame_draw *draw = &frame->draws[draw_index];
@@ -163,7 +170,10 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
         bool passes_rays = translucent;
         if (output_is_value(frame->settings.output)) // overdraw counts triangles
             translucent = translucent && masks && frame->settings.output != LAM_OUTPUT_OVERDRAW;
-        frame->transmits |= passes && !output_is_value(frame->settings.output);
+        bool shows = !output_is_value(frame->settings.output);
+        frame->transmits |= passes && shows;
+        frame->refracts |=
+            shows && (refracts(frame, front, reflection) || (!draw->one_sided && refracts(frame, back, reflection)));
         frame->translucent |= translucent;
         frame->passes_rays |= passes_rays;
         frame->tints_rays |= passes;
@@ -175,7 +185,8 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
                                                                         back,
                                                                         translucent,
                                                                         reflection,
-                                                                        passes_rays};
+                                                                        passes_rays,
+                                                                        passes && shows};
     }
 }
 
@@ -221,6 +232,7 @@ static bool add_ground(struct frame *frame, uint64_t next, bool physical, const 
                                   frame->material_count,
                                   blended,
                                   by_environment ? LAM_REFLECTION_GGX : LAM_REFLECTION_LAMBERT,
+                                  false,
                                   false};
     frame->material_count++;
     frame->triangle_count = (uint32_t)(next + ground->mesh.triangle_count);
@@ -442,6 +454,21 @@ static void leave_normals(struct frame *frame)
         frame->makes_normals = false;
 }
 
+// What is behind glass: the background, and where points of eye space are in the picture.
+static void set_glass(struct frame *frame, const lam_mat4 *pixel)
+{
+    static const lam_rgba white = {1, 1, 1, 1};
+    bool clear =
+        frame->settings.background.a <= 0 && output_is_picture(frame->settings.output); // a term has none of it
+    const lam_rgba *back = clear ? &white : &frame->settings.background;
+    for (int c = 0; c < 3; c++)
+        frame->glass_background[c] = (&back->r)[c] * back->a / frame->exposure;
+    frame->glass_background[3] = back->a;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            frame->eye_pixel[i][j] = rounded(pixel->m[i == 2 ? 3 : i][j]);
+}
+
 bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
                  int width, int height, struct call_control *call, lam_error *error)
 {
@@ -456,7 +483,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->distant_viewer = frame->orthographic || settings->viewer == LAM_VIEWER_INFINITE;
     frame->draw_count = frame->range_count = frame->light_count = frame->hemisphere_count = 0;
     frame->triangle_count = 0;
-    frame->translucent = frame->passes_rays = frame->tints_rays = frame->masked = frame->transmits =
+    frame->translucent = frame->passes_rays = frame->tints_rays = frame->masked = frame->transmits = frame->refracts =
         frame->makes_normals = false;
 
     frame_materials_build(frame, scene);
@@ -480,6 +507,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     if (!build_environment(frame, scene, &view, error))
         return false;
     lam_mat4 pixel = to_pixels(&projection, width, height);
+    set_glass(frame, &pixel);
 
     stroke_view.projection = &projection;
     stroke_view.pixel = &pixel;

@@ -48,6 +48,7 @@ struct frame_draw_range {
     bool translucent;          // some opacity may be below 1, or it transmits: the triangles are blended or masked
     lam_reflection reflection; // of both sides; never AUTO
     bool passes_rays;          // translucent, whatever the output
+    bool transmits;            // light goes through it (LAYER_TRANSMISSION), and the output shows it
 };
 
 // A point, directional or spot light in eye space.
@@ -127,7 +128,12 @@ struct frame {
     bool masked;            // and one has a material of LAM_ALPHA_MASK
     bool tints_rays;        // any range transmits, whatever the output: light is coloured on its way through
     bool transmits;         // and one has LAYER_TRANSMISSION: layers let each channel through by a share of its own
+    bool refracts;          // and one is rough or thick: it blurs and bends what is behind it (src/cpu/shade/behind.h)
     bool makes_normals;     // a draw has a crease_rad, and the output needs its normals
+    // What transmitting layers are in front of if no surface is behind them: colour times alpha over the exposure, and alpha.
+    // White if the background is transparent and the output the picture: the colour of glass is then that over white, the alpha 1 − its smallest channel.
+    float glass_background[4];
+    float eye_pixel[3][4]; // eye space to pixels: rows X·w, Y·w, w
     // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.
     float near_plane, far_plane;
     // LAM_OUTPUT_DEPTH: the range of distances for 8 bits: the scene's vertices between the planes.

@@ -325,6 +325,11 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
         return fail(error, LAM_UNSUPPORTED,
                     "OpenGL: reference is %d, and this device has the split sum alone; the CPU device sums directions",
                     frame->settings.reference);
+    if (frame->refracts)
+        return fail(
+            error, LAM_UNSUPPORTED,
+            "OpenGL: the scene has rough or thick glass (transmission with a roughness or a thickness above 0), "
+            "which the CPU device alone draws");
     if (frame->settings.occlusion == LAM_OCCLUSION_RAYS)
         return fail(
             error, LAM_UNSUPPORTED,

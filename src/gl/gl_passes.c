@@ -202,14 +202,12 @@ static void add_tinted(struct gl_frame *f, const struct gl_target *from, bool la
 {
     const struct gl *gl = f->gl;
     struct gl_device *device = f->device;
-    const lam_rgba *b = &f->frame->settings.background;
-    float scale = b->a / f->frame->exposure, background[4] = {b->r * scale, b->g * scale, b->b * scale, b->a};
     gl_use_framebuffer(device, device->targets.sum.framebuffer);
     gl_use_blending(device, BLENDING_ADD);
     gl_use_cull(device, LAM_CULL_NONE);
     gl_use_program(device, device->tint_program);
     gl->Uniform1f(device->tint_last, last);
-    gl->Uniform4fv(device->tint_background, 1, background);
+    gl->Uniform4fv(device->tint_background, 1, f->frame->glass_background);
     gl_use_texture(device, UNIT_COPY, GL_TEXTURE_2D, from->color);
     gl_use_texture(device, UNIT_NEARER_DEPTH_IDS, GL_TEXTURE_2D, device->targets.tint.color);
     gl_use_array(device, device->empty_array);

@@ -17,6 +17,7 @@
 #include "layer_kinds.h"
 #include "layer_inputs.h"
 #include "layers.h"
+#include "refraction.h"
 #include "tone.h"
 
 #endif

@@ -140,7 +140,7 @@ int material_layers(const lam_material *m)
         set |= LAYER_IRIDESCENCE;
     if (m->transmission > 0)
         set |= LAYER_TRANSMISSION;
-    if (m->transmission > 0 && m->thickness > 0 && m->attenuation_distance > 0)
+    if (m->transmission > 0 && m->thickness > 0)
         set |= LAYER_VOLUME;
     return set;
 }

@@ -70,6 +70,8 @@ static void check_scene(const char *name, lam_scene *scene, const lam_camera *ca
 {
     static double sums[CHANNELS];
     params.background = (lam_rgba){0};
+    if (strcmp(name, "layers-transmission") == 0 || strcmp(name, "layers-refraction") == 0)
+        params.background.a = 1; // over nothing, coloured glass holds white that is no term's
     lam_image picture = draw_show(scene, camera, params, LAM_OUTPUT_PICTURE, 0);
     memset(sums, 0, sizeof sums);
     for (int show = LAM_OUTPUT_AMBIENT; show <= LAM_OUTPUT_REFLECTION; show++)

@@ -346,6 +346,7 @@ bool job_draw_frames(struct job *job, double from, double span, int count, lam_f
     if (!show_option_apply(o->picture.show, job->scene, &job->draw, error) ||
         !fit_exposure(job, &job->draw, o->picture.width, o->picture.height, error))
         return false;
+    job_note_glass(job, &job->draw);
     bool ok = true;
     for (int i = 0; ok && i < count; i++) {
         lam_control control;

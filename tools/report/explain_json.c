@@ -396,6 +396,8 @@ void explain_json(FILE *file, const lam_explanation *e, const char *model)
     for (int i = 0; i < e->fragment_count; i++)
         write_fragment(&json, e, &e->fragments[i]);
     json_close(&json, ']');
+    if (e->behind.r != 0 || e->behind.g != 0 || e->behind.b != 0)
+        color(&json, "behind", e->behind);
     color4(&json, "sum", e->sum);
     color4(&json, "background", e->background);
     color4(&json, "result", e->result);

@@ -18,6 +18,9 @@ struct fragments {
     float *color[4]; // r, g, b, a; not premultiplied
     // Of translucent fragments, where the frame transmits: the share of each channel that goes through; NULL elsewhere.
     float *through[3];
+    // The same where the frame refracts: by how many pixels what is behind is moved to the right and down, and the square of the
+    // width in pixels over which it is blurred; −1: the surface does not transmit.
+    float *bend[3];
     // Scratch of the step that runs: three words for each fragment.
     uint32_t *scratch;
 };

@@ -19,6 +19,7 @@ struct raster_frame {
     const struct sample_pattern *pattern;
     struct work *work; // counted by any worker
     int tiles_across, tiles_down;
+    bool without_glass; // surfaces that transmit are left out: the picture behind them
     // The guard band: |x| and |y| of a vertex, from the middle of the window and in multiples of w, up to which the
     // triangle needs no clipping.
     float guard[2];

@@ -11,6 +11,8 @@ struct layer_rows {
     // Some fragments belong to pieces of clipped triangles; two pieces of one triangle may share a pixel.
     bool clipped;
     bool masked; // some samples were left out by the opacity of a surface
+    bool
+        glass; // triangles that transmit were left out (raster_frame.without_glass); set, never cleared, by the listing
 };
 
 #endif

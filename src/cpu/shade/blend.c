@@ -9,6 +9,7 @@
 // The fraction that remains in the end is the weight of the opaque surface or the background.
 #include "blend.h"
 
+#include "behind.h"
 #include "recorder.h"
 
 #include <string.h>
@@ -189,42 +190,98 @@ static void blend_pixel(const struct fragments *fragments, const struct layer_ro
     }
 }
 
-// The same where layers let each channel through by a share of its own: a fragment of opacity a and colour C that lets T
-// through makes of the light L behind it C a + L (1 - a (1 - T)). A picture has one alpha, the mean of the channels'; where
-// the background is seen, it is coloured by what the one alpha leaves out.
+// The light that the layers at a sample return, and what is left of the light behind them.
+struct layer_sum {
+    float sum[3], left[3], mean; // the mean of `left`
+    // Of layers that refract: by how much they move the picture behind, and the square of the width over which they blur it.
+    float x, y, square;
+    bool refracts;
+};
+
+static float mean_of(const float left[3]) { return (left[0] + left[1] + left[2]) * (1 / 3.0f); }
+
+// Sums the layers of a sample, where each lets each channel through by a share of its own: a fragment of opacity a and colour C
+// that lets T through makes of the light L behind it C a + L (1 - a (1 - T)). Behind a surface that refracts, surfaces that do not
+// transmit are left out: they are in the picture that it shows.
+static struct layer_sum sum_layers(const struct fragments *fragments, const struct layer_rows *rows,
+                                   const struct layer *layers, uint32_t count, int sample, struct recorder *recorder,
+                                   int pixel, float share)
+{
+    struct layer_sum l = {.left = {1, 1, 1}, .mean = 1};
+    float *const *bend = fragments->bend;
+    for (uint32_t i = 0; i < count && l.mean > 0; i++) {
+        uint32_t f = layers[i].fragment;
+        float alpha = fragments->color[3][f];
+        if (!(rows->samples[f] >> sample & 1) || !(alpha > 0) || (l.refracts && bend[2][f] < 0))
+            continue;
+        if (recorder)
+            recorder_layer(recorder, pixel, f, sample, l.mean, share);
+        for (int c = 0; c < 3; c++) {
+            l.sum[c] += fragments->color[c][f] * (l.left[c] * alpha);
+            l.left[c] = l.left[c] * (1 - alpha * (1 - fragments->through[c][f]));
+        }
+        l.mean = mean_of(l.left);
+        if (!bend[0] || bend[2][f] < 0)
+            continue;
+        l.x += bend[0][f];
+        l.y += bend[1][f];
+        l.square += bend[2][f];
+        l.refracts |= bend[0][f] != 0 || bend[1][f] != 0 || bend[2][f] > 0;
+    }
+    return l;
+}
+
+// The pixels of a tile with layers that let each channel through by a share of its own. A picture has one alpha, the mean of the
+// channels'; where the background is seen, it is coloured by what the one alpha leaves out.
+struct tinted_pixel {
+    int number;      // in the tile
+    float x, y;      // its centre in the picture
+    int samples;     // of a pixel
+    float looked[4]; // the picture behind, as the last sample that refracts shows it
+    struct layer_sum last;
+};
+
+// Adds the picture behind to a sample whose layers refract. What is left after that is of the background.
+static void add_behind(struct layer_sum *l, const struct behind *behind, struct tinted_pixel *p)
+{
+    if (!p->last.refracts || l->x != p->last.x || l->y != p->last.y || l->square != p->last.square)
+        behind_look(behind, p->x + l->x, p->y + l->y, l->square, p->looked);
+    p->last = *l;
+    for (int c = 0; c < 3; c++) {
+        l->sum[c] += l->left[c] * p->looked[c];
+        l->left[c] = l->left[c] * (1 - p->looked[3]);
+    }
+    l->mean = mean_of(l->left);
+}
+
 static __attribute__((noinline)) void blend_tinted_pixel(const struct fragments *fragments,
                                                          const struct layer_rows *rows, struct blend_scratch *scratch,
-                                                         const uint32_t *ids, int samples, int pixel,
+                                                         const uint32_t *ids, struct tinted_pixel *p,
                                                          struct pixel_sums *sums, struct recorder *recorder)
 {
+    int pixel = p->number, samples = p->samples;
     uint32_t count = list_layers(scratch, pixel);
-    struct layer *layers = scratch->layers;
     float share = 1.0f / (float)samples;
     for (int s = 0; s < samples; s++) {
-        rank_layers(fragments, rows, layers, count, samples, s);
-        float sum[3] = {0, 0, 0}, left[3] = {1, 1, 1}, mean = 1;
-        for (uint32_t i = 0; i < count && mean > 0; i++) {
-            uint32_t f = layers[i].fragment;
-            float alpha = fragments->color[3][f];
-            if (!(rows->samples[f] >> s & 1) || !(alpha > 0))
-                continue;
-            if (recorder)
-                recorder_layer(recorder, pixel, f, s, mean, share);
-            for (int c = 0; c < 3; c++) {
-                sum[c] += fragments->color[c][f] * (left[c] * alpha);
-                left[c] = left[c] * (1 - alpha * (1 - fragments->through[c][f]));
-            }
-            mean = (left[0] + left[1] + left[2]) * (1 / 3.0f);
-        }
-        float least = left[0] < left[1] ? left[0] : left[1];
-        least = least < left[2] ? least : left[2];
-        bool open = ids[s] == NOTHING && sums->background[3] > 0;
+        rank_layers(fragments, rows, scratch->layers, count, samples, s);
+        struct layer_sum l = sum_layers(fragments, rows, scratch->layers, count, s, recorder, pixel, share);
+        float own[3] = {l.sum[0], l.sum[1], l.sum[2]};
+        bool refracts = l.refracts && sums->behind;
+        if (refracts)
+            add_behind(&l, sums->behind, p);
+        float least = l.left[0] < l.left[1] ? l.left[0] : l.left[1];
+        least = least < l.left[2] ? least : l.left[2];
+        bool open = (refracts || ids[s] == NOTHING) && sums->background[3] > 0;
         for (int c = 0; c < 3; c++) {
-            sums->sum[c][pixel] += (sum[c] + (open ? (left[c] - least) * sums->background[c] : 0)) * share;
-            sums->tint[c][pixel * samples + s] = left[c];
+            float whole = l.sum[c] + (open ? (l.left[c] - least) * sums->background[c] : 0);
+            sums->sum[c][pixel] += whole * share;
+            sums->tint[c][pixel * samples + s] = refracts ? 0 : l.left[c];
+            own[c] = (whole - own[c]) * share;
         }
-        sums->sum[3][pixel] += (1 - (open ? least : mean)) * share;
-        sums->transmittance[pixel * samples + s] = mean;
+        sums->sum[3][pixel] += (1 - (open ? least : l.mean)) * share;
+        sums->transmittance[pixel * samples + s] = refracts ? 0 : l.mean;
+        if (recorder)
+            recorder_behind(recorder, pixel, own);
     }
 }
 
@@ -250,7 +307,8 @@ void sort_layers(const struct sample_pattern *pattern, struct fragments *fragmen
 
 uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragments *fragments,
                       const struct layer_rows *rows, struct blend_scratch *scratch, const uint32_t *ids,
-                      const struct rectangle *area, struct pixel_sums *sums, struct recorder *recorder)
+                      const struct tile *tile, const struct rectangle *area, struct pixel_sums *sums,
+                      struct recorder *recorder)
 {
     struct cells cells = cells_of(pattern->count);
     uint64_t uncovered = 0;
@@ -261,7 +319,12 @@ uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragmen
                 continue;
             const uint32_t *own = ids + pixel_index(&cells, x, y);
             if (sums->tint[0])
-                blend_tinted_pixel(fragments, rows, scratch, own, pattern->count, pixel, sums, recorder);
+                blend_tinted_pixel(fragments, rows, scratch, own,
+                                   &(struct tinted_pixel){.number = pixel,
+                                                          .x = (float)(tile->x * TILE + x) + 0.5f,
+                                                          .y = (float)(tile->y * TILE + y) + 0.5f,
+                                                          .samples = pattern->count},
+                                   sums, recorder);
             else
                 blend_pixel(fragments, rows, scratch, pattern->count, pixel, sums, recorder);
             uncovered += is_uncovered(own, pattern->count);

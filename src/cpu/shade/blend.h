@@ -28,12 +28,13 @@ struct blend_scratch {
 void sort_layers(const struct sample_pattern *pattern, struct fragments *fragments, struct layer_rows *rows,
                  struct blend_scratch *scratch);
 
-// Blends the sorted and shaded fragments of the pixels in `area` into their sums and `transmittance`. `ids`: the tile's
+// Blends the sorted and shaded fragments of the pixels in `area` of a tile into their sums and `transmittance`. `ids`: the tile's
 // visibility buffer. Returns how many of the pixels have no opaque fragment. `recorder`: NULL, or gets the numbers of
 // its pixel.
 uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragments *fragments,
                       const struct layer_rows *rows, struct blend_scratch *scratch, const uint32_t *ids,
-                      const struct rectangle *area, struct pixel_sums *sums, struct recorder *recorder);
+                      const struct tile *tile, const struct rectangle *area, struct pixel_sums *sums,
+                      struct recorder *recorder);
 
 // In place of sorting and blending: puts the nearest fragment of each sample into the tile's visibility buffer.
 void show_layers(const struct sample_pattern *pattern, const struct fragments *fragments, const struct layer_rows *rows,

@@ -12,6 +12,7 @@ struct resolve_target {
     lam_image *image;     // of a working format (pixels.h); without pixels where `converted` is set
     lam_image *converted; // the caller's picture of another format, into which tiles are converted; or NULL
     uint8_t empty_pixel[16];
+    const struct behind *behind; // its first level gets the sums in place of the picture; or NULL
 };
 
 // Sums of a tile's pixels.
@@ -23,7 +24,8 @@ struct pixel_sums {
     float *transmittance;
     // The same for each channel, where the frame transmits; then `transmittance` is their mean. NULL: it does not.
     float *tint[3];
-    float background[4]; // what such layers are in front of: colour times alpha over the exposure, and alpha
+    const float *background;     // what such layers are in front of (frame.glass_background)
+    const struct behind *behind; // NULL: nothing is blurred or bent, or this picture is the one behind
 };
 
 // Of the two working formats: constants, with which short copies are inlined.

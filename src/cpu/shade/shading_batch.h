@@ -71,6 +71,7 @@ struct shading_batch {
         float stretch[2][BATCH_ROW], anisotropy[BATCH_ROW]; // by tangent and bitangent
     } layered;
     float through[3][BATCH_ROW]; // of surfaces that transmit: the share of what is behind them
+    float bend[3][BATCH_ROW];    // and where the frame refracts, as fragments.bend
     float sign[BATCH_ROW];       // of the bitangent
     float rest[3][BATCH_ROW];    // as vertex_cache.rest
     struct triangle_runs runs;

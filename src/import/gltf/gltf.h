@@ -79,7 +79,6 @@ struct gltf {
     size_t cut_factors;   // numbers outside of the standard's range (gltf_take_factors); the first of them:
     char cut_factor[160];
     double cut_from, cut_to;
-    bool transmits; // a material does, which was warned of
 
     lam_file_image *file_images;   // one for each image (gltf_file_info.h)
     struct gltf_picture *pictures; // gltf_textures.h: two for each of the file's images

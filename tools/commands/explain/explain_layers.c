@@ -32,6 +32,12 @@ void explain_layers(const lam_explained_layers *layers)
         row_number(4, "matt", (double)layers->matt, "(1 − transmission) (1 − specular_glossiness · max f0)");
     if (!is_black(layers->transmittance))
         row_color(4, "transmittance", layers->transmittance, "factor of the light behind the surface");
+    if (layers->behind_x != 0 || layers->behind_y != 0)
+        row_three(4, "bent by", (double)layers->behind_x, (double)layers->behind_y, 0,
+                  "pixels to the right and down: where the light behind enters");
+    if (layers->behind_blur > 0)
+        row_number(4, "blurred over", (double)layers->behind_blur,
+                   "pixels: height · 1024^(roughness · min(2 ior − 2, 1) − 1), at most height / 8");
     if (layers->sheen_left < 1)
         row_number(4, "left", (double)layers->sheen_left,
                    "1 − max(sheen_color) E(|n·v|): the light that the sheen leaves to the base");

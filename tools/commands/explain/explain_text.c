@@ -499,9 +499,13 @@ static void print_pixel(const lam_explanation *e)
         printf("%13.7g %13.7g %13.7g %13.7g   counts %.7g\n", (double)f->color.r, (double)f->color.g,
                (double)f->color.b, (double)f->color.a, (double)f->weight);
     }
+    if (e->behind.r != 0 || e->behind.g != 0 || e->behind.b != 0)
+        row_color(2, "behind glass", e->behind,
+                  "transmittance · what rough or thick glass shows of the picture and the background");
     row_label(2, "weighted sum");
-    printf("%13.7g %13.7g %13.7g %13.7g   Σ weight · alpha · colour\n", (double)e->sum.r, (double)e->sum.g,
-           (double)e->sum.b, (double)e->sum.a);
+    printf("%13.7g %13.7g %13.7g %13.7g   Σ weight · alpha · colour%s\n", (double)e->sum.r, (double)e->sum.g,
+           (double)e->sum.b, (double)e->sum.a,
+           e->behind.r != 0 || e->behind.g != 0 || e->behind.b != 0 ? " + behind glass" : "");
     char stops[64];
     snprintf(stops, sizeof stops, "2^%.7g stops, multiplies the sum's colour", e->stops);
     row_number(2, "exposure", (double)e->exposure, e->exposure == 1 ? "not applied" : stops);

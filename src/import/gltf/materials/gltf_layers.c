@@ -57,12 +57,5 @@ bool gltf_take_layers(struct gltf *gltf, const struct place *place, const json_t
     // The extensions exclude one another with these two.
     if (material->unlit || gltf_extension(object, "KHR_materials_pbrSpecularGlossiness"))
         return true;
-    if (!take_numbers(gltf, place, object, material) || !take_maps(gltf, place, object, index))
-        return false;
-    if (material->transmission > 0 && !gltf->transmits)
-        scene_warn(gltf->scene,
-                   "%s: materials[%d]: light passes straight through a transmitting surface, neither bent nor blurred",
-                   gltf->source->name, index);
-    gltf->transmits |= material->transmission > 0;
-    return true;
+    return take_numbers(gltf, place, object, material) && take_maps(gltf, place, object, index);
 }

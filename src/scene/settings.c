@@ -1,6 +1,6 @@
-// settings.c: the table of the settings of lam_draw_params. A new one is a member there and a row here; the program makes an
-// option of it, and scene files have its key. More text about the option, and its place in the help, is a row in
-// tools/options/option_table.c.
+// settings.c: the table of the settings of lam_draw_params. To add a setting, add a member there and a row here. The
+// program then offers it as an option, and scene files as a key. A row in tools/options/option_table.c describes the
+// option and gives its position in the help.
 #include <lambent/settings.h>
 
 #include <string.h>
@@ -30,39 +30,43 @@ struct named_value {
 
 WORDS(shading_words, {"flat", LAM_SHADING_FLAT, "one colour for each triangle"},
       {"gouraud", LAM_SHADING_GOURAUD, "one colour for each vertex, interpolated"},
-      {"smooth", LAM_SHADING_GOURAUD, "another name of gouraud"},
-      {"phong", LAM_SHADING_PHONG, "interpolated normals, light evaluated for each pixel"},
-      {"normal", LAM_SHADING_PHONG, "another name of phong"})
+      {"smooth", LAM_SHADING_GOURAUD, "an alias of gouraud"},
+      {"phong", LAM_SHADING_PHONG, "interpolated normals, with lighting evaluated for each pixel"},
+      {"normal", LAM_SHADING_PHONG, "an alias of phong"})
 WORDS(stage_words, {"auto", LAM_STAGE_AUTO, NULL},
       {"application", LAM_STAGE_APPLICATION, "before drawing (flat, gouraud)"},
       {"vertex", LAM_STAGE_VERTEX, "for each vertex (flat, gouraud)"},
       {"fragment", LAM_STAGE_FRAGMENT, "for each fragment (flat, phong)"})
 WORDS(viewer_words, {"local", LAM_VIEWER_LOCAL, "the eye is at the camera"},
       {"infinite", LAM_VIEWER_INFINITE, "the eye is infinitely far away: one direction for every point"})
-WORDS(flat_normal_words, {"face", LAM_FLAT_NORMAL_FACE, "the triangle's own"},
-      {"vertex", LAM_FLAT_NORMAL_VERTEX, "the last vertex's, as in OpenGL"})
-WORDS(occlusion_words,
-      {"auto", LAM_OCCLUSION_AUTO, "screen with the studio's lights and with environment light, otherwise off"},
-      {"off", LAM_OCCLUSION_OFF, "no occlusion"},
-      {"screen", LAM_OCCLUSION_SCREEN, "from the depths of the visible surfaces around each pixel"},
-      {"rays", LAM_OCCLUSION_RAYS,
-       "by `--ao-samples` rays from each point, which also find hidden surfaces: slower, only on the CPU device"})
+WORDS(flat_normal_words, {"face", LAM_FLAT_NORMAL_FACE, "the normal of the triangle"},
+      {"vertex", LAM_FLAT_NORMAL_VERTEX, "the normal of its last vertex, as in OpenGL"})
+WORDS(
+    occlusion_words,
+    {"auto", LAM_OCCLUSION_AUTO, "`screen` with the studio's lights or environment light, otherwise `off`"},
+    {"off", LAM_OCCLUSION_OFF, "no occlusion"},
+    {"screen", LAM_OCCLUSION_SCREEN, "computed from the depths of visible surfaces around each pixel"},
+    {"rays", LAM_OCCLUSION_RAYS,
+     "computed by `--ao-samples` rays from each point, which also hit hidden surfaces: slower, only on the CPU device"})
 WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if `--ao auto` selects screen"},
-      {"off", LAM_CAVITY_OFF, "valleys and ridges keep their light"},
+      {"off", LAM_CAVITY_OFF, "valleys and ridges unchanged"},
       {"on", LAM_CAVITY_ON, "valleys are darker; ridges of models without textures are lighter"})
-WORDS(ground_words, {"off", LAM_GROUND_NONE, "none"},
+WORDS(ground_words, {"off", LAM_GROUND_NONE, "no ground"},
       {"shadow", LAM_GROUND_SHADOW,
-       "a transparent plane with the shadows and the occlusion: black, with their share as alpha"},
-      {"checker", LAM_GROUND_CHECKER, "squares with a side of 1, 2 or 5 times a power of ten in the model's units"},
+       "a transparent plane that shows only shadows and occlusion: black, with their strength as alpha"},
+      {"checker", LAM_GROUND_CHECKER,
+       "a checkerboard; the side of a square is 1, 2 or 5 times a power of ten in the model's units"},
       {"color", LAM_GROUND_COLOR, NULL})
 WORDS(edges_words, {"crease", LAM_EDGES_CREASE, "edges at which two faces meet at an angle"},
       {"boundary", LAM_EDGES_BOUNDARY, "edges at which a surface ends"},
       {"silhouette", LAM_EDGES_SILHOUETTE, "edges between front and back faces"})
-WORDS(hidden_lines_words, {"remove", LAM_HIDDEN_LINES_REMOVE, "left out"}, {"dash", LAM_HIDDEN_LINES_DASH, "dashed"},
-      {"show", LAM_HIDDEN_LINES_SHOW, "as if no surface were there"})
-WORDS(surfaces_words, {"on", 0, "they are drawn"}, {"off", 1, "only lines and points"})
-WORDS(terminator_words, {"on", 0, "shadow rays start on the curved surface that the normals describe"},
-      {"off", 1, "shadow rays start on the flat triangles, which shows the terminator of a coarse smooth mesh"})
+WORDS(hidden_lines_words, {"remove", LAM_HIDDEN_LINES_REMOVE, "omit them"},
+      {"dash", LAM_HIDDEN_LINES_DASH, "draw them dashed"},
+      {"show", LAM_HIDDEN_LINES_SHOW, "draw them as if no surface hid them"})
+WORDS(surfaces_words, {"on", 0, "draw surfaces"}, {"off", 1, "draw only lines and points"})
+WORDS(terminator_words, {"on", 0, "shadow rays start on the curved surface defined by the normals"},
+      {"off", 1,
+       "shadow rays start on the flat triangles, which makes the shadow terminator of coarse smooth meshes visible"})
 
 static const char *reflection_words(int index, int *value)
 {
@@ -88,15 +92,16 @@ static const lam_setting rows[] = {
     {"stage", MEMBER(WORD, stage), WORDS_OF(stage_words), .expected = "stage, viewer or flat_normal",
      .summary = "The stage that evaluates the lighting: application, vertex or fragment."},
     {"flat_normal", MEMBER(WORD, flat_normal), WORDS_OF(flat_normal_words), .expected = "stage, viewer or flat_normal",
-     .summary = "The normal of flat shading: the face's, or its last vertex's."},
+     .summary = "The normal for flat shading: the normal of the face, or of its last vertex."},
     {"match_highlights", MEMBER(FLAG, match_highlights),
      .summary = "Multiply Blinn-Phong's shininess by 4, so that it looks like Phong."},
     {"single_scattering", MEMBER(FLAG, single_scattering),
      .summary = "Omit multiple scattering between microfacets (GGX)."},
-    {"gl1", MEMBER(FLAG, gl1), .summary = "Light as OpenGL 1: colours clamped, shininess to 128, ambient attenuated."},
+    {"gl1", MEMBER(FLAG, gl1),
+     .summary = "Light as in OpenGL 1: clamp colours, limit shininess to 128, attenuate ambient light."},
     {"shadows", MEMBER(FLAG, shadows), .summary = "Cast shadows."},
     {"shadow_terminator", MEMBER(NOT_FLAG, flat_terminator), WORDS_OF(terminator_words),
-     .summary = "Whether shadows follow the curved surface that the normals describe: on or off."},
+     .summary = "Start shadow rays on the curved surface defined by the normals: on or off."},
     {"shadow_samples", MEMBER(WHOLE, shadow_samples), .min = 1, .max = 256, .standard = 112, .expected = "0 to 256",
      .summary = "Shadow rays to a light with a radius from each point in its penumbra."},
     {"ground", MEMBER(WORD, ground), WORDS_OF(ground_words), .expected = "lam_ground",
@@ -115,9 +120,9 @@ static const lam_setting rows[] = {
      .summary = "Darken small valleys and lighten ridges: auto, off or on."},
     {"ao_radius", MEMBER(NUMBER, occlusion_radius), .min = 0.001, .max = 10, .standard = 0.1,
      .expected = "more than 0, up to 10",
-     .summary = "The largest distance at which surfaces occlude, as a share of half the diagonal of the scene's box."},
+     .summary = "The largest distance at which surfaces occlude, relative to half the diagonal of the scene's box."},
     {"ao_samples", MEMBER(WHOLE, occlusion_samples), .min = 1, .max = 1024, .standard = 64, .expected = "0 to 1024",
-     .summary = "Rays from each lit point with `--ao rays`; more give a finer grain."},
+     .summary = "Rays from each lit point with `--ao rays`; more rays reduce noise."},
     {"light_cutoff", MEMBER(NUMBER, light_cutoff), .max = 1, .standard = 0.5 / 255, .zero_is_negative = true,
      .expected = "at most 1",
      .summary = "The largest error from skipping weak lights; 0 evaluates every light everywhere."},
@@ -129,7 +134,7 @@ static const lam_setting rows[] = {
     {"wireframe_width", MEMBER(NUMBER, wireframe_width), .min = 0.01, .max = 1000, .standard = 1,
      .expected = "pixels from 0 to 1000", .summary = "The width of the wireframe's lines."},
     {"wireframe_color", MEMBER(RGBA, wireframe_color),
-     .summary = "The colour of the wireframe: by default black, or white without surfaces over a dark background."},
+     .summary = "The colour of the wireframe: by default black; white with `--surfaces off` over a dark background."},
     {"edges", MEMBER(WORDS, edges), WORDS_OF(edges_words), .expected = "edges or hidden_lines",
      .summary = "Draw feature edges as lines: all, none, or some of crease,boundary,silhouette."},
     {"edge_angle", MEMBER(ANGLE, edge_angle_rad), .min = 0.001, .max = 180, .standard = 40, .expected = "0° to 180°",
@@ -137,11 +142,11 @@ static const lam_setting rows[] = {
     {"edge_width", MEMBER(NUMBER, edge_width), .min = 0.01, .max = 1000, .standard = 1.5,
      .expected = "pixels from 0 to 1000", .summary = "The width of feature edges."},
     {"edge_color", MEMBER(RGBA, edge_color),
-     .summary = "The colour of feature edges: by default black, or white without surfaces over a dark background."},
+     .summary = "The colour of feature edges: by default black; white with `--surfaces off` over a dark background."},
     {"hidden_lines", MEMBER(WORD, hidden_lines), WORDS_OF(hidden_lines_words), .expected = "edges or hidden_lines",
      .summary = "Edges behind surfaces: remove, dash or show."},
     {"surfaces", MEMBER(NOT_FLAG, no_surfaces), WORDS_OF(surfaces_words),
-     .summary = "Whether surfaces are drawn: on, or off for lines only."},
+     .summary = "Draw surfaces: on, or off for lines only."},
 };
 _Static_assert(COUNT_OF(rows) <= LAM_SETTINGS_MAX, "more rows than lam_picture_settings.draw_present has bits");
 

@@ -11,7 +11,7 @@
 
 static struct typed_word whole(const char *word) { return (struct typed_word){word, word, 0}; }
 
-// The option that a word names and whose value is in the next word; NULL: none is expected.
+// Returns the option named by a word if its value is expected in the next word, otherwise NULL.
 static const struct option *expects_value(const char *word)
 {
     const struct option *option = NULL;
@@ -73,7 +73,7 @@ static void complete_topics(const struct typed_word *typed)
             complete_offer(typed, o->name, "", o->summary);
 }
 
-// The operand number `index`, from 0.
+// Completes operand number `index`, from 0.
 static void complete_operand(const struct command *command, int index, const char *word)
 {
     struct typed_word typed = whole(word);

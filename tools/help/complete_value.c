@@ -20,13 +20,13 @@ void complete_offer(const struct typed_word *typed, const char *word, const char
 
 void complete_files(void) { printf(":files\n"); }
 
-// The word from the position after `complete` letters of `piece` on.
+// Returns the word that begins after `complete` letters of `piece`.
 static struct typed_word after(const struct typed_word *typed, size_t complete)
 {
     return (struct typed_word){typed->before, typed->piece + complete, typed->before_length + (int)complete};
 }
 
-// The text of `piece` behind its last comma.
+// Returns the text of `piece` after its last comma.
 static struct typed_word after_comma(const struct typed_word *typed)
 {
     const char *comma = strrchr(typed->piece, ',');
@@ -78,7 +78,7 @@ static void offer_key(const struct typed_word *typed, const char *key, const lam
 
 static void complete_material(const struct typed_word *typed)
 {
-    if (strchr(typed->piece, '@')) // the names of the model's objects are not known
+    if (strchr(typed->piece, '@')) // the model is not loaded, so the names of its objects are unknown
         return;
     struct typed_word pair = after_comma(typed);
     size_t equals = strcspn(pair.piece, "=");
@@ -111,10 +111,10 @@ static void complete_light_key(lam_light_type type, const struct typed_word *typ
     char key[64];
     snprintf(key, sizeof key, "%.*s", (int)equals, pair.piece);
     if (strcmp(key, "frame") == 0) {
-        complete_offer(&value, "world", "", "the scene's");
-        complete_offer(&value, "camera", "", "the eye's");
-        complete_offer(&value, "view", "", "the camera's axes, from the middle of the scene");
-        complete_offer(&value, "object", "", "the model's");
+        complete_offer(&value, "world", "", "the frame of the scene");
+        complete_offer(&value, "camera", "", "the frame of the eye");
+        complete_offer(&value, "view", "", "the axes of the camera, from the middle of the scene");
+        complete_offer(&value, "object", "", "the frame of the model");
     }
     complete_field(field_of(lam_light_field, pair.piece, equals), key, &value);
 }
@@ -124,7 +124,7 @@ static void complete_light(const struct typed_word *typed)
     struct typed_word type = after(typed, *typed->piece == '+');
     size_t length = strcspn(type.piece, ":");
     if (type.piece == typed->piece)
-        complete_offer(&type, "none", "", "no light but the ambient");
+        complete_offer(&type, "none", "", "only ambient light");
     for (int i = 0; i < LAM_LIGHT_TYPE_COUNT; i++) {
         const char *word = lam_light_type_describe((lam_light_type)i)->word;
         if (!type.piece[length]) {

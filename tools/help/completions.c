@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-// bash divides words at : and = too and replaces only the last part; COMP_LINE has the words as they were typed.
+// bash also splits words at : and = and replaces only the last part. COMP_LINE contains the words as typed.
 void generate_bash(void)
 {
     printf("# Completions of lambent for bash, made by `lambent generate bash`.\n"

@@ -1,4 +1,4 @@
-// contract_schema.c: the JSON Schema of contracts of shaders: contract.schema.json.in with the roles inserted.
+// contract_schema.c: prints the JSON Schema of shader contracts: contract.schema.json.in with the roles inserted.
 #include "generate.h"
 
 #include <stdio.h>

@@ -36,7 +36,7 @@ int run_generate(int operand_count, char **operands, const struct options *optio
         }
         suggest_try(&nearest, kinds[i].name);
     }
-    // The file of a contract that is built in, to start one's own from.
+    // Prints the file of a built-in contract, as a template for new contracts.
     const char *contract = strncmp(operands[0], "contract-", 9) == 0 ? lam_check_contract_text(operands[0] + 9) : NULL;
     if (contract) {
         fputs(contract, stdout);

@@ -32,7 +32,7 @@ void print_help(const struct command *command)
     printf("\nMore: lambent help TOPIC (lambent help lists the topics), man lambent\n");
 }
 
-// One line: the value is cut to its first form, and the default omitted, if they do not fit.
+// Prints one line. If the line is too long, shortens the value to its first form and omits the default.
 static void brief_option(const struct option *o, const struct command *command)
 {
     char left[64], text[512], letter[8] = "    ";
@@ -47,14 +47,14 @@ static void brief_option(const struct option *o, const struct command *command)
     help_row(left, BRIEF_COLUMN, BRIEF_WIDTH, text);
 }
 
-// True if the option belongs to a command and not to pictures of models.
+// Returns true if the option belongs to a command and does not apply to pictures of models.
 static bool is_own(const struct option *o, const struct command *command)
 {
     return !o->now && option_is_taken(o, command->groups) && !option_is_taken(o, command_table->groups);
 }
 
-// A command with options of its own shows those, and the common ones of the picture; the others all common ones. False: there
-// are none.
+// Prints the command's own options and the common picture options. For a command without its own options, prints all
+// common options. Returns false if there are none.
 static bool brief_options(const struct command *command)
 {
     bool own = false, any = false;

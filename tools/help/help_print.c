@@ -1,4 +1,4 @@
-// help_print.c: the parts that help texts are made of.
+// help_print.c: prints the parts of help texts.
 #include "help_print.h"
 
 #include <stdio.h>
@@ -8,8 +8,8 @@
 
 enum { WIDTH = HELP_WIDTH, LETTER_COLUMN = 6 };
 
-// Prints a paragraph up to `width` columns, starting at column `at`; further lines begin at `indent`. Leaves out back
-// quotes. Returns the text after it.
+// Prints a paragraph up to `width` columns, starting at column `at`; further lines begin at `indent`. Omits back
+// quotes. Returns the text after the paragraph.
 static const char *print_paragraph(const char *text, int at, int indent, int width)
 {
     while (*text && *text != '\n') {
@@ -86,14 +86,14 @@ void help_option(const struct option *option, const struct command *command, boo
     print_words(option);
 }
 
-// Groups whose options `lambent --help` describes: other commands list them by name alone.
+// `lambent --help` describes the options of these groups; other commands list only their names.
 #define SHARED                                                                                                         \
     (1ull << GROUP_PICTURE | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW | 1ull << GROUP_LIGHTS |                         \
      1ull << GROUP_MATERIALS | 1ull << GROUP_SHADING | 1ull << GROUP_ANIMATION | 1ull << GROUP_WORK |                  \
      1ull << GROUP_LIMITS | 1ull << GROUP_REPORT)
 
-// A command describes its own options, options of a group from which it accepts no other, and options with a different
-// default.
+// A command's help describes its own options, options that are the only accepted ones of their group, and options with
+// a different default.
 static bool is_shared(const struct option *o, const struct command *command)
 {
     return command != command_table && SHARED & command->groups & 1ull << o->group &&
@@ -113,7 +113,7 @@ static void group_options(int group, const struct command *command)
     }
 }
 
-// The names of the shared options, in a row for each group.
+// Prints the names of the shared options, one row for each group.
 static void shared_options(const struct command *command)
 {
     bool any = false;

@@ -1,4 +1,4 @@
-// help_search.c: finds words in the texts of subjects, commands, options and keys.
+// help_search.c: searches the texts of subjects, commands, options and keys.
 #include "help_search.h"
 
 #include <ctype.h>
@@ -21,7 +21,7 @@ struct search {
     char **words;
     int count;
     const char *heading;
-    bool whole; // details and prose count, besides names and summaries
+    bool whole; // search the details and prose too, besides names and summaries
     int found;
 };
 
@@ -31,7 +31,7 @@ static void add(struct texts_of *texts, const char *text)
         texts->items[texts->count++] = text;
 }
 
-// Whether a word of the text begins with the given one, in capitals or not.
+// Returns whether a word of the text begins with the given word, ignoring case.
 static bool begins_word(const char *text, const char *word)
 {
     size_t length = strlen(word);
@@ -53,7 +53,7 @@ static bool matches(const struct search *search, const struct texts_of *texts)
     return found == search->count;
 }
 
-// Prints a row if the texts match, the first one of a kind below its heading.
+// Prints a row if the texts match. Prints a heading before the first row of each kind.
 static void try_row(struct search *search, const struct texts_of *texts, const char *heading, int *of_kind,
                     const char *name, const char *summary)
 {

@@ -1,4 +1,4 @@
-// help_topic.c: the command `help`: a subject, a command or an option, or the list of them.
+// help_topic.c: the command `help`: explains a subject, a command or an option, or lists all of them.
 #include "command.h"
 
 #include <stdio.h>
@@ -16,7 +16,7 @@
 
 enum { LIST_COLUMN = 15 };
 
-// The ending of a model's name.
+// Returns the extension of a model's name.
 static bool is_model_ending(const char *word)
 {
     for (int format = 0; lam_model_format_name(format); format++)
@@ -39,7 +39,7 @@ static const struct topic *find_topic(const char *word)
     return NULL;
 }
 
-// "light", "--light", "-o" or "o".
+// Finds an option from "light", "--light", "-o" or "o".
 static const struct option *find_option(const char *word)
 {
     char letter = word[0] != '-' && !word[1] ? word[0] : word[0] == '-' && word[1] && !word[2] ? word[1] : 0;
@@ -59,7 +59,7 @@ static void print_options(uint64_t groups, const struct command *command)
         }
 }
 
-// Options have the defaults of the command whose subject it is.
+// Prints options with the defaults of the command that the subject describes.
 static void print_topic(const struct topic *topic)
 {
     const struct command *command = find_command(topic->word);
@@ -82,7 +82,7 @@ static void print_topic(const struct topic *topic)
         printf("\nAll options of the command: lambent %s --help\n", command->name);
 }
 
-// The title of a subject, and its options.
+// Prints the title of a subject, and its options.
 static void topic_summary(const struct topic *topic, char *text, size_t size)
 {
     int used = snprintf(text, size, "%s", topic->title);
@@ -109,7 +109,7 @@ static void print_list(void)
         "\nOptions: lambent help light, lambent help --light or lambent help -o; lambent --help lists all of them.\n");
 }
 
-// The name that may have been meant; NULL: none is near.
+// Returns the nearest name, or NULL if no name is near.
 static const char *nearest_name(const char *word)
 {
     struct suggestion nearest = suggest_start(word);
@@ -124,7 +124,7 @@ static const char *nearest_name(const char *word)
     return nearest.best;
 }
 
-// A word that names nothing is searched for. Returns the exit code.
+// Searches the help for a word that is no subject, command or option. Returns the exit code.
 static int search(int count, char **words)
 {
     const char *nearest = nearest_name(words[0]);
@@ -137,7 +137,7 @@ static int search(int count, char **words)
     else
         snprintf(heading, sizeof heading, "No subject, command or option is named '%.60s'%s", words[0],
                  *meant ? meant : "; found in:");
-    bool letter = count == 1 && strlen(words[0]) < 2; // begins a word of nearly every text
+    bool letter = count == 1 && strlen(words[0]) < 2; // matches a word in nearly every text
     if (!letter && help_search(count, words, heading))
         return 0;
     complain(&error, LAM_BAD_ARGUMENT,

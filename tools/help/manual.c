@@ -34,7 +34,8 @@ static void roff_line(const char *text)
     putchar('\n');
 }
 
-// The default of an option, followed by the defaults of commands that differ. "": none.
+// Formats the default of an option, followed by different defaults of commands. The result is "" if there is no
+// default.
 static const char *standard_of(const struct option *o, char text[400])
 {
     int used = snprintf(text, 400, "%s", o->standard ? o->standard : "");

@@ -1,5 +1,5 @@
-// scene_schema.c: the JSON Schema of scene files: scene.schema.json.in with the fields of materials and
-// lights inserted.
+// scene_schema.c: prints the JSON Schema of scene files: scene.schema.json.in with the fields of materials and lights
+// inserted.
 #include "generate.h"
 
 #include <math.h>

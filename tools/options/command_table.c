@@ -4,7 +4,7 @@
 #include <string.h>
 
 #define ABOUT (1ull << GROUP_ABOUT)
-// The options of a picture of a model. `render` alone makes several of one model.
+// The options for a picture of one model. Only `render` can draw several pictures of one model.
 #define ALL                                                                                                            \
     (((1ull << GROUP_COUNT) - 1) &                                                                                     \
      ~(1ull << GROUP_DIFF | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | 1ull << GROUP_SHEET | 1ull << GROUP_CHECK |  \
@@ -51,8 +51,8 @@ const struct command command_table[] = {
                          .defaults = compare_defaults},
     [COMMAND_explain] = {"explain", "MODEL X,Y",
                          "Print the calculation of one pixel: vectors, angles and terms of each light, the sum, the "
-                         "byte. -o FILE (SVG, PNG) draws it: the arrows over the picture, the point's coordinates, the "
-                         "terms. --save-scene has no effect.",
+                         "byte. -o FILE (SVG, PNG) draws a figure: arrows over the picture, the point's coordinates, "
+                         "the terms. Lambent ignores --save-scene.",
                          ALL | 1ull << GROUP_CAPTIONS | TAKES_TITLE, .min_operands = 2, .max_operands = 2,
                          .one_more = "write the pixel as one word, such as 512,400", .defaults = explain_defaults},
     [COMMAND_info] =
@@ -81,19 +81,20 @@ const struct command command_table[] = {
                       "Write hashes of the models' pictures to a text file (-o), or compare them with one (--check).",
                       (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_HASH | TAKES_JSON | TAKES_QUIET | TAKES_MANY,
                       .min_operands = 0, .max_operands = -1, .defaults = hash_defaults},
-    [COMMAND_convert] =
-        {"convert", "MODEL OUT.glb|obj|stl|ply|3mf",
-         "Write a model or a scene as GLB, OBJ, STL, PLY or 3MF, and say what that format does not hold.",
-         ABOUT | 1ull << GROUP_CONVERT | 1ull << GROUP_MODEL | 1ull << GROUP_LIMITS | TAKES_UP | TAKES_THREADS |
-             TAKES_JSON | TAKES_QUIET,
-         .min_operands = 2, .max_operands = 2, .one_more = "it writes one model: lambent convert MODEL OUT.glb"},
+    [COMMAND_convert] = {"convert", "MODEL OUT.glb|obj|stl|ply|3mf",
+                         "Write a model or a scene as GLB, OBJ, STL, PLY or 3MF, and report everything that the format "
+                         "does not support.",
+                         ABOUT | 1ull << GROUP_CONVERT | 1ull << GROUP_MODEL | 1ull << GROUP_LIMITS | TAKES_UP |
+                             TAKES_THREADS | TAKES_JSON | TAKES_QUIET,
+                         .min_operands = 2, .max_operands = 2,
+                         .one_more = "it writes one model: lambent convert MODEL OUT.glb"},
     [COMMAND_plot] = {"plot", "attenuation|spot|highlight [CURVE...]",
-                      "Plot a law of light as curves (PNG or SVG), and print its numbers.",
+                      "Plot attenuation, spot cones or highlights as curves (PNG or SVG), and print their numbers.",
                       ABOUT | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
                           TAKES_QUIET | TAKES_FILES | TAKES_TERM | TAKES_TITLE,
                       .min_operands = 1, .max_operands = -1, .defaults = plot_defaults},
     [COMMAND_lights] = {"lights", "MODEL",
-                        "Print the lights of a model, or of the rig if it has none, in scene file form.",
+                        "Print the lights of a model, or of the rig if the model has no lights, in scene file form.",
                         ABOUT | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW | 1ull << GROUP_LIGHTS |
                             1ull << GROUP_SHADING | 1ull << GROUP_WORK | 1ull << GROUP_LIMITS,
                         .min_operands = 1, .max_operands = 1, .one_more = "it prints the lights of one model"},
@@ -113,7 +114,7 @@ const struct command command_table[] = {
                         .one_more = "it lists all shapes; lambent teapot draws one"},
     [COMMAND_formats] = {"formats", NULL, "List the formats of models and pictures.", ABOUT, .min_operands = 0,
                          .max_operands = 0, .one_more = "it lists all formats"},
-    [COMMAND_looks] = {"looks", "[NAME]", "List the built-in looks (--look), or print the file of one.", ABOUT,
+    [COMMAND_looks] = {"looks", "[NAME]", "List the built-in looks (--look), or print the file of one look.", ABOUT,
                        .min_operands = 0, .max_operands = 1},
     [COMMAND_materials] = {"materials", NULL,
                            "List the named materials with their numbers; -o FILE also draws a sheet of them.",
@@ -129,8 +130,8 @@ const struct command command_table[] = {
     [COMMAND_complete] = {"complete", "-- WORD...", "Print completions for the last word (used by shells).", ABOUT,
                           .min_operands = 0, .max_operands = -1, .verbatim = true},
     [COMMAND_generate] = {"generate", "man|markdown|bash|zsh|fish|scene-schema|contract-schema|contract-NAME",
-                          "Print the man page, its Markdown form, a shell's completions, the JSON Schema of scene "
-                          "files or of contracts of shaders, or the file of a built-in contract.",
+                          "Print the man page, its Markdown form, shell completions, the JSON Schema of scene files or "
+                          "shader contracts, or the file of a built-in contract.",
                           ABOUT, .min_operands = 1, .max_operands = 1},
     [COMMAND_COUNT] = {.name = NULL},
 };
@@ -171,10 +172,10 @@ const struct example examples[] = {
     {"lambent view models/", "a gallery of the folder (after `make web`)", false},
     {"lambent koala.obj --turntable 36 --fps 12", "an animated PNG of the turning model", false},
     {"lambent koala.obj --sweep light.azimuth=0..360 -o 'light-{frame}.png'",
-     "36 pictures, with the light circling the model", false},
+     "36 pictures in which the light circles the model", false},
     {"lambent koala.obj --json", "the files read, the camera, and the time of each step", false},
-    {"lambent info ship.glb", "its contents: size, triangles, materials, animations", false},
-    {"lambent compare koala.obj --sheet terms", "the terms of the sum side by side, with captions", false},
+    {"lambent info ship.glb", "the model's contents: size, triangles, materials, animations", false},
+    {"lambent compare koala.obj --sheet terms", "the lighting terms side by side, with captions", false},
     {"lambent compare bunny.ply --across 'light=point;directional:direction=-1/-2/-1'",
      "a custom row: one picture for each value of an option", false},
     {"lambent convert scene.json scene.glb", "a scene file or a model in another format", false},
@@ -185,15 +186,16 @@ const struct example examples[] = {
     {"lambent koala.json", "a scene file: objects, materials, lights and camera", false},
     {"lambent explain teapot 512,400", "the calculation of that pixel, in numbers", false},
     {"lambent explain teapot 512,400 -o figure.svg",
-     "the same as a figure: arrows over the picture, coordinates, terms", false},
+     "the same calculation as a figure: arrows over the picture, coordinates, terms", false},
     {"lambent check phong.frag --vertex phong.vert -o check.png", "the mistakes of a shader's lighting", false},
-    {"lambent shader teapot --glsl 120 --host c -o teapot", "its shaders, and C code that sets them", false},
+    {"lambent shader teapot --glsl 120 --host c -o teapot", "the shaders of a model, and C code that sets their inputs",
+     false},
     {"lambent shape --parametric 'x=u*cos(v); y=u*sin(v); z=cos(3u)' --u 0..4 -o ripple.obj",
      "a surface given by formulas, as a model or a picture", false},
     {"lambent shape --implicit 'x^2+y^2+z^2-1'", "the points at which an expression is zero: here a sphere", false},
     {"lambent diff old.png new.png -o where.png", "the difference of two pictures, as numbers and as a picture", false},
     {"lambent diff old/ new/ -o report.html", "models before and after, on one page", false},
     {"lambent hash models/ -o pictures.hash", "hashes of all pictures, for a repository", false},
-    {"lambent hash --check pictures.hash", "which pictures are others now", false},
+    {"lambent hash --check pictures.hash", "the models whose pictures changed", false},
     {NULL, NULL, false},
 };

@@ -1,4 +1,5 @@
-// device_option.c: makes the device of `--device`, `--gl-device`, `--texture-filter`, `--isa` and `--threads`.
+// device_option.c: creates the device that the options select: `--device`, `--gl-device`, `--texture-filter`, `--isa`
+// and `--threads`.
 #include "device_option.h"
 
 #include "console.h"

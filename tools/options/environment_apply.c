@@ -1,9 +1,9 @@
-// environment_apply.c: gives a scene the environment of --environment, and its materials the reflectivity of --reflectivity.
+// environment_apply.c: sets a scene's environment (--environment) and its materials' reflectivity (--reflectivity).
 #include "environment_apply.h"
 
 #include "console.h"
 
-// Replaces the default material by a copy in the scene, which a scene file can store.
+// Replaces the default material with a copy in the scene, so that a scene file can store it.
 static bool replace_default(lam_scene *scene, int material, lam_error *error)
 {
     for (int i = 0; i < lam_scene_object_count(scene); i++) {

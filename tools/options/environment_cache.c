@@ -1,4 +1,4 @@
-// environment_cache.c: environments that many scenes share.
+// environment_cache.c: caches environments, so that many scenes can share them.
 #include "environment_cache.h"
 
 #include <pthread.h>
@@ -10,7 +10,7 @@
 
 enum { KEPT = 4 };
 
-// Which files an environment was made of.
+// Identifies the files from which an environment was read.
 struct identity {
     int count;
     struct {
@@ -64,7 +64,7 @@ void environment_cache_free(struct environment_cache *cache)
     free(cache);
 }
 
-// False: a file cannot be found, or the names are no list of files; reading them says why.
+// Returns false if a file cannot be found or the names are no list of files. Reading the environment reports the cause.
 static bool identify(const char *text, struct identity *identity)
 {
     const char *paths[LAM_FACE_COUNT] = {text};
@@ -100,7 +100,8 @@ static bool is_same(const struct identity *a, const struct identity *b)
     return same;
 }
 
-// The entry of an environment, once nobody is reading it; else a free one, or one that is given up. NULL: all are being read.
+// Returns the entry of an environment, after any thread that reads it has finished. If there is none, returns a free or
+// evicted entry, or NULL if every entry is being read.
 static struct entry *find(struct environment_cache *cache, const char *text, lam_color_mode color,
                           const struct identity *identity)
 {
@@ -128,7 +129,7 @@ static bool set(lam_scene *scene, const lam_environment *environment, double rot
     return lam_scene_set_environment(scene, environment, rotation_rad, error); // the scene owns a reference
 }
 
-// The lock is held, but not while the environment is read.
+// The caller holds the lock; the function releases it while it reads the environment.
 static bool set_shared(struct environment_cache *cache, const char *text, lam_color_mode color,
                        const struct identity *identity, lam_scene *scene, double rotation_rad,
                        const lam_control *control, lam_error *error)
@@ -139,7 +140,7 @@ static bool set_shared(struct environment_cache *cache, const char *text, lam_co
         return set(scene, entry->environment, rotation_rad, error);
     }
     char *copy = entry ? strdup(text) : NULL;
-    entry = copy ? entry : NULL; // without memory nothing is kept
+    entry = copy ? entry : NULL; // if memory is short, the environment is not cached
     if (entry)
         *entry = (struct entry){.text = copy, .color = color, .identity = *identity, .used = ++cache->uses};
     pthread_mutex_unlock(&cache->lock);

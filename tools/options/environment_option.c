@@ -1,4 +1,4 @@
-// environment_option.c: the values of --environment, and the environments that they name.
+// environment_option.c: parses the values of --environment and reads the environments that they name.
 #include "environment_option.h"
 
 #include <stdlib.h>

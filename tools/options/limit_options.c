@@ -1,4 +1,4 @@
-// limit_options.c: the limits of the options, as the library takes them.
+// limit_options.c: converts the limits set by options to the library's limits.
 #include "limit_options.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@ enum { SHARE = 4, DEFAULT_SECONDS = 600 };
 
 uint64_t limits_memory(const struct options *options)
 {
-    static uint64_t kept; // 0: not asked yet. The system's limits change seldom.
+    static uint64_t kept; // 0 means not queried yet. The system's limits rarely change.
     if (options->limits.memory_limit_bytes)
         return options->limits.memory_limit_bytes == UINT64_MAX ? 0 : options->limits.memory_limit_bytes;
     uint64_t available = __atomic_load_n(&kept, __ATOMIC_RELAXED);

@@ -39,8 +39,8 @@ void look_summary(const char *text, char *out, size_t size)
     snprintf(out, size, "%.*s", *text == '#' ? (int)strcspn(from, "\n") : 0, from);
 }
 
-// Opens a regular file. Folders, pipes and devices are not opened: opening one can wait forever, or have side effects.
-// −1: errno.
+// Opens a regular file. Does not open folders, pipes and devices: opening one can block forever or have side effects.
+// Returns −1 and sets errno on failure.
 static int open_file(const char *path)
 {
     struct stat about;
@@ -55,7 +55,7 @@ static int open_file(const char *path)
     return file;
 }
 
-// Reads up to `size` bytes. False: the file cannot be read.
+// Reads up to `size` bytes. Returns false if the file cannot be read.
 static bool read_bytes(int file, char *to, size_t size, size_t *length)
 {
     ssize_t got = 1;
@@ -67,11 +67,11 @@ static bool read_bytes(int file, char *to, size_t size, size_t *length)
     return true;
 }
 
-// The text of a look, to be changed; from malloc.
+// Returns the text of a look, allocated with malloc, which the caller may change.
 static char *copy_of_look(const char *name, lam_error *error)
 {
     const char *built_in = look_find(name);
-    size_t room = built_in ? strlen(built_in) : FILE_MAX + 1; // one byte more than a file may have
+    size_t room = built_in ? strlen(built_in) : FILE_MAX + 1; // one byte more than the size limit
     char *text = malloc(room + 1);
     int file = built_in ? -1 : open_file(name);
     if (!text || (!built_in && file < 0)) {

@@ -1,4 +1,4 @@
-// material_apply.c: the effect of --material and --back-material on a scene's objects.
+// material_apply.c: applies --material and --back-material to a scene's objects.
 #include "material_option.h"
 
 #include <string.h>
@@ -12,14 +12,14 @@ static lam_material material_at(const lam_scene *scene, int index)
     return material ? *material : lam_material_default();
 }
 
-// The changed copy of a material; −1 with the error.
+// Returns the index of a changed copy of the material, or −1 with the error.
 static int add_changed(const struct material_option *option, int from, lam_scene *scene, lam_error *error)
 {
     lam_material changed = material_option_apply(option, material_at(scene, from));
     return lam_scene_add_material(scene, &changed, error);
 }
 
-// The one material that an object's front shows; −2: several.
+// Returns the only material on an object's front, or −2 if there are several.
 static int front_of(const lam_scene *scene, const lam_object *object)
 {
     const lam_mesh *mesh = lam_scene_mesh(scene, object->mesh);
@@ -31,7 +31,7 @@ static int front_of(const lam_scene *scene, const lam_object *object)
     return mesh->parts[0].material;
 }
 
-// The objects that show a mesh, and whether the one at `index` is the first of them.
+// Counts the objects that use a mesh, and reports whether the object at `index` is the first of them.
 static int users_of(const lam_scene *scene, int mesh, int index, bool *first)
 {
     int users = 0;
@@ -44,7 +44,7 @@ static int users_of(const lam_scene *scene, int mesh, int index, bool *first)
     return users;
 }
 
-// Each part's own material, changed. Neighbours that shared one share the new one.
+// Changes the material of each part. Adjacent parts that shared a material share its changed copy.
 static bool change_parts(const struct material_option *option, int mesh, lam_scene *scene, lam_error *error)
 {
     bool whole = option->named; // replaces every field
@@ -98,7 +98,7 @@ static bool set_back(const struct material_option *option, const char *name, int
 
 static bool same(const char *a, const char *b) { return a && strcmp(a, b) == 0; }
 
-// Objects of that name. Returns how many; −1 with the error.
+// Applies the option to objects of that name. Returns their number, or −1 with the error.
 static int set_objects(const struct material_option *option, bool back, const char *name, lam_scene *scene,
                        lam_error *error)
 {
@@ -113,7 +113,7 @@ static int set_objects(const struct material_option *option, bool back, const ch
     return found;
 }
 
-// Parts of that name, in meshes whose objects show the parts' own materials.
+// Applies the option to parts of that name, in meshes whose objects use the materials of the parts.
 static int set_parts(const struct material_option *option, lam_scene *scene, lam_error *error)
 {
     int found = 0;

@@ -1,4 +1,4 @@
-// material_option.c: the values of --material and --back-material: reading them, and warnings.
+// material_option.c: parses the values of --material and --back-material, and warns about coefficients.
 #include "material_option.h"
 
 #include <stdio.h>
@@ -56,11 +56,11 @@ void material_option_mirror(struct material_option *option)
 
 lam_material material_option_apply(const struct material_option *option, lam_material material)
 {
-    lam_material_parse(option->text, option->mode, &material, NULL); // was checked when the option was read
+    lam_material_parse(option->text, option->mode, &material, NULL); // parsing the option has checked this
     return material;
 }
 
-// Fractions of light have a symbol; emission has none.
+// Fractions of light are named by a symbol; emission is not.
 static bool is_fraction(const lam_field *field)
 {
     return (field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA) && field->symbol;
@@ -81,7 +81,7 @@ const char *color_advice(const double rgb[3], char text[COLOR_ADVICE_SIZE])
     return text;
 }
 
-// Adds warnings for the coefficients over 1, `limit` of them at most, and returns their number.
+// Adds at most `limit` warnings about coefficients above 1, and returns the number of such coefficients.
 static int warn(const lam_material *material, const char *subject, int limit, lam_scene *scene)
 {
     int over = 0;
@@ -102,7 +102,7 @@ static int warn(const lam_material *material, const char *subject, int limit, la
     return over;
 }
 
-// The option is applied to a white material, so that factors count as given.
+// Applies the option to a white material, so that factors are compared with 1 as given.
 void material_option_warn(const struct material_option *option, const char *name, lam_scene *scene)
 {
     static const double white[4] = {1, 1, 1, 1};
@@ -120,7 +120,8 @@ void materials_warn(lam_scene *scene)
 {
     enum { REPORTED = 3 };
     int over = 0;
-    // glTF's values are not the file's: highlights that represent rough surfaces keep their energy at any width.
+    // For glTF these values do not come from the file: highlights that represent rough surfaces keep their energy at
+    // any width.
     if (strcmp(lam_scene_format(scene), "gltf") == 0)
         return;
     for (int i = 0; i < lam_scene_material_count(scene); i++) {

@@ -1,5 +1,5 @@
-// option_setting.c: the options of the library's settings. Words, default, range and summary come from its table; a row
-// of option_table.c adds details and the position in the help.
+// option_setting.c: creates options from the library's settings. The settings' table provides words, default, range and
+// summary; a row of option_table.c adds details and the position in the help.
 #include "options.h"
 
 #include <stdio.h>
@@ -10,7 +10,7 @@ enum { POOL = 192, NAME_SIZE = 40 };
 static struct word pool[POOL];
 static int pool_used;
 
-// An option has - where a key has _.
+// Option names use - instead of the _ in keys.
 static bool is_named(const char *name, const char *key)
 {
     while (*name && *key && (*name == *key || (*name == '-' && *key == '_')))
@@ -21,11 +21,11 @@ static bool is_named(const char *name, const char *key)
 static void add_word(const char *name, int value, const char *summary)
 {
     if (pool_used == POOL)
-        abort(); // the tables have grown: POOL must
+        abort(); // the tables have grown: increase POOL
     pool[pool_used++] = (struct word){name, value, summary};
 }
 
-// The words of an option; bits begin with all of them together.
+// Fills the words of an option. For bits, the first word sets all of them.
 static const struct word *words_of(const lam_setting *setting)
 {
     const struct word *first = &pool[pool_used];
@@ -44,7 +44,8 @@ static const struct word *words_of(const lam_setting *setting)
     return first;
 }
 
-// A number of at least 0 with up to five decimals, three digits in all if it has some. printf would take a tenth of the start.
+// Formats a number of at least 0 with up to five decimals, or three significant digits if it has a fraction. printf
+// would need a tenth of the start-up time.
 static void put_number(char *text, double number)
 {
     long long scaled = (long long)(number * 100000 + 0.5), unit = 1;
@@ -65,7 +66,7 @@ static void put_number(char *text, double number)
     *text = 0;
 }
 
-// The word of 0, or the number.
+// Formats the word for 0, or the number.
 static const char *standard_of(const lam_setting *setting, char text[NAME_SIZE])
 {
     const char *word;
@@ -95,7 +96,7 @@ static const struct {
     [LAM_SETTING_RGBA] = {NULL, NULL},
 };
 
-// The rows that leave something to the settings' table, and the number of all rows. Returns the number of the former.
+// Collects the rows that need data from the settings' table, and counts all rows. Returns the number of collected rows.
 static int open_rows(struct option *table, struct option *open[LAM_SETTINGS_MAX], int *rows)
 {
     int count = 0;

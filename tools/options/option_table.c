@@ -6,7 +6,7 @@
 
 #include <lambent/check.h>
 
-// Degrees of --fov, and of --camera with fovy alone.
+// Limits in degrees for --fov, and for --camera with fovy alone.
 #define FOV_MIN 0.1
 #define FOV_MAX 179.9
 
@@ -44,14 +44,14 @@ static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4
 enum { CONTRACT_WORDS_MAX = 24 };
 static struct word contract_words[CONTRACT_WORDS_MAX] = {{"auto", 0, NULL}};
 
-static const struct word sandbox_words[] = {{"auto", SANDBOX_AUTO, "every method that the kernel supports"},
-                                            {"require", SANDBOX_REQUIRE, "all of them, or an error"},
-                                            {"off", SANDBOX_OFF, "none"},
+static const struct word sandbox_words[] = {{"auto", SANDBOX_AUTO, "use every method that the kernel supports"},
+                                            {"require", SANDBOX_REQUIRE, "use all methods, or fail"},
+                                            {"off", SANDBOX_OFF, "use no sandbox"},
                                             {NULL, 0, NULL}};
 
 static const struct word shard_by_words[] = {
-    {"name", SHARD_BY_NAME, "by the hash of a model's name: a new model does not move the others"},
-    {"list", SHARD_BY_LIST, "consecutive models of one sorted list: a shard reads only its own"},
+    {"name", SHARD_BY_NAME, "by the hash of each model's name: a new model does not move the others"},
+    {"list", SHARD_BY_LIST, "consecutive models of one sorted list: each shard reads only its own models"},
     {NULL, 0, NULL}};
 static const struct word light_frame_words[] = {
     {"object", LAM_FRAME_OBJECT, "in object space: the model-view matrix transforms it, like the vertices"},
@@ -68,8 +68,8 @@ static const struct word term_words[] = {{"all", LAM_CHECK_TERM_ALL, NULL},
                                          {NULL, 0, NULL}};
 
 static const struct word compress_words[] = {
-    {"fast", LAM_COMPRESS_FAST, "takes some milliseconds for a million pixels"},
-    {"best", LAM_COMPRESS_BEST, "makes the smallest file, in a second or two"},
+    {"fast", LAM_COMPRESS_FAST, "compresses a million pixels in a few milliseconds"},
+    {"best", LAM_COMPRESS_BEST, "writes the smallest file, in a second or two"},
     {NULL, 0, NULL}};
 
 static const struct word term_words_list[] = {
@@ -77,13 +77,13 @@ static const struct word term_words_list[] = {
     {"kitty", TERM_KITTY, "sends the PNG itself: kitty, Ghostty, Konsole"},
     {"iterm2", TERM_ITERM2, "sends the PNG itself: iTerm2, WezTerm"},
     {"sixel", TERM_SIXEL, "256 colours: xterm, foot, mlterm; needs libchafa"},
-    {"blocks", TERM_BLOCKS, "characters in colour, on any terminal; needs libchafa"},
-    {"off", TERM_OFF, "never"},
+    {"blocks", TERM_BLOCKS, "coloured characters, on any terminal; needs libchafa"},
+    {"off", TERM_OFF, "shows no picture"},
     {NULL, 0, NULL}};
 
 static const struct word color_mode_words[] = {
     {"srgb", LAM_COLOR_SRGB, "Lambent decodes the colours of files, computes linear light and encodes the picture"},
-    {"raw", LAM_COLOR_RAW, "no conversion: the file contains the results of the equations"},
+    {"raw", LAM_COLOR_RAW, "no conversion: the file stores the results of the equations"},
     {NULL, 0, NULL}};
 
 static const struct word show_words[] = {
@@ -96,7 +96,7 @@ static const struct word show_words[] = {
     {"normals", LAM_OUTPUT_NORMALS, "in eye space: (n + 1)/2"},
     {"tangents", LAM_OUTPUT_TANGENTS, "in eye space: (t + 1)/2"},
     {"depth", LAM_OUTPUT_DEPTH,
-     "distance in front of the eye: the nearest point of the model is white, the farthest black"},
+     "distance from the eye along the view direction: the nearest point is white, the farthest black"},
     {"n.l", LAM_OUTPUT_N_L, "cosine between normal and light: max(n.l, 0)"},
     {"n.h", LAM_OUTPUT_N_H, "cosine between normal and half vector: max(n.h, 0)"},
     {"facing", LAM_OUTPUT_FACING, "front blue, back red"},
@@ -109,8 +109,8 @@ static const struct word show_words[] = {
     {"metallic", LAM_OUTPUT_METALLIC, "of physical materials"},
     {"occlusion", LAM_OUTPUT_OCCLUSION, "from an occlusion map"},
     {"lod", LAM_OUTPUT_LOD, "level of detail of the base colour's map: level / 10"},
-    {"ao", LAM_OUTPUT_AMBIENT_OCCLUSION, "ambient occlusion: white if all light from around arrives"},
-    {"all", LAM_OUTPUT_PICTURE, "the picture, every term and every light, as layers of a .exr"},
+    {"ao", LAM_OUTPUT_AMBIENT_OCCLUSION, "ambient occlusion: white where nothing is occluded"},
+    {"all", LAM_OUTPUT_PICTURE, "the picture, every term and every light, as layers of one .exr file"},
     {NULL, 0, NULL}};
 
 static const struct word glsl_words[] = {{"330", LAM_GLSL_330, "OpenGL 3.3"},
@@ -119,34 +119,34 @@ static const struct word glsl_words[] = {{"330", LAM_GLSL_330, "OpenGL 3.3"},
                                          {NULL, 0, NULL}};
 
 static const struct word style_words[] = {{"full", LAM_SHADER_STYLE_FULL, "the library's equations, for every feature"},
-                                          {"lecture", LAM_SHADER_STYLE_LECTURE, "plain lines, as a lecture shows them"},
+                                          {"lecture", LAM_SHADER_STYLE_LECTURE, "plain code, as in a lecture"},
                                           {NULL, 0, NULL}};
 
 static const struct word lights_in_words[] = {
     {"auto", LAM_SHADER_LIGHTS_AUTO, "an array in GLSL 120 and in the lecture style, a block otherwise"},
     {"array", LAM_SHADER_LIGHTS_ARRAY, "plain uniforms, set one by one: lights[0].position"},
     {"block", LAM_SHADER_LIGHTS_BLOCK, "uniform blocks, std140"},
-    {"texture", LAM_SHADER_LIGHTS_TEXTURE, "textures of floats: thousands of lights"},
+    {"texture", LAM_SHADER_LIGHTS_TEXTURE, "floating-point textures, for thousands of lights"},
     {NULL, 0, NULL}};
 
 static const struct word host_words[] = {{"c", 1, NULL}, {NULL, 0, NULL}};
 
 static const struct word view_words[] = {
     {"three-quarter", LAM_SIDE_THREE_QUARTER, "30 degrees to the right of the front, 20 above"},
-    {"front", LAM_SIDE_FRONT, "level, from +Z (with Y up)"},
-    {"back", LAM_SIDE_BACK, "level, from behind"},
-    {"left", LAM_SIDE_LEFT, "level, from the model's left side in the picture (-X)"},
-    {"right", LAM_SIDE_RIGHT, "level, from the right (+X)"},
+    {"front", LAM_SIDE_FRONT, "from the front (+Z with Y up), level"},
+    {"back", LAM_SIDE_BACK, "from behind, level"},
+    {"left", LAM_SIDE_LEFT, "from the left side of the model in the picture (-X), level"},
+    {"right", LAM_SIDE_RIGHT, "from the right (+X), level"},
     {"top", LAM_SIDE_TOP, "straight down"},
     {"bottom", LAM_SIDE_BOTTOM, "straight up"},
-    {"iso", LAM_SIDE_ISO, "45 degrees to the right, 35.26 above: all three axes equally long"},
+    {"iso", LAM_SIDE_ISO, "isometric: 45 degrees to the right, 35.26 above"},
     {NULL, 0, NULL}};
 
 static const struct word projection_words[] = {{"perspective", 0, "a vertical field of view of 30 degrees (`--fov`)"},
                                                {"orthographic", 1, "parallel, as in a drawing"},
                                                {NULL, 0, NULL}};
 
-static const struct word up_words[] = {{"auto", LAM_UP_AUTO, "by format: z for STL and 3MF, y for the others"},
+static const struct word up_words[] = {{"auto", LAM_UP_AUTO, "z for STL and 3MF, y for other formats"},
                                        {"x", LAM_UP_X, NULL},
                                        {"y", LAM_UP_Y, "the model's front is +Z"},
                                        {"z", LAM_UP_Z, "the model's front is -Y"},
@@ -170,23 +170,23 @@ static const struct word tone_words[] = {
 static const struct word look_words[] = {
     {"studio", 0, "the default"},
     {"classic", 1, "the former studio: directional lights, no occlusion"},
-    {"catalog", 2, "the studio over a ground that catches a soft shadow, for a page"},
-    {"technical", 3, "feature edges over light flat faces, for print"},
+    {"catalog", 2, "the studio, with a ground that catches a soft shadow, for web pages"},
+    {"technical", 3, "feature edges over light, flat-shaded faces, for print"},
     {NULL, 0, NULL}};
 
 static const struct word rig_words[] = {
     {"auto", LAM_RIG_AUTO, "the model's own lights; without any, the studio (for glTF the studio environment)"},
     {"none", RIG_DARK, "only ambient light"},
-    {"default", RIG_DEFAULT, "the studio, in place of the model's own lights"},
+    {"default", RIG_DEFAULT, "the studio instead of the model's own lights"},
     {"file", LAM_RIG_NONE, "only the model's own lights"},
-    {"studio", LAM_RIG_STUDIO, "key, fill and rim light fixed to the camera, sky and ground"},
+    {"studio", LAM_RIG_STUDIO, "key, fill and rim lights fixed to the camera, with sky and ground light"},
     {"headlight", LAM_RIG_HEADLIGHT, "one light from the eye"},
-    {"three-point", LAM_RIG_THREE_POINT, "a portrait's key, fill and back light, fixed to the camera"},
+    {"three-point", LAM_RIG_THREE_POINT, "key, fill and back lights as for portraits, fixed to the camera"},
     {"lecture", LAM_RIG_LECTURE, "a point light at 1r/2r/3r: ambient 0.1, diffuse and specular 1, attenuation 1/0/0"},
     {NULL, 0, NULL}};
 
 static const struct word turntable_light_words[] = {
-    {"camera", TURNTABLE_LIGHT_CAMERA, "lights keep their position in the picture, and the model turns below them"},
+    {"camera", TURNTABLE_LIGHT_CAMERA, "lights stay fixed in the picture while the model turns"},
     {"model", TURNTABLE_LIGHT_MODEL, "lights and environment turn with the model, as if the camera circled it"},
     {NULL, 0, NULL}};
 
@@ -197,8 +197,8 @@ static const struct word device_words[] = {{"auto", DEVICE_AUTO, "the CPU; OpenG
                                            {NULL, 0, NULL}};
 
 static const struct word texture_filter_words[] = {
-    {"exact", TEXTURE_FILTER_EXACT, "the shader filters: within 1/255 of the CPU device's picture"},
-    {"hardware", TEXTURE_FILTER_HARDWARE, "the graphics card filters: faster, less exact"},
+    {"exact", TEXTURE_FILTER_EXACT, "filtering in the shader: within 1/255 of the CPU device's picture"},
+    {"hardware", TEXTURE_FILTER_HARDWARE, "filtering by the graphics card: faster, less exact"},
     {NULL, 0, NULL}};
 
 static const struct word cull_words[] = {{"none", LAM_CULL_NONE, "both sides are drawn"},
@@ -206,24 +206,26 @@ static const struct word cull_words[] = {{"none", LAM_CULL_NONE, "both sides are
                                          {"front", LAM_CULL_FRONT, NULL},
                                          {NULL, 0, NULL}};
 
-static const struct word normals_words[] = {{"file", LAM_NORMALS_FILE, "the file's; smooth ones if the file has none"},
-                                            {"smooth", LAM_NORMALS_SMOOTH, "computed, even if the file has normals"},
-                                            {"facet", LAM_NORMALS_FACET, "one for each triangle"},
-                                            {NULL, 0, NULL}};
+static const struct word normals_words[] = {
+    {"file", LAM_NORMALS_FILE, "the file's normals, or smooth normals if the file contains none"},
+    {"smooth", LAM_NORMALS_SMOOTH, "computed smooth normals, even if the file contains normals"},
+    {"facet", LAM_NORMALS_FACET, "one normal for each triangle"},
+    {NULL, 0, NULL}};
 
 static const struct word sheet_words[] = {
     {"summary", SHEET_SUMMARY,
-     "flat, smooth, normal interpolation, reflection (of --environment or else the sky) and anisotropic"},
-    {"terms", SHEET_TERMS, "ambient, diffuse and specular alone; all at shininess 50, at 1000, and at 1000 flat"},
-    {"stages", SHEET_STAGES, "lit per vertex and per fragment, the brightest highlight enlarged"},
-    {"light", SHEET_LIGHT, "the model in white and in green light, with its own colours and in orange"},
-    {"ambient", SHEET_AMBIENT, "ambient and diffuse light white and white, red and white, red and red"},
+     "flat, smooth, normal interpolation, reflection (of --environment, or of the sky) and anisotropic"},
+    {"terms", SHEET_TERMS,
+     "ambient, diffuse and specular alone; all terms at shininess 50, at 1000, and at 1000 with flat shading"},
+    {"stages", SHEET_STAGES, "lighting per vertex and per fragment, with the brightest highlight enlarged"},
+    {"light", SHEET_LIGHT, "the model under white and green light, in its own colours and in orange"},
+    {"ambient", SHEET_AMBIENT, "ambient and diffuse light: both white, red and white, both red"},
     {"frames", SHEET_FRAMES,
-     "one light in the world's, the camera's and the model's frame, before and after a rotation"},
+     "one light in the frames of the world, the camera and the model, before and after a rotation"},
     {"surfaces", SHEET_SURFACES, "specular, diffuse and translucent"},
     {NULL, 0, NULL}};
 
-static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest that this machine supports"},
+static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest instruction set that this machine supports"},
                                         {"scalar", LAM_ISA_SCALAR, "C without vectors"},
                                         {"plain", LAM_ISA_SCALAR, NULL},
                                         {"sse4", LAM_ISA_SSE4, "4 lanes"},
@@ -236,40 +238,41 @@ static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest that 
 struct option option_table[OPTIONS_MAX] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", output_summary,
      "The extension selects the format; `lambent formats` lists the numbers that each format stores. `-` writes a PNG "
-     "to standard output. A file, pipe or device without a known extension also gets a PNG. Without this option "
-     "Lambent writes `MODEL.png` to the current folder (`model.png` if the model comes from standard input). It never "
-     "overwrites a file of that name that it did not write. `-o pictures/`, with a trailing slash, writes to that "
-     "folder and creates it if it is missing; every command that writes files accepts it. `--out` is another name of "
-     "the option.\nA name with words in braces is a pattern that Lambent fills in for each model: `-o "
-     "'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without its extension, `{ext}` that "
-     "extension, `{dir}` its folder (without `..` and a leading slash), `{view}` the value of `--view`, `{size}` the "
-     "size in pixels (`256` or `256x128`). Lambent creates missing folders and replaces existing files. If two models "
-     "would get the same name, it reports an error before it starts. `{{` and `}}` write braces.\n`.html` writes one "
-     "file with the picture and the model. Its reader can turn the model and change every option of the picture, "
-     "without a network (`docs/web.md`). This format needs the page that `make web` builds.",
+     "to standard output. Lambent also writes a PNG to a file, pipe or device without a known extension. Without this "
+     "option Lambent writes `MODEL.png` to the current folder (`model.png` if the model comes from standard input). "
+     "Without this option, it never overwrites a file that it did not write. `-o pictures/`, with a trailing slash, "
+     "writes to that folder and creates it if it is missing; every command that writes files accepts it. `--out` is an "
+     "alias.\nA name that contains words in braces is a pattern that Lambent fills in for each model: `-o "
+     "'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without its extension, `{ext}` the "
+     "extension, `{dir}` the model's folder (without `..` and a leading slash), `{view}` the value of `--view`, and "
+     "`{size}` the size in pixels (`256` or `256x128`). Lambent creates missing folders and replaces existing files. "
+     "If two models would be written to the same file, it reports an error before it starts. Write `{{` and `}}` for "
+     "braces.\n`.html` writes one file that contains the picture and the model. In a browser, its reader can turn the "
+     "model and change every option, without a network (`docs/web.md`). This format needs the page that `make web` "
+     "builds.",
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .of_file = true, .store = store_text,
      .alias = "out", .others = "outfile file format export save write out-dir outdir directory folder f",
      FIELD(picture.output), .single = TAKES_OUTPUT},
-    {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800, 1920x1080, or a list.",
+    {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800, 1920x1080, or a list of sizes.",
      "`render` and `batch` accept up to 16 sizes, such as `1024,256x128`. They read each model once and draw each "
-     "picture separately, without scaling. Several sizes combine with several sides (`--view`): every side is drawn in "
-     "every size. Without a pattern in `-o`, the size follows the model's name: `bunny-256x128.png`.",
+     "picture separately, without scaling. If `--view` lists several sides, Lambent draws every side in every size. "
+     "Without a pattern in `-o`, Lambent appends the size to the model's name: `bunny-256x128.png`.",
      .several = "sizes", .brief = "pixels: 800, 1920x1080, or a list", .store = store_size,
      .others = "resolution resolutions thumbnails width height dimensions pixels viewport window", .max = 65535,
      .single = TAKES_SIZE},
     {"samples", 0, GROUP_PICTURE, "N", "16 up to 256x256 pixels, 8 up to 512x512, 4 above",
      "Samples per pixel: 1, 2, 4, 8 or 16.",
-     "More samples give smoother edges, which matters most in small pictures. On a sheet, each picture has the default "
-     "of its own size. Each triangle is lit once in each pixel that it covers, even in part.",
+     "More samples give smoother edges, most visibly in small pictures. On a sheet, the default depends on the size of "
+     "each picture. Lambent lights each triangle once in each pixel that it covers or partly covers.",
      sample_words, .store = store_word,
      .others = "antialias antialiasing anti-aliasing aa msaa supersampling ssaa quality spp", FIELD(draw.samples)},
     {"anisotropy", 0, GROUP_PICTURE, "N", NULL, NULL,
-     "A pixel sees a slanted texture through a long footprint. One probe is as wide as the longer axis and blurs the "
-     "shorter one; N probes along the longer axis are N times as sharp.",
+     "On a slanted surface, the footprint of a pixel in the texture is long and narrow. One probe is as wide as the "
+     "longer axis and blurs along the shorter axis. N probes along the longer axis are N times as sharp.",
      .others = "anisotropic anisotropic-filtering"},
     {"line-width", 0, GROUP_PICTURE, "PIXELS", NULL, NULL,
-     "Lines of OBJ (`l`), PLY (`edge`) and glTF files have the same width at every distance. They are drawn nearer "
-     "than their vertices by their width, so that lines on a surface are visible. They have no caps.",
+     "Lines of OBJ (`l`), PLY (`edge`) and glTF files have the same width at every distance. Lambent draws them nearer "
+     "to the eye by their width, so that lines on a surface are visible. Lines end without caps.",
      .others = "linewidth stroke-width thickness"},
     {"point-size", 0, GROUP_PICTURE, "PIXELS", "by their number", NULL,
      "Points of OBJ (`p`) and glTF files, and vertices of PLY files without faces and edges, have the same size at "
@@ -277,7 +280,7 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "pointsize point-width splat-size"},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
-     "It fills the pixels that the model leaves free, in pictures of `--show` and of sheets too. The sheets of "
+     "The background fills all pixels that the model does not cover, also with `--show` and on sheets. The sheets of "
      "`compare` and `materials` are white by default. A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), one of the "
      "basic names (`black`, `white`, `gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` "
      "and the other colour names of HTML 4), three or four linear numbers `r/g/b` or `r/g/b/a`, or `transparent`.",
@@ -287,50 +290,51 @@ struct option option_table[OPTIONS_MAX] = {
      color_mode_words, .store = store_word, .others = "encoding gamma colorspace color-space linear srgb",
      FIELD(picture.color_mode)},
     {"compress", 0, GROUP_PICTURE, "LEVEL", "fast", "The compression of PNG files: fast or best.",
-     "`best` makes a file that is about a third smaller, in a second or two for a million pixels; `fast` takes some "
-     "milliseconds. The pixels are identical; other formats ignore the option. `best` needs libdeflate, and the file's "
-     "bytes depend on its version; with `fast` they depend only on the picture.",
+     "`best` writes a file that is about a third smaller, in a second or two for a million pixels; `fast` needs a few "
+     "milliseconds. The pixels are identical. Other formats ignore the option. `best` needs libdeflate, and the bytes "
+     "of the file depend on the version of libdeflate. With `fast` the bytes depend only on the picture.",
      compress_words, .store = store_word, .others = "compression level png-compression", FIELD(picture.compress)},
     {"quality", 0, GROUP_PICTURE, "N", "90 for JPEG; lossless WebP", "The quality of JPEG and WebP files, 1 to 100.",
-     "A lower number makes a smaller, less exact file. JPEG stores the colours of every pixel from 90 on, and of every "
-     "block of four below. WebP is lossless without the option and at 100. Other formats ignore it. The bytes depend "
+     "A lower number gives a smaller, less exact file. JPEG stores the colour of every pixel from 90 up, and of every "
+     "block of four pixels below 90. WebP is lossless at 100 and by default. Other formats ignore it. The bytes depend "
      "on the version of libjpeg-turbo or libwebp.",
      .store = store_integer, .others = "jpeg-quality webp-quality jpg lossy", FIELD(picture.quality), .min = 1,
      .max = 100},
-    {"term", 0, GROUP_PICTURE, "METHOD", "auto", "Also show the picture in the terminal, by a named method, or off.",
-     "If the terminal can show pictures, a single picture without `-o` appears above the line that names its file. `-o "
-     "-` shows the picture and writes no file. Lambent recognises kitty, Ghostty, iTerm2 and WezTerm by the "
-     "environment, and asks other terminals (for at most half a second). It reduces the picture to the width of the "
-     "window. With a value other than `auto`, the picture also appears beside any `-o FILE` of 8 bits. Lambent sends "
-     "no picture if standard output is not a terminal, with `--json` or `--quiet`, or for several models. `sixel` and "
-     "`blocks` need libchafa (Debian's package `libchafa0`). `docs/terminal.md` lists the terminals.",
+    {"term", 0, GROUP_PICTURE, "METHOD", "auto", "Also show the picture in the terminal: a method, or off.",
+     "If the terminal can show pictures and `-o` is missing, a single picture appears above the line that names its "
+     "file. `-o -` shows the picture and writes no file. Lambent recognises kitty, Ghostty, iTerm2 and WezTerm by "
+     "environment variables, and queries other terminals (for at most half a second). It reduces the picture to the "
+     "width of the window. With a value other than `auto`, the picture also appears if `-o` names a file with 8 bits "
+     "per channel. Lambent sends no picture if standard output is not a terminal, with `--json` or `--quiet`, or for "
+     "several models. `sixel` and `blocks` need libchafa (Debian's package `libchafa0`). `docs/terminal.md` lists the "
+     "terminals.",
      term_words_list, .of_file = true, .store = store_word, .single = TAKES_TERM,
      .others = "terminal sixel kitty preview inline", FIELD(picture.term)},
-    {"durable", 0, GROUP_PICTURE, NULL, NULL, "Wait until each picture and its name are on the disk (fsync).",
-     "After a loss of power either the old or the new picture is there, complete. Without the option the system writes "
-     "pictures within seconds, and most file systems give the same guarantee.",
+    {"durable", 0, GROUP_PICTURE, NULL, NULL, "Flush each picture and its folder to disk before continuing (fsync).",
+     "After a power failure, the disk contains either the complete old picture or the complete new one. Without the "
+     "option the system writes pictures to disk within seconds, and most file systems give the same guarantee.",
      .of_file = true, .store = store_switch, .others = "fsync sync", FIELD(picture.durable)},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0; auto for the lights of a glTF file",
-     "Make the picture brighter or darker: 1 doubles its light, -1 halves it; or auto.",
+     "Brighten or darken the picture: 1 doubles the light, -1 halves it; or auto.",
      "Lambent multiplies the model's light by 2 to the power of STOPS, before the tone curve and encoding. This "
      "includes `--color-mode raw`, float pictures and the light terms of `--show`. The background keeps its colour. "
-     "`auto` is the default if the lights of a glTF file (candela, lux) light it. It selects, in thirds of a stop, an "
-     "exposure at which 95 % of the covered pixels are at most as bright as 0.8, and reports it. `--exposure 0` keeps "
-     "the light unchanged.",
+     "`auto` is the default if the picture uses the lights of a glTF file (candela, lux). It selects the exposure, in "
+     "thirds of a stop, so that 95 % of the covered pixels are no brighter than 0.8. Lambent reports the selected "
+     "value. `--exposure 0` keeps the light unchanged.",
      .store = store_exposure, .others = "brightness ev", FIELD(picture.exposure), .min = -100, .max = 100},
     {"tone", 0, GROUP_PICTURE, "CURVE", "auto", "The tone curve: none, reinhard, aces, agx or khronos-neutral.",
-     "It follows exposure and precedes encoding. `auto` is `khronos-neutral` for pictures with physical materials. For "
-     "all others, and with `--color-mode raw`, it is `none`, which clips light at 1. Float pictures store the light "
-     "without the curve. `docs/lighting/tone.md` has the formulas.",
+     "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "
+     "with physical materials. For all other pictures, and with `--color-mode raw`, it selects `none`, which clips "
+     "light at 1. Floating-point pictures store the light without the curve. `docs/lighting/tone.md` has the formulas.",
      tone_words, .store = store_word, .others = "tonemap tone-map tonemapping tone-mapping tone-curve view-transform",
      FIELD(draw.tone)},
     {"show", 0, GROUP_PICTURE, "QUANTITY", "the picture",
      "Show a term of the light, one light, or a surface quantity instead of the picture.",
      "The terms `ambient`, `diffuse`, `specular`, `emission` and `reflection` add up to the picture. `light:key` is "
      "the contribution of the light named key, `light:1` the contribution of the first light. `n.l` and `n.h` use the "
-     "first light that has a direction; `n.l:key` and `n.h:key` name another. The other words show surface quantities. "
-     "`all` writes the picture, every term and every light as layers of one `.exr`. `.pfm` and `.exr` store the values "
-     "unchanged; 8-bit pictures encode them without the sRGB curve. `docs/show.md` has the complete table.",
+     "first light that has a direction; `n.l:key` and `n.h:key` name another. The other names show surface quantities. "
+     "`all` writes the picture, every term and every light as layers of one `.exr` file. `.pfm` and `.exr` store the "
+     "values unchanged; 8-bit pictures encode them without the sRGB curve. `docs/show.md` has the complete table.",
      show_words, .brief = "one term or quantity: diffuse, normals, depth ...", .store = store_show,
      .others = "unlit pass aov channel layer debug term only", FIELD(picture.show)},
 
@@ -342,32 +346,32 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(picture.save_scene)},
 
     {"scene", 0, GROUP_MODEL, "NAME|N", "the file's default",
-     "The scene of a glTF file with several scenes: its name, or its number from 0.", NULL, .store = store_text,
-     .others = "scene-name scene-index", FIELD(model.scene)},
+     "The scene to draw from a glTF file with several scenes: its name, or its number from 0.", NULL,
+     .store = store_text, .others = "scene-name scene-index", FIELD(model.scene)},
     {"variant", 0, GROUP_MODEL, "NAME|N", "none",
-     "The variant of a glTF file's materials (KHR_materials_variants): its name, or its number from 0.", NULL,
+     "The material variant of a glTF file (KHR_materials_variants): its name, or its number from 0.", NULL,
      .store = store_text, .others = "material-variant skin", FIELD(model.variant)},
     {"animation", 0, GROUP_MODEL, "NAME|N", "none",
      "The animation that poses a glTF model: its name, or its number from 0.",
-     "It poses nodes, weights of morph targets and skins at the moment of `--time`.", NULL, .store = store_text,
+     "It poses nodes, morph target weights and skins at the time given by `--time`.", NULL, .store = store_text,
      .others = "anim clip action", FIELD(model.animation)},
-    {"time", 0, GROUP_MODEL, "SECONDS", "0", "The moment of the animation: `--animation`, or the file's first.",
-     "Before the first key and after the last one, the pose of that key remains.", NULL, .store = store_number,
-     FIELD(model.time_s), .has_field = offsetof(struct options, model.has_time), .min = -1e9, .max = 1e9,
-     .others = "seconds", .loads = true},
+    {"time", 0, GROUP_MODEL, "SECONDS", "0",
+     "The time, in seconds, in the animation given by `--animation`, or in the file's first animation.",
+     "Before the first keyframe and after the last, the pose is the pose of that keyframe.", NULL,
+     .store = store_number, FIELD(model.time_s), .has_field = offsetof(struct options, model.has_time), .min = -1e9,
+     .max = 1e9, .others = "seconds", .loads = true},
     {"lenient", 0, GROUP_MODEL, NULL, NULL, "Ignore unknown extensions that a glTF or 3MF file requires.",
      "Without this option Lambent refuses such a file (exit 3), because its picture may lack the extension's effect. "
-     "With it, index values that glTF reserves (primitive restart) and XML prefixes that a 3MF file does not declare "
-     "are "
-     "accepted as well.",
+     "With it, Lambent also accepts index values that glTF reserves (primitive restart) and undeclared XML prefixes in "
+     "3MF files.",
      .store = store_switch, .others = "force ignore-extensions permissive", FIELD(model.lenient)},
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
-     "The sides to view from, as a list: front, back, left, right, top, bottom, iso or three-quarter.",
+     "The side to view the model from, or a list: front, back, left, right, top, bottom, iso or three-quarter.",
      "By default the camera is 30 degrees to the right of the front and 20 degrees above. The model always fills 92 % "
-     "of the picture's tighter side. `--azimuth` and `--elevation` change the angles of a named side.\n`render` and "
-     "`batch` accept up to 16 sides, such as `front,left,iso`; they read each model once. Without a pattern in `-o`, "
-     "the side follows the model's name: `bunny-front.png`.",
+     "of the picture's tighter dimension. `--azimuth` and `--elevation` change the angles of a named side.\n`render` "
+     "and `batch` accept up to 16 sides, such as `front,left,iso`; they read each model once. Without a pattern in "
+     "`-o`, Lambent appends the side to the model's name: `bunny-front.png`.",
      view_words, .several = "views", .brief = "front, left, top, iso ...; or a list: front,left", .store = store_word,
      .others = "side sides cameras angle angles orientation front back left right top bottom isometric",
      FIELD(view.side)},
@@ -382,8 +386,8 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_number, .others = "scale magnify magnification distance", FIELD(view.zoom), .min = 0.001,
      .max = 1000},
     {"fov", 0, GROUP_VIEW, "DEGREES", "30", "The fitted camera's vertical field of view, above 0 and below 180.",
-     "A wide angle moves the camera closer, so that near surfaces look larger than far ones. The model fills the "
-     "picture as before. `--camera fovy=60` has the same effect.",
+     "With a wide angle, the camera moves closer, which makes near surfaces look larger. The model still fills the "
+     "picture. `--camera fovy=60` has the same effect.",
      .store = store_number, .others = "field-of-view view-angle perspective-angle focal-length", .alias = "fovy",
      FIELD(view.fov_deg), .min = FOV_MIN, .max = FOV_MAX},
     {"projection", 0, GROUP_VIEW, "KIND", "perspective", "The projection: perspective or orthographic.", NULL,
@@ -391,20 +395,19 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(view.projection)},
     {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z, -x, -y, -z or auto.",
      "The camera and the lights attached to it follow the axis; the model's coordinates do not change. Lambent reads "
-     "STL and 3MF files as Z up, as in CAD and 3D printing; other formats as Y up, except terrains in the plane of x "
-     "and y. Capitals and a plus sign (`+Z`) are "
-     "accepted.",
+     "STL and 3MF files as Z up, as in CAD and 3D printing; other formats as Y up, except terrains in the xy plane. "
+     "Capitals and a plus sign (`+Z`) are accepted.",
      up_words, .brief = "the file's up axis: y, z, -z ...", .store = store_up,
      .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up), .single = TAKES_UP},
-    {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Rotate the model about its centre, such as y:30; repeatable.",
-     "The axis is x, y or z of the scene; rotations apply in the given order. Lights keep their position (except "
-     "lights in the model's frame), and radii refer to the model before the rotation. One camera fits every angle, so "
-     "that the model keeps its size and position. It is the camera of the model before the rotation; if the model "
-     "would leave the picture at some angle, the camera moves back. All pictures of a sheet share this camera.",
+    {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Rotate the model about its centre, for example y:30; repeatable.",
+     "The axis is x, y or z of the scene; rotations apply in the given order. Lights do not move (except lights in the "
+     "model's frame), and radii refer to the model before the rotation. The camera is fitted to the model before the "
+     "rotation. If the model would leave the picture at any angle, the camera moves back, so that the model keeps its "
+     "size and position at every angle. All pictures of a sheet share this camera.",
      .brief = "rotate the model: y:30", .store = store_rotation, .others = "r rotation turn spin",
      FIELD(shading.rotations)},
     {"camera", 0, GROUP_VIEW, "KEYS|NAME|N", "fitted",
-     "An exact camera: eye=x/y/z,target=x/y/z,fovy=30 and more; or a camera of the file, by name or number.",
+     "A camera: eye=x/y/z,target=x/y/z,fovy=30 and more keys; or a camera of the file, by name or number.",
      "A value without `=` names a camera of the model's file (glTF), or gives its number from 0. Otherwise keys are "
      "separated by commas and use the model's own coordinates: `eye` (required), `target` (default: the middle of the "
      "model), `up` (the model's up axis), `fovy` (the full vertical angle in degrees: 30; alone it is `--fov`) or "
@@ -417,29 +420,30 @@ struct option option_table[OPTIONS_MAX] = {
     {"light", 0, GROUP_LIGHTS, "TYPE[:KEYS]", "the rig's",
      "A light: point:position=2r/1r/3r, spot, directional, ambient, hemisphere or none; repeatable.",
      "TYPE is `ambient`, `hemisphere`, `point`, `directional` or `spot`, followed by a colon and keys separated by "
-     "commas. These lights replace the default lights (the model's or the studio's). `+TYPE` adds to them, and `none` "
-     "removes all but the ambient light. With `--rig`, the rig's lights remain.\nPosition: `position=x/y/z` is in the "
-     "model's units or, with r after each number, in radii of the model's bounding sphere, from its centre (default: "
-     "`1r/2r/3r`; `1r/-3r/2r` with Z up). `position=x/y/z/0` is a directional light that comes from there. "
+     "commas. These lights replace the model's lights, or the studio if the model has no lights. `+TYPE` adds to them, "
+     "and `none` removes all but the ambient light. With `--rig`, the rig's lights remain.\nPosition: `position=x/y/z` "
+     "is in the model's units or, with r after each number, in radii of the model's bounding sphere, from its centre "
+     "(default: `1r/2r/3r`; `1r/-3r/2r` with Z up). `position=x/y/z/0` is a directional light that comes from there. "
      "`direction=x/y/z` is the direction in which the light travels, and `target=x/y/z` the point at which it aims. By "
      "default a directional light travels along 0/0/-1, and a spot aims at the model's centre. "
-     "`frame=world|camera|view|object|object:NAME` selects the coordinate frame. `world` is the scene's. `camera` is "
-     "the eye's: x right, y up, looking along -z; a light without a position is at the eye. `view` has the eye's axes "
-     "and starts at the middle of the scene's box. `object` is the model's before `--rotate`, and `object:NAME` a "
-     "named object's.\nEmission: `color` times `intensity` (1) is the diffuse and specular light; `ambient` (0), "
-     "`diffuse` and `specular` set each separately. A colour is `#rrggbb`, a name, `r/g/b` (linear) or one number. An "
-     "ambient light uses `color` or `ambient` (0.2), a hemisphere light `sky` (0.4), `ground` (0.1) and "
-     "`up`.\nFalloff: `attenuation=a/b/c` is 1/(a + b d + c d^2). With r after b and c, the distance d is in radii "
-     "(`1/2.7r/5r`). `range` (also with r) is the distance at which the light ends. A spot's cone is defined by "
-     "`cutoff` (half angle in degrees, 45) and `exponent`, or by the half angles `inner` and `outer`. `name` appears "
-     "in reports.\n`lambent help lights` lists all keys.",
+     "`frame=world|camera|view|object|object:NAME` selects the coordinate frame. `world` is the frame of the scene. "
+     "`camera` is the frame of the eye: x right, y up, looking along -z; a light without a position is at the eye. "
+     "`view` uses the axes of the eye, with the origin at the middle of the scene's box. `object` is the frame of the "
+     "model before `--rotate`, and `object:NAME` the frame of a named object.\nEmission: `color` times `intensity` (1) "
+     "is the diffuse and specular light; `ambient` (0), `diffuse` and `specular` set each separately. A colour is "
+     "`#rrggbb`, a name, `r/g/b` (linear) or one number. An ambient light uses `color` or `ambient` (0.2), a "
+     "hemisphere light `sky` (0.4), `ground` (0.1) and `up`.\nFalloff: `attenuation=a/b/c` is 1/(a + b d + c d^2). "
+     "With r after b and c, the distance d is in radii (`1/2.7r/5r`). `range` (also with r) is the distance beyond "
+     "which the light contributes nothing. A spot's cone is defined by `cutoff` (half angle in degrees, 45) and "
+     "`exponent`, or by the half angles `inner` and `outer`. `name` appears in reports.\n`lambent help lights` lists "
+     "all keys.",
      .kind = VALUE_LIGHT, .brief = "point, spot, directional ... replace the studio", .store = store_light,
      .others = "l lamp sun spot point directional lighting", FIELD(lighting.lights)},
     {"look", 0, GROUP_LIGHTS, "NAME|FILE", "studio",
      "A named set of options: studio, classic, catalog, technical, or your own file.",
-     "A look is a file with one option per line. Options on the command line override the look's; a rig or lights on "
-     "the command line replace the look's. `lambent looks` lists the built-in looks, and `lambent looks catalog` "
-     "prints one that you can copy and change.",
+     "A look is a file with one option per line. Options on the command line override options of the look; a rig or "
+     "lights on the command line replace its lights. `lambent looks` lists the built-in looks. `lambent looks catalog` "
+     "prints the file of a look, which you can copy and change.",
      look_words, .kind = VALUE_FILE, .store = store_text, .others = "preset style theme", FIELD(lighting.look)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A predefined set of lights: studio, headlight, three-point, lecture, default, file, none or auto.",
@@ -449,9 +453,10 @@ struct option option_table[OPTIONS_MAX] = {
      .has_field = offsetof(struct options, lighting.has_rig)},
     {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Ambient light: #rrggbb, r/g/b, a name or one number.", NULL,
      .kind = VALUE_COLOR, .store = store_opaque_color, .others = "ambient-light", FIELD(lighting.ambient)},
-    {"show-lights", 0, GROUP_LIGHTS, NULL, NULL, "Draw markers at the lights: balls, and cones along their directions.",
-     "The marker of a directional light is one and a half radii from the model's centre. Markers glow in the colours "
-     "of their lights. The camera ignores them, and Lambent reports markers outside the picture.",
+    {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,
+     "Draw a marker at each light: a ball, and a cone along the light's direction.",
+     "The marker of a directional light is one and a half radii from the model's centre. Each marker has the colour of "
+     "its light. The camera is fitted without the markers, and Lambent reports markers outside the picture.",
      .store = store_switch, FIELD(shading.show_lights)},
     {"light-cutoff", 0, GROUP_LIGHTS, "SHARE", NULL, NULL,
      "With more than 16 lights, each part of the picture skips its weakest lights, as long as their greatest possible "
@@ -462,12 +467,13 @@ struct option option_table[OPTIONS_MAX] = {
     {"ao", 0, GROUP_LIGHTS, "METHOD", NULL, NULL,
      "A recess receives less light from its surroundings than an open face. Occlusion dims ambient, hemisphere and "
      "environment light. It also dims the share `occluded` of other lights: the studio's lights set this key, and "
-     "lights of `--light` do not. It needs Phong shading. `docs/lighting/occlusion.md` has the formulas.",
+     "lights of `--light` do not. Ambient occlusion needs Phong shading. `docs/lighting/occlusion.md` has the "
+     "formulas.",
      .others = "ambient-occlusion occlusion ssao gtao hbao no-ao"},
     {"cavity", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
-     "It makes letters, holes, seams and wrinkles visible. It computes ambient occlusion at a small radius, and the "
-     "same measure for ridges. It changes the light that `--ao` dims. `--show ao --ao off --cavity on` shows its "
-     "effect.",
+     "Cavity shading makes letters, holes, seams and wrinkles visible. It computes ambient occlusion at a small "
+     "radius, and the same measure for ridges. It affects the same light as `--ao`. `--show ao --ao off --cavity on` "
+     "shows its effect.",
      .others = "curvature ridges valleys no-cavity"},
     {"ao-radius", 0, GROUP_LIGHTS, "SHARE", .others = "occlusion-radius ssao-radius"},
     {"ao-samples", 0, GROUP_LIGHTS, "N", .others = "occlusion-samples ao-rays ray-count"},
@@ -476,32 +482,33 @@ struct option option_table[OPTIONS_MAX] = {
      .has_field = offsetof(struct options, lighting.has_light_scale), .min = 0, .max = 1e6},
     {"material", 0, GROUP_MATERIALS, "NAME|KEYS[@NAME]", "the model's",
      "A material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
-     "The value is a name of the classic table (its colours are sRGB), keys separated by commas, or a name followed by "
-     "keys (`gold,shininess=80`). Under the default lights `brass`, `bronze`, `chrome`, `copper`, `gold` and `silver` "
-     "alone are physical metals that reflect the studio. The model's values remain in fields without a key. `lambent "
-     "help materials` lists the keys (a colour is `#rrggbb`, a name, `r/g/b` or one number). `color` sets ambient and "
-     "diffuse; `specular_color` sets specular. The factors `ka`, `kd`, `ks` and `kr` multiply ambient, diffuse, "
-     "specular and mirrored light (`kr` multiplies the specular colour, white by default).\n`@NAME` limits the option "
-     "to the objects of that name, or else to the parts (OBJ groups, STL solids), or else to the model's materials: "
-     "`ruby@handle`. If several options match a surface, the last one wins.",
+     "The value is a material name from the classic table (with sRGB colours), keys separated by commas, or a name "
+     "followed by keys (`gold,shininess=80`). Under the default lights `brass`, `bronze`, `chrome`, `copper`, `gold` "
+     "and `silver` alone are physical metals that reflect the studio. Properties without a key keep the model's "
+     "values. `lambent help materials` lists the keys (a colour is `#rrggbb`, a name, `r/g/b` or one number). `color` "
+     "sets ambient and diffuse; `specular_color` sets specular. The factors `ka`, `kd`, `ks` and `kr` multiply "
+     "ambient, diffuse, specular and mirrored light (`kr` multiplies the specular colour, white by default).\n`@NAME` "
+     "limits the option to the objects of that name, or else to the parts (OBJ groups, STL solids), or else to the "
+     "model's materials: `ruby@handle`. If several options match a surface, the last one wins.",
      .kind = VALUE_MATERIAL, .brief = "gold, ruby ... (lambent materials)", .store = store_material,
      .others = "m mat specular diffuse", FIELD(material.materials)},
     {"color", 0, GROUP_MATERIALS, "COLOR", "the materials' own", "The colour of the model: red, #ff8800 or r/g/b.",
-     "It replaces the ambient and diffuse colour of every material, also of `--material`; highlights keep their "
-     "colour. It abbreviates `--material color=COLOR`. A colour alone is a material too: `--material "
-     "'#ff8800@handle'`. (`--color raw` and `--color srgb` still mean `--color-mode`.)",
+     "The colour replaces the ambient and diffuse colour of every material, including those set by `--material`; "
+     "highlights keep their colour. The option is short for `--material color=COLOR`. A colour alone is also a valid "
+     "material: `--material '#ff8800@handle'`. (`--color raw` and `--color srgb` still mean `--color-mode`.)",
      .kind = VALUE_COLOR, .brief = "of the model: red, '#ff8800'", .store = store_opaque_color,
      .others = "c paint tint albedo model-color mesh-color surface-color", FIELD(material.model_color),
      .former = "color-mode"},
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
-     "The material of back faces, as in `--material`; other fields are the front's.", NULL, .kind = VALUE_MATERIAL,
-     .store = store_material, FIELD(material.back_materials)},
+     "The material of back faces, as in `--material`; properties without a key are copied from the front.", NULL,
+     .kind = VALUE_MATERIAL, .store = store_material, FIELD(material.back_materials)},
     {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 sharp.",
-     "It replaces the shininess of every material, also of `--material`.", .store = store_number,
+     "It replaces the shininess of every material, including materials of `--material`.", .store = store_number,
      .others = "gloss glossiness specular-exponent exponent", FIELD(material.shininess),
      .has_field = offsetof(struct options, material.has_shininess), .min = 0, .max = 1e30},
     {"opacity", 0, GROUP_MATERIALS, "SHARE", NULL, "The alpha of all materials: 1 is opaque, 0 is clear.",
-     "It replaces the opacity of every material, also of `--material`; vertex colours may contribute an alpha as well.",
+     "It replaces the opacity of every material, including materials of `--material`. The alpha of vertex colours "
+     "still multiplies it.",
      .store = store_number, .others = "alpha transparency translucency", FIELD(material.opacity),
      .has_field = offsetof(struct options, material.has_opacity), .min = 0, .max = 1},
 
@@ -510,19 +517,19 @@ struct option option_table[OPTIONS_MAX] = {
     {"reflection", 0, GROUP_SHADING, "MODEL", NULL, reflection_summary,
      .others = "brdf lobe pbr lighting-model reflection-model blinn-phong lambert"},
     {"stage", 0, GROUP_SHADING, "STAGE", "fragment", NULL,
-     "Without `--shading`, application and vertex imply gouraud, and fragment implies phong. `flat` works with all "
-     "three stages, `gouraud` with application and vertex, `phong` with fragment. On the CPU all stages of a shading "
-     "method draw identical pictures.",
+     "Without `--shading`, `application` and `vertex` imply Gouraud shading, and `fragment` implies Phong shading. "
+     "`flat` works with all three stages, `gouraud` with `application` and `vertex`, and `phong` with `fragment`. On "
+     "the CPU all stages of a shading method draw identical pictures.",
      .others = "per-vertex per-pixel per-fragment"},
     {"flat-normal", 0, GROUP_SHADING, "SOURCE", .words = NULL},
     {"viewer", 0, GROUP_SHADING, "KIND", .words = NULL},
     {"match-highlights", 0, GROUP_SHADING, NULL, .words = NULL},
     {"single-scattering", 0, GROUP_SHADING, NULL, NULL, NULL,
-     "Rough metals are then darker, as in renderers without this term.", .words = NULL},
+     "Rough metals are then darker, as in renderers that omit this term.", .words = NULL},
     {"reference", 0, GROUP_SHADING, "N", NULL, NULL,
-     "The environment light of a picture is an approximation (the split sum). This option computes the exact integral, "
-     "for comparison. 1024 directions are mostly within 0.5 % of the integral, 4096 within 0.2 %. The directions are "
-     "the same at every point and on every machine. CPU only.",
+     "By default Lambent approximates environment light by the split sum. This option integrates it numerically, for "
+     "comparison. With 1024 directions most results are within 0.5 % of the exact integral, with 4096 within 0.2 %. "
+     "The directions are the same at every point and on every machine. CPU only.",
      .others = "ground-truth importance-samples"},
     {"shadows", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Lambent traces a ray from every lit point to every light, except lights with `shadows=off`. Ambient light, "
@@ -531,42 +538,42 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "shadow cast-shadows raytrace shadow-map"},
     {"ground", 0, GROUP_SHADING, "KIND", NULL, NULL,
      "With a ground, lights cast shadows, on the ground and on the model. A `shadow` ground shows only the shadows, "
-     "over any background or none. The other kinds are lit surfaces. The ground is perpendicular to the up axis "
-     "(`--up`) and fades out at a distance. It is invisible from below, and the camera ignores it. It needs Phong "
-     "shading. `docs/lighting/ground.md` has pictures.",
+     "over any background or a transparent one. The other kinds are lit surfaces. The ground plane is perpendicular to "
+     "the up axis (`--up`) and fades out with distance. It is invisible from below, and the camera is fitted without "
+     "it. A ground needs Phong shading. `docs/lighting/ground.md` has pictures.",
      .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "floor plane shadow-catcher base grid",
      FIELD(draw.ground)},
     {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", .others = "terminator shadow-bias"},
     {"shadow-samples", 0, GROUP_SHADING, "N", NULL, NULL,
-     "The unblocked share of the rays is the share of the light that arrives. Above 48, points in full light or full "
-     "shadow use 48 rays. Fewer rays are faster and show steps.",
+     "The fraction of rays that are not blocked is the fraction of the light that arrives. Above 48, points in full "
+     "light or full shadow use 48 rays. Fewer rays are faster but cause visible banding.",
      .others = "soft-shadow-samples light-samples"},
     {"wireframe", 'w', GROUP_SHADING, NULL, NULL, NULL,
      "Lambent omits edges behind surfaces (see `--hidden-lines`) and edges that split polygons of OBJ and PLY files "
      "into triangles. `--surfaces off` draws only the lines. Lines are smooth for every number of `--samples`. Light, "
-     "exposure, tone and distance do not change their colour and width. `docs/edges.md` has pictures.",
+     "exposure, tone curve and distance do not affect their colour and width. `docs/edges.md` has pictures.",
      .others = "wire mesh mesh-lines show-edges polygons topology", .loads = true},
     {"wireframe-width", 0, GROUP_SHADING, "PIXELS", .others = "wire-width"},
     {"wireframe-color", 0, GROUP_SHADING, "COLOR", "black", NULL, "With an alpha below 1 the surfaces show through.",
      .kind = VALUE_COLOR, .store = store_color, .others = "wire-color", FIELD(shading.wireframe_color)},
     {"edges", 0, GROUP_SHADING, "KINDS", "none", NULL,
-     "`crease`: two faces meet at more than `--edge-angle`, or more than two faces meet. `boundary`: a surface ends. "
-     "`silhouette`: one face of the edge is seen from the front, the other from behind. `--edges all --surfaces off` "
-     "is a technical drawing.",
+     "At a `crease`, two faces meet at more than `--edge-angle`, or more than two faces meet. At a `boundary`, a "
+     "surface ends. At a `silhouette`, one face of the edge is front-facing and the other is back-facing. `--edges all "
+     "--surfaces off` is a technical drawing.",
      .others = "edge feature-edges outline outlines contour toon lineart line-art", .loads = true},
     {"edge-angle", 0, GROUP_SHADING, "DEGREES", .others = "feature-angle sharp-angle"},
     {"edge-width", 0, GROUP_SHADING, "PIXELS", .others = "outline-width"},
     {"edge-color", 0, GROUP_SHADING, "COLOR", "black", NULL, NULL, .kind = VALUE_COLOR, .store = store_color,
      .others = "outline-color", FIELD(shading.edge_color)},
     {"hidden-lines", 0, GROUP_SHADING, "STYLE", NULL, NULL,
-     "Rays from each edge to the eye decide exactly, so that lines along a surface have no gaps. A surface hides the "
-     "lines behind it if its opacity is at least 0.5; glass hides nothing.",
+     "Rays from each edge to the eye decide exactly whether the edge is hidden, so that lines along a surface show no "
+     "gaps. A surface hides the lines behind it if its opacity is at least 0.5; glass hides nothing.",
      .others = "hidden-line dashed see-through xray x-ray"},
     {"surfaces", 0, GROUP_SHADING, "SWITCH", NULL, NULL, "Surfaces that are not drawn still hide lines.",
      .others = "faces lines-only no-surfaces hide-surfaces"},
     {"gl1", 0, GROUP_SHADING, NULL, NULL, NULL,
-     "For comparison with old programs. It clamps vertex colours to 0...1 before interpolation and the shininess to "
-     "128; a light's ambient light is attenuated and limited to its cone.",
+     "Use it for comparison with old programs. Lambent then clamps vertex colours to 0...1 before interpolation and "
+     "the shininess to 128. It also attenuates the ambient light of each light and limits it to the light's cone.",
      .words = NULL},
     {"two-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces with the reversed normal, for every material.", NULL,
      .store = store_switch, FIELD(shading.two_sided)},
@@ -584,17 +591,17 @@ struct option option_table[OPTIONS_MAX] = {
      .min = 0, .max = 180, .loads = true},
     {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
      "Segments of a built-in shape: slices around and stacks along, such as 64x32.",
-     "For `--parametric`: along u and along v; N alone sets both. N is 3 to 16384; `lambent shapes` describes the "
-     "segments of each shape. The default of M depends on the shape. gyroid, metaballs and surfaces of `--implicit` "
-     "allow at most 1024 cells and no M.",
+     "With `--parametric`, N is the number along u and M the number along v; N alone sets both. N is 3 to 16384; "
+     "`lambent shapes` describes the segments of each shape. The default of M depends on the shape. `gyroid`, "
+     "`metaballs` and `--implicit` allow at most 1024 cells and no M.",
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
     {"environment", 0, GROUP_SHADING, "IMAGE", "none",
      "The surroundings that shiny surfaces reflect: an image, six faces, sky or studio.",
      "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, WebP, BMP, TGA, PPM, "
      "PFM, EXR or Radiance (.hdr). Six faces are files separated by commas in OpenGL's order, `px,nx,py,ny,pz,nz`, all "
-     "square and equally large. `sky` and `studio` are built in; write `./sky` for a file of that name. Only materials "
-     "with a reflectivity reflect the environment: see `--reflectivity`. `docs/lighting/reflection.md` describes how "
-     "each kind surrounds the model.",
+     "square and of the same size. `sky` and `studio` are built in; write `./sky` for a file of that name. Classic "
+     "materials reflect the environment only if they have a reflectivity (see `--reflectivity`). "
+     "`docs/lighting/reflection.md` describes how Lambent maps each kind around the model.",
      .kind = VALUE_ENVIRONMENT, .store = store_text,
      .others = "e env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
@@ -608,33 +615,34 @@ struct option option_table[OPTIONS_MAX] = {
     {"turntable", 0, GROUP_ANIMATION, "N", NULL, "Animate a full turn of the model in N frames.",
      "The model rotates about its up axis in equal steps, counter-clockwise from above; frame k is the picture of "
      "`--rotate y:` k 360/N. All frames share one camera distance and one exposure. By default, and with a name that "
-     "ends in `.png` or `.webp`, all frames become one animated PNG or WebP that loops forever. With `{frame}` in the "
-     "name (`-o 'turn/{frame}.png'`), each frame becomes a picture of its own, in any format. `docs/animation.md` has "
-     "examples.",
+     "ends in `.png` or `.webp`, Lambent writes all frames to one animated PNG or WebP that loops forever. With "
+     "`{frame}` in the name (`-o 'turn/{frame}.png'`), it writes each frame to a separate file, in any format. "
+     "`docs/animation.md` has examples.",
      .store = store_integer, .others = "spin turnaround orbit rotate360 animate gif apng", FIELD(animation.turntable),
      .min = 2, .max = 100000},
     {"turntable-light", 0, GROUP_ANIMATION, "WITH", "camera",
      "Whether the lights of a turntable stay with the camera or turn with the model: camera or model.",
-     "Lights in the frame of an object or the model always turn with it.", turntable_light_words, .store = store_word,
-     .others = "turntable-lights spin-light", FIELD(animation.turntable_light)},
+     "Lights in the frame of an object or of the model always turn with that object or model.", turntable_light_words,
+     .store = store_word, .others = "turntable-lights spin-light", FIELD(animation.turntable_light)},
     {"sweep", 0, GROUP_ANIMATION, "KEY=FROM..TO", NULL,
      "Animate a number: light.azimuth=0..360, roughness=0..1; repeatable.",
      "KEY is one of these: an option whose value is a number (`azimuth`, `elevation`, `zoom`, `exposure`, `opacity`, "
      "`ambient`, `crease-angle`); `rotate.x`, `rotate.y` or `rotate.z`; a key of `--material` (`roughness`, `kd`, also "
      "`roughness@NAME`); or a number of a light: `light.azimuth`, `light.WHICH.azimuth`. WHICH is the light's name or "
-     "its number from 1 (`lambent lights`, `--show-lights`); by default it is the first light with that number. A "
-     "light's numbers are its fields (`diffuse`, `range`, `position.x`; angles in degrees), `intensity`, which "
-     "multiplies its light, and `azimuth` and `elevation`. These two angles state the direction that the light comes "
-     "from, in its own frame, like the camera's angles: 0 is the front, 90 the right. `time` is the time of a glTF "
-     "file's animation; without numbers it covers the whole length.\nMore stops may follow: "
+     "its number from 1 (`lambent lights`, `--show-lights`). Without WHICH, the sweep applies to the first light that "
+     "has this key. A light's numbers are its fields (`diffuse`, `range`, `position.x`; angles in degrees), "
+     "`intensity`, which multiplies its light, and `azimuth` and `elevation`. These two angles state the direction "
+     "that the light comes from, in its own frame, like the camera's angles: 0 is the front, 90 the right. `time` is "
+     "the time of a glTF file's animation; without numbers it covers the whole length.\nMore stops may follow: "
      "`light.elevation=10..80..10`. If a sweep ends as it begins (after a whole turn, for example), its last frame is "
-     "one step before the end, so that the loop is seamless. Several sweeps run together, and together with "
-     "`--turntable`. The camera is fitted once: to the first frame; for `azimuth` and `elevation` so that all frames "
-     "share one distance; for `time` to the box of all frames. Only `zoom` and `fov` change it.",
+     "one step before the end, so that the loop is seamless. Several sweeps run at the same time, also with "
+     "`--turntable`. Lambent fits the camera once, to the first frame. For `azimuth` and `elevation` all frames share "
+     "one distance; for `time` the camera is fitted to the box of all frames. Only `zoom` and `fov` change the camera "
+     "between frames.",
      .kind = VALUE_SWEPT, .store = store_texts, .others = "animate vary-over-time light-sweep",
      FIELD(animation.sweeps)},
     {"frames", 0, GROUP_ANIMATION, "N", "36", "The number of frames of `--sweep`.",
-     "`--turntable` states its own number. For `--sweep time` alone the default is the animation's length times "
+     "`--turntable N` sets this number itself. For `--sweep time` alone the default is the animation's length times "
      "`--fps`.",
      .store = store_integer, .others = "frame-count", FIELD(animation.frames), .min = 2, .max = 100000},
     {"fps", 0, GROUP_ANIMATION, "N", "24", "Frames per second of an animation, 0.1 to 240.", NULL,
@@ -644,8 +652,9 @@ struct option option_table[OPTIONS_MAX] = {
      NULL, .store = store_integer, .others = "jobs cores cpus parallel", FIELD(work.threads), .min = 1, .max = 1024,
      .single = TAKES_THREADS},
     {"isa", 0, GROUP_WORK, "NAME", "auto", "The instruction set: scalar, sse4, avx2, avx512, neon or auto.",
-     "All draw identical pictures. Lambent refuses a set that this machine or this build lacks (exit 3).", isa_words,
-     .store = store_word, .others = "simd instruction-set", FIELD(work.isa)},
+     "All instruction sets draw identical pictures. Lambent rejects a set that this machine or this build does not "
+     "support (exit 3).",
+     isa_words, .store = store_word, .others = "simd instruction-set", FIELD(work.isa)},
     {"device", 0, GROUP_WORK, "NAME", "auto", "The device that draws: cpu, gl, gles or auto.",
      "OpenGL draws the same picture within a tolerance (`docs/opengl.md`). If it is unavailable, the error states the "
      "reason (exit 3). Lambent does not switch to another device. `lambent devices` lists the devices.",
@@ -653,81 +662,85 @@ struct option option_table[OPTIONS_MAX] = {
     {"gl-device", 0, GROUP_WORK, "N|NAME", "the first usable", "The OpenGL device, by number or part of its name.",
      "`lambent devices` lists the numbers, hardware before software.", .store = store_text, FIELD(work.gl_device)},
     {"texture-filter", 0, GROUP_WORK, "NAME", "exact",
-     "The unit that filters textures with OpenGL: exact (shader) or hardware.",
+     "How OpenGL filters textures: exact (in the shader) or hardware.",
      "Graphics cards round the weights of their filters, mostly to 1/256, and approximate the level of detail. "
-     "`hardware` is therefore faster and less exact (`docs/opengl.md`). The CPU device is always exact and refuses "
-     "`hardware`. For `shader`, the option selects how the printed shaders read textures.",
+     "`hardware` is therefore faster and less exact (`docs/opengl.md`). The CPU device is always exact and rejects "
+     "`hardware`. With the command `shader`, the option selects how the printed shaders read textures.",
      texture_filter_words, .store = store_word, .others = "texture-filtering texturefilter",
      FIELD(work.texture_filter)},
     {"repeat", 0, GROUP_WORK, "N", "1", "Draw N frames and report the median time.", NULL, .store = store_integer,
      .others = "iterations benchmark bench", FIELD(work.repeat), .min = 1, .max = 100000},
     {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter",
-     "Stop if a model needs more memory, such as 500M or 2Gi (exit 4).",
-     "Reading a model and drawing it may each use this much at once, pictures and decoders included. Lambent counts "
-     "memory before it allocates it. The default is a quarter of the memory available to this process, divided among "
-     "the models drawn at the same time. Available is the smallest of the machine's memory, the limits of its control "
-     "groups (cgroup v1 and v2) and its own limits (`ulimit -v`, `ulimit -d`). `none` disables the limit. k, M, G and "
-     "T are powers of 1000; Ki, Mi, Gi and Ti of 1024. For `check`, it limits the process that draws a shader.",
+     "Stop if a model needs more memory than this, for example 500M or 2Gi (exit 4).",
+     "The limit applies separately to reading a model and to drawing it, including textures and decoders. Lambent "
+     "counts memory before it allocates it. The default is a quarter of the memory available to this process, divided "
+     "by the number of models drawn at the same time. The available memory is the smallest of the machine's memory, "
+     "the limits of the process's control groups (cgroup v1 and v2) and the limits of the process (`ulimit -v`, "
+     "`ulimit -d`). `none` disables the limit. k, M, G and T are powers of 1000; Ki, Mi, Gi and Ti of 1024. For "
+     "`check`, it limits the process that draws a shader.",
      .store = store_bytes, .others = "max-memory memory ram", FIELD(limits.memory_limit_bytes), .single = TAKES_MEMORY},
     {"time-limit", 0, GROUP_LIMITS, "SECONDS", "600", "Stop after this many seconds (exit 4); none disables the limit.",
-     "The limit is elapsed time per model: reading, drawing and writing together. Multiplied by the number of threads "
-     "(`--threads`), it also bounds the processor time. A picture ends within half a second of the limit. In an "
-     "animation the default applies to each frame; a limit that you set applies to all frames together.",
+     "The limit applies to the elapsed time for reading, drawing and writing each model. Multiplied by the number of "
+     "threads (`--threads`), it also limits the processor time. Lambent stops within half a second after the limit. In "
+     "an animation the default applies to each frame; a limit that you set applies to all frames together.",
      .store = store_seconds, .others = "timeout", FIELD(limits.time_limit_s), .min = 0.001, .max = 1e9,
      .single = TAKES_PICTURE_LIMITS},
-    {"triangle-limit", 0, GROUP_LIMITS, "N", "by the size of the files", "Stop if a model has more triangles (exit 4).",
-     "Lines and points count too, and each object counts the triangles of its mesh. The default is 50 million plus 100 "
-     "per byte of the model's files, at most 200 million. k, M and G are powers of 1000.",
+    {"triangle-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
+     "Stop if a model has more triangles than this (exit 4).",
+     "Lines and points count as triangles. Each object adds the number of triangles of its mesh. The default is 50 "
+     "million plus 100 per byte of the model's files, at most 200 million. k, M and G are powers of 1000.",
      .store = store_count, .others = "max-triangles polygon-limit vertex-limit", FIELD(limits.triangle_limit),
      .max = 2147483647},
     {"object-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
-     "Stop if a model has more objects, instances included (exit 4).",
+     "Stop if a model has more objects than this, instances included (exit 4).",
      "The default is 100000 plus one per byte of the model's files.", .store = store_count,
      .others = "max-objects instance-limit max-instances node-limit", FIELD(limits.object_limit), .max = 2147483647},
     {"layer-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
-     "Stop if a picture has more layers per pixel, on average (exit 4).",
-     "A layer is a translucent or masked surface over a pixel. 32 lights on a point count as one layer. So do 32 "
-     "opaque surfaces behind each other, and the light of an environment on a surface. The default is 40 plus one per "
-     "16384 bytes of the model's files. Pictures of fewer than 65536 pixels count as if they had 65536. OpenGL does "
-     "not count them.",
+     "Stop if a picture has more layers per pixel than this, on average (exit 4).",
+     "A layer is a translucent or masked surface over a pixel. Each of these also counts as one layer: 32 lights on a "
+     "point, 32 opaque surfaces behind each other, and environment light on a surface. The default is 40 plus one per "
+     "16384 bytes of the model's files. Pictures with fewer than 65536 pixels count as 65536 pixels. The OpenGL "
+     "devices ignore this limit.",
      .store = store_count, .others = "max-layers overdraw-limit", FIELD(limits.layer_limit), .max = 2147483647},
     {"expansion-limit", 0, GROUP_LIMITS, "N", "2000",
      "Stop if a model needs more memory than N times the size of its files plus 500 MB (exit 4).",
-     "It bounds the expansion of small files: compressed pictures and meshes, and numbers that a file only implies. "
-     "`--memory-limit` bounds memory independently of the files' size.",
+     "The option limits how much a small file can expand, for example by compressed textures and meshes or by implied "
+     "values. `--memory-limit` limits memory independently of the file size.",
      .store = store_count, .others = "ratio-limit compression-limit bomb", FIELD(limits.expansion_limit),
      .max = 2147483647, .single = TAKES_PICTURE_LIMITS},
-    {"pixel-limit", 0, GROUP_LIMITS, "N", "400M", "Refuse a texture or an environment with more pixels (exit 4).",
+    {"pixel-limit", 0, GROUP_LIMITS, "N", "400M",
+     "Reject a texture or an environment with more pixels than this (exit 4).",
      "Lambent reads a file's header before it allocates memory. A side is never longer than 65535 pixels.",
      .store = store_count, .others = "max-pixels texture-limit image-limit", FIELD(limits.pixel_limit),
      .max = 4294836225, .single = TAKES_PICTURE_LIMITS},
-    {"file-limit", 0, GROUP_LIMITS, "BYTES", "32G", "Refuse to read a larger file (exit 4).",
-     "The limit applies to each file separately: the model, and each file that it names.", .store = store_bytes,
+    {"file-limit", 0, GROUP_LIMITS, "BYTES", "32G", "Reject files larger than this (exit 4).",
+     "The limit applies separately to the model file and to each file that the model names.", .store = store_bytes,
      .others = "max-file-size file-size-limit", FIELD(limits.file_limit_bytes), .single = TAKES_PICTURE_LIMITS},
-    {"json-depth-limit", 0, GROUP_LIMITS, "N", "256", "Refuse JSON with deeper nesting: glTF and scene files (exit 4).",
-     NULL, .store = store_integer, .others = "max-depth nesting", FIELD(limits.json_depth_limit), .min = 1,
-     .max = 2000},
+    {"json-depth-limit", 0, GROUP_LIMITS, "N", "256",
+     "Reject JSON (glTF and scene files) with deeper nesting than this (exit 4).", NULL, .store = store_integer,
+     .others = "max-depth nesting", FIELD(limits.json_depth_limit), .min = 1, .max = 2000},
     {"files-inside", 0, GROUP_LIMITS, NULL, NULL, "Restrict the files that a scene file may name to its own folder.",
-     "For scene files from strangers: the models and pictures must be in the scene file's folder or below it, after "
-     "resolving links and `..`. A scene file then cannot show other files. Files that a model names (MTL) must be in "
-     "the model's folder in any case. Files named on the command line may be anywhere.",
+     "Use this option for scene files from strangers. All models and pictures must then be in the scene file's folder "
+     "or below it, after links and `..` are resolved. A scene file then cannot show other files. Files that a model "
+     "names (MTL) must be in the model's folder in any case. Files named on the command line may be anywhere.",
      .store = store_switch, FIELD(limits.files_inside), .single = TAKES_FILES},
-    {"sandbox", 0, GROUP_LIMITS, "MODE", "auto", "Whether to drop all privileges that reading files does not need.",
+    {"sandbox", 0, GROUP_LIMITS, "MODE", "auto",
+     "Drop all privileges that reading files does not need: auto, require or off.",
      "In the sandbox, a file that exploits a decoder cannot run programs, open sockets or read other files. The "
      "process can read only the folders of the models and of `--allow-path`, and the system's libraries and fonts. It "
-     "cannot change any file: a small process outside the sandbox writes the pictures, and nothing else. The sandbox "
-     "consists of Linux's Landlock and a seccomp filter. `auto` uses both if the kernel supports them. `require` fails "
-     "if one is missing (exit 3), and restricts scene files to their own folder (`--files-inside`) and `--allow-path`. "
-     "`-v`, `--json` and `--version` report the methods in use. The sandbox applies to commands that read models or "
+     "cannot change any file: a small process outside the sandbox writes only the pictures. The sandbox consists of "
+     "Linux's Landlock and a seccomp filter. `auto` uses both if the kernel supports them. `require` fails if one is "
+     "missing (exit 3), and restricts scene files to their own folder (`--files-inside`) and `--allow-path`. `-v`, "
+     "`--json` and `--version` report the methods in use. The sandbox applies to commands that read models or "
      "pictures. `check` and OpenGL need privileges for their drivers; with `auto` they run without a sandbox. With "
      "`auto`, a scene file (`.json`) may name files anywhere, unless `--files-inside` or `--allow-path` is given.",
      sandbox_words, .store = store_word, .others = "seccomp landlock jail", FIELD(limits.sandbox),
      .single = TAKES_PICTURE_LIMITS},
-    {"allow-path", 0, GROUP_LIMITS, "DIR", NULL, "Let models name files in this folder, or this file; repeatable.",
-     "A model may read files only in its own folder: for textures in `../textures` give `--allow-path ../textures`. "
-     "Scene files with `--files-inside` and links in a folder of `batch` may also lead there. The sandbox allows "
-     "reading this folder. With `--jobs` the folder contains the files of jobs, whose models still read only their own "
-     "folders. Pages and `view` contain no files of other folders.",
+    {"allow-path", 0, GROUP_LIMITS, "DIR", NULL, "Allow models to read this file, or files in this folder; repeatable.",
+     "By default a model may read files only in its own folder. For textures in `../textures` give `--allow-path "
+     "../textures`. Scene files with `--files-inside`, and links in the folders of `batch`, may also point to the "
+     "allowed folder. The sandbox allows reading it. With `--jobs`, all files of jobs must be in the allowed folder; "
+     "their models still read only their own folders. Pages and `view` never contain files of other folders.",
      .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(limits.allow_paths),
      .single = TAKES_PICTURE_LIMITS},
 
@@ -737,7 +750,7 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(batch.sizes), .max = 65535},
     {"files-from", 0, GROUP_BATCH, "FILE", NULL, "Draw the models that FILE lists, one per line; repeatable.",
      "`-` is standard input. Names are relative to the current folder, as on the command line; empty lines are "
-     "ignored. In `batch`, `@FILE` is the same.",
+     "ignored. In `batch`, `@FILE` has the same effect.",
      .kind = VALUE_FILE, .store = store_list, .others = "input-list filelist models-from", FIELD(batch.lists),
      .single = TAKES_MANY},
     {"journal", 0, GROUP_BATCH, "FILE", "none; `batch`: lambent.jsonl beside the pictures",
@@ -754,40 +767,41 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_switch, .others = "continue restart", FIELD(batch.resume)},
     {"retry-failed", 0, GROUP_BATCH, "N", "0", "Retry a picture that failed, at most N times.",
      "Retries run at the end, and with `--resume` also for failures of earlier runs; each line of the journal counts "
-     "as one try. At the end Lambent lists the models that still fail.",
+     "as one attempt. At the end Lambent lists the models that still fail.",
      .store = store_integer, .others = "retries retry attempts", FIELD(batch.retry_failed), .max = 1000},
-    {"failures-ok", 0, GROUP_BATCH, NULL, NULL, "Exit with 0 although models failed, if each outcome is recorded.",
-     "Open MPI stops all ranks if one exits with another code, and other systems repeat its task. The journal and the "
-     "messages report the failures. A run that did not reach every model still exits with its code: after a wrong "
-     "option, a journal that cannot be written, or an interrupt.",
+    {"failures-ok", 0, GROUP_BATCH, NULL, NULL,
+     "Exit with 0 even if models fail, provided that the journal records each result.",
+     "Open MPI stops all ranks if one rank exits with a code other than 0, and other systems repeat the task. The "
+     "journal and the messages still report the failures. If a run does not reach every model, it exits with its usual "
+     "code: for example after a wrong option, an interrupt, or a journal that it cannot write.",
      .store = store_switch, .others = "keep-going ignore-failures ignore-errors", FIELD(batch.failures_ok),
      .single = TAKES_MANY},
-    {"skip-same", 0, GROUP_BATCH, NULL, NULL, "Skip pictures whose files and options are unchanged in the journal.",
-     "A picture is skipped if its hash and its key match the journal. The key is a hash of all files that reading the "
-     "model looked for (textures and material libraries included), the options with their defaults, and the program's "
-     "version.",
+    {"skip-same", 0, GROUP_BATCH, NULL, NULL, "Skip pictures whose files and options match the journal.",
+     "A picture is skipped if its hash and its key match the journal. The key is a hash of all files that Lambent "
+     "looked for to read the model (including textures and material libraries), of all options with their defaults, "
+     "and of the program's version.",
      .store = store_switch, .others = "incremental update changed newer cache", FIELD(batch.skip_same)},
-    {"isolate", 0, GROUP_BATCH, NULL, NULL, "Draw each model in a process of its own.",
-     "If a model crashes or exhausts the memory, only that model fails: its line in the journal has the class "
+    {"isolate", 0, GROUP_BATCH, NULL, NULL, "Draw each model in a separate process.",
+     "If a model crashes the process or exhausts the memory, only that model fails. The journal records the class "
      "`crashed`, and the run continues.",
      .store = store_switch, .others = "process fork sandbox-process", FIELD(batch.isolate), .single = TAKES_MANY},
     {"shard", 0, GROUP_BATCH, "K/N", "1/1",
      "Draw the K-th of N parts of the models (from 1); other machines draw the others.",
      "A model's part depends only on its path: a new model does not move the others. `auto` takes K and N from "
-     "SLURM_ARRAY_TASK_ID or OMPI_COMM_WORLD_RANK and their counts; `auto/N` takes K from them or from "
+     "SLURM_ARRAY_TASK_ID or OMPI_COMM_WORLD_RANK and their counts; `auto/N` takes K from these variables or from "
      "JOB_COMPLETION_INDEX (Kubernetes). If these variables are ambiguous, Lambent draws nothing. Without this option "
-     "it ignores them. The journal and the page of each part get their own names: `lambent-2-of-4.jsonl` "
+     "it ignores them. The journal and the page of each part have separate names: `lambent-2-of-4.jsonl` "
      "(`docs/batch.md`). `lambent journal` summarises them.",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(batch.shard)},
     {"shard-by", 0, GROUP_BATCH, "ORDER", "name", "How `--shard` divides the models: by name or list.",
      "With `name` each shard reads all names, which takes a second or two for a million. With `list` it reads the K-th "
      "of N parts of one list (`@FILE`), by its bytes. The models must be sorted by the names of their pictures "
-     "(`LC_ALL=C sort`), so that no two pictures can have one name. If the list changes, models move to other shards; "
+     "(`LC_ALL=C sort`), so that no two pictures share a name. If the list changes, models move to other shards; "
      "`--resume` then refuses to continue.",
      shard_by_words, .store = store_word, .others = "partition split-by", FIELD(batch.shard_by)},
     {"jobs", 0, GROUP_BATCH, "-", NULL,
      "`batch`: Read jobs, one line of JSON each, and answer each with a line of JSON.",
-     "For servers: one process draws all jobs until its standard input ends (`docs/worker.md`). A job has an `id`, a "
+     "For servers, one process draws all jobs until its standard input ends (`docs/worker.md`). A job has an `id`, a "
      "`model` or its bytes, `options`, and an `output`. Without `output` the answer contains the picture. Files are "
      "read and written only below the folders of `--allow-path`. The options of the command line apply to every job; a "
      "job's own options follow them. A file or a pipe can replace `-`.",
@@ -796,8 +810,8 @@ struct option option_table[OPTIONS_MAX] = {
      "The number of jobs that may wait; then Lambent stops reading lines.", NULL, .store = store_integer,
      .others = "queue backlog queue-length", FIELD(batch.ahead), .min = 1, .max = 100000},
     {"line-limit", 0, GROUP_BATCH, "BYTES", "64M", "The longest line of `--jobs`; longer ones are errors.",
-     "Lines include the bytes of models: base64 takes four bytes for three. The models of waiting jobs occupy at most "
-     "twice this size.",
+     "A line can include the bytes of a model. Base64 needs four bytes for every three bytes of the model. The models "
+     "of waiting jobs use at most twice this limit.",
      .store = store_bytes, .others = "line-length job-limit", FIELD(batch.line_limit_bytes)},
     {"report", 0, GROUP_BATCH, "FILE.html", NULL, "Also write a page of all pictures, failures first.",
      "Lambent writes the thumbnails to the folder FILE-files beside it. The page needs no other file and no network.",
@@ -805,18 +819,20 @@ struct option option_table[OPTIONS_MAX] = {
      .single = TAKES_REPORT},
 
     {"json", 0, GROUP_REPORT, NULL, NULL, "Print a report in JSON, one line for each model.",
-     "The report goes to standard output. If the picture goes to standard output, the report goes to standard error, "
-     "and nothing else does. It replaces the line with the file's name, and also appears on failure. Its schema is "
-     "`docs/report.schema.json`. For `compare` it contains the caption of each picture and the options that draw it.",
+     "Lambent prints the report to standard output, instead of the line with the file's name. If the picture goes to "
+     "standard output, Lambent prints the report, and nothing else, to standard error. It also prints a report on "
+     "failure. The schema is `docs/report.schema.json`. For `compare` the report contains the caption of each picture "
+     "and the options that draw the picture.",
      .brief = "print a report for other programs", .store = store_switch, .others = "stats info", FIELD(report.json),
      .single = TAKES_JSON},
-    {"dry-run", 0, GROUP_REPORT, NULL, NULL, "Print what would be drawn and written, and write nothing.",
-     "Lambent reads and checks the models, checks the options and whether it can write each picture, and draws "
+    {"dry-run", 0, GROUP_REPORT, NULL, NULL,
+     "Print the pictures that the command would draw and write, without writing anything.",
+     "Lambent reads and checks the models and the options, and checks whether it can write each picture. It draws "
      "nothing. For each model it prints the picture with its size, whether it replaces a file, the camera, the device "
-     "and the options of the command line. With `--json` the report contains `planned` in place of `image`. Anything "
-     "that drawing would refuse is an error with the same exit code.",
+     "and the options of the command line. With `--json` the report contains `planned` in place of `image`. It reports "
+     "the same errors, with the same exit codes, as the real command.",
      .store = store_switch, .others = "plan simulate no-write preview what-if check-only", FIELD(report.dry_run)},
-    {"verbose", 'v', GROUP_REPORT, NULL, NULL, "Print the files read and the time of each step on standard error.",
+    {"verbose", 'v', GROUP_REPORT, NULL, NULL, "Print the files read and the duration of each step to standard error.",
      NULL, .store = store_switch, FIELD(report.verbose)},
     {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Print nothing but errors.", NULL, .store = store_switch,
      .others = "silent", FIELD(report.quiet), .single = TAKES_QUIET},
@@ -828,63 +844,60 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_number, .others = "amplify", FIELD(diff.gain), .min = 0.001, .max = 1e6},
 
     {"check", 0, GROUP_HASH, "FILE", NULL, "Compare with the hashes in FILE; the exit code is 6 if they differ.",
-     "Names each model that has changed, that is missing (it is in the file, and not among the models) or that is new. "
-     "Without "
-     "models on the command line it draws those of the file. If the version or the options of the file are others, it "
-     "says so first.",
+     "Lambent lists models that changed, new models, and missing models (listed in the file, but not given). If you "
+     "name no models, Lambent draws the models listed in the file. If the file records another version or other "
+     "options, Lambent first reports this.",
      .kind = VALUE_FILE, .store = store_text, .others = "verify compare-with against", FIELD(hash.check)},
     {"update", 0, GROUP_HASH, NULL, NULL,
-     "With `--check`: write the new hashes to the file, with a sheet of what changed.",
-     "The sheet lies beside the file: `pictures-changes.png` for `pictures.hash`, with the old picture, the new one "
-     "and "
-     "their difference for the first 40 models that changed. A hash cannot be turned back into a picture: the old one "
-     "is "
-     "shown if `--pictures` kept it.",
+     "With `--check`, write the new hashes to the file, and a sheet of the changed pictures.",
+     "Lambent writes the sheet beside the file: `pictures-changes.png` for `pictures.hash`. The sheet shows the old "
+     "picture, the new picture and their difference for the first 40 changed models. It shows an old picture only if "
+     "`--pictures` stored it, because a hash does not contain the picture.",
      .store = store_switch, .others = "renew accept bless", FIELD(hash.update)},
-    {"pictures", 0, GROUP_HASH, "DIR", NULL, "Keep the pictures in this folder, for the sheet of the next `--update`.",
-     "Each is a PNG with the name of its model: `DIR/models/koala.obj.png`. Written with `-o` and with `--update`, "
-     "read "
-     "by "
-     "`--update`. It need not be in the repository: a cache of the continuous integration will do.",
+    {"pictures", 0, GROUP_HASH, "DIR", NULL, "Store the pictures in this folder, for the sheet of the next `--update`.",
+     "Each picture is a PNG named after its model: `DIR/models/koala.obj.png`. Lambent writes the pictures with `-o` "
+     "and `--update`, and reads them with `--update`. The folder need not be in the repository: a CI cache is "
+     "sufficient.",
      .kind = VALUE_FILE, .store = store_text, .others = "keep cache-dir baseline", FIELD(hash.pictures)},
 
     {"thumbnail", 0, GROUP_CONVERT, NULL, NULL, "Put a picture of the model into the GLB file.",
-     "512x512 pixels, as `lambent MODEL` draws it, in `asset.thumbnail`: an index into `images`, from the draft of "
-     "glTF 2.1. "
-     "Programs that do not know it ignore it.",
+     "The picture has 512x512 pixels, drawn as by `lambent MODEL`. `asset.thumbnail` stores its index in `images`, as "
+     "in the draft of glTF 2.1. Programs that do not support this property ignore it.",
      .store = store_switch, .others = "preview icon", FIELD(convert.thumbnail)},
 
     {"sheet", 0, GROUP_SHEET, "NAME", "summary",
      "The sheet: summary, terms, stages, light, ambient, frames or surfaces.", NULL, sheet_words, .store = store_word,
      .others = "layout", FIELD(sheet.name)},
     {"title", 0, GROUP_SHEET, "TEXT", NULL, "The title of a sheet, a plot or a figure, in any language; '' for none.",
-     "An SVG stores text as text: the viewer provides the fonts, supports right-to-left languages and can read it "
-     "aloud. A PNG contains the letters of the font (`--font`), one after the other. The default font has Latin, Greek "
-     "and Cyrillic; Chinese, Japanese and Korean need a font with their letters. Scripts that run from right to left "
-     "or join their letters need an SVG.",
+     "An SVG stores text as text: the viewer provides the fonts, supports right-to-left languages and can read the "
+     "text aloud. In a PNG, Lambent draws one letter of the font after the other. The default font covers Latin, Greek "
+     "and Cyrillic. Chinese, Japanese and Korean need a font that covers them (`--font`). Scripts that run from right "
+     "to left or join letters need an SVG.",
      .store = store_text, .single = TAKES_TITLE, .others = "heading name header", FIELD(captions.title)},
     {"caption", 0, GROUP_SHEET, "TEXT", NULL, "The caption of a sheet's next picture, in any language; repeatable.",
      NULL, .store = store_texts, .others = "captions label labels", FIELD(captions.texts)},
     {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL,
-     "A row of pictures: shading, or shininess=10,50,1000; a second --across makes columns.",
+     "Draw a row of pictures: shading, or shininess=10,50,1000; a second --across adds columns.",
      "OPTION is one of the options above without its dashes. Values are separated by commas; if they contain commas, "
      "as for `light` and `material`, by semicolons (`light=point;directional:color=red,frame=camera`). By default the "
-     "values are the words of the option; for `shininess` 10, 50 and 1000, for `light` one light of each type, and for "
-     "`show`, also called `term`, the five terms. If the option is given twice, the first makes the rows of a grid and "
-     "the second its columns. `mistake=A,B` draws shaders with known mistakes beside the correct one, by OpenGL, with "
-     "their differences (`lambent shader --mistake list`); `mistake` alone draws all that the scene can show.",
+     "values are all names that the option accepts; for `shininess` 10, 50 and 1000, for `light` one light of each "
+     "type, and for `show`, also called `term`, the five terms. If the option is given twice, the first defines the "
+     "rows of a grid and the second its columns. `mistake=A,B` draws shaders with known mistakes beside the correct "
+     "shader, by OpenGL, with their differences (`lambent shader --mistake list`). `mistake` alone draws all mistakes "
+     "that are visible in the scene.",
      .kind = VALUE_VARIED, .store = store_across, .others = "vary grid columns rows", FIELD(sheet.across)},
 
     {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or degrees.", NULL,
      .store = store_number, FIELD(plot.to), .min = 1e-6, .max = 1e9},
 
     {"vertex", 0, GROUP_CHECK, "FILE", NULL, "The vertex shader that belongs to the fragment shader.",
-     "Without it Lambent generates a correct one, which recognises varyings by name and type (`docs/check.md`).",
+     "Without this option Lambent generates a correct vertex shader, which recognises varyings by name and type "
+     "(`docs/check.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.vertex)},
     {"contract", 0, GROUP_CHECK, "NAME", "auto", "The names that the shaders use: a contract's name, or its file.",
      "`auto` recognises a built-in contract by its names. If none fits, it infers the role of each input from its use. "
-     "It never selects `chile` and `glsl120`, whose inputs are always inferred; name them to use them. `--list` prints "
-     "the contracts. A file of your own is JSON (`docs/check/contract-file.md`).",
+     "It never selects `chile` and `glsl120`: name these contracts to use them. `--list` prints the contracts. A file "
+     "of your own is JSON (`docs/check/contract-file.md`).",
      contract_words, .kind = VALUE_FILE, .store = store_text, FIELD(check.contract)},
     {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's", "The space of light positions: object or camera.", NULL,
      light_frame_words, .store = store_word, FIELD(check.light_frame)},
@@ -898,19 +911,20 @@ struct option option_table[OPTIONS_MAX] = {
     {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to use, separated by commas: all,gate,near.", NULL,
      .store = store_text, FIELD(check.scenes)},
     {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "The limit of a shader's processor time, for all scenes.",
-     "It is the sum over all threads, so other load on the machine does not count; elapsed time may be 20 times as "
-     "long.",
+     "Lambent adds the processor time of all threads, so other programs on the machine do not affect it. The elapsed "
+     "time may be up to 20 times as long.",
      .store = store_number, FIELD(check.stop_after_s), .min = 0.1, .max = 1e6},
     {"search-limit", 0, GROUP_CHECK, "PICTURES", "10000",
      "Stop the search for mistakes after this many pictures of single mistakes and of sets.",
-     "If the search finds no set, the report states how many it tried and whether it stopped at this limit.",
+     "If the search finds no set of mistakes, the report states how many sets it tried and whether it stopped at this "
+     "limit.",
      .store = store_integer, .others = "effort budget tries", FIELD(check.search_limit), .min = 1, .max = 1000000000},
     {"class", 0, GROUP_CHECK, "FOLDER", NULL, "Check every submission in a folder.",
      "A submission is a sub-folder with one fragment shader, at most one vertex shader and any other files. Outside "
-     "sub-folders, it is a fragment shader and the vertex shader of the same name. With `-o FOLDER/` Lambent writes a "
-     "page for the whole class, `index.html`, and a sheet for each submission.",
+     "sub-folders, a submission is a fragment shader and the vertex shader of the same name. With `-o FOLDER/` Lambent "
+     "writes a page for the whole class, `index.html`, and a sheet for each submission.",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.class_folder)},
-    {"csv", 0, GROUP_CHECK, "FILE", NULL, "Write a line for each shader: points and mistakes.", NULL,
+    {"csv", 0, GROUP_CHECK, "FILE", NULL, "Write a CSV line for each shader, with its points and mistakes.", NULL,
      .kind = VALUE_FILE, .store = store_text, .others = "grades marks table", FIELD(check.csv)},
     {"moodle", 0, GROUP_CHECK, "FILE", NULL, "Write grades as a Moodle worksheet (CSV).",
      "Lambent recognises folders that Moodle names after its participants.", .kind = VALUE_FILE, .store = store_text,
@@ -918,10 +932,11 @@ struct option option_table[OPTIONS_MAX] = {
     {"gradescope", 0, GROUP_CHECK, "FILE", NULL, "Write one submission's results.json for Gradescope.", NULL,
      .kind = VALUE_FILE, .store = store_text, FIELD(check.gradescope)},
     {"submitty", 0, GROUP_CHECK, "FILE", NULL, "Write one submission's result for Submitty.",
-     "The file is its validation_results.json.", .kind = VALUE_FILE, .store = store_text, FIELD(check.submitty)},
+     "Submitty reads this file as validation_results.json.", .kind = VALUE_FILE, .store = store_text,
+     FIELD(check.submitty)},
     {"write-contract", 0, GROUP_CHECK, "FILE", NULL, "Write a commented contract for the shaders.",
-     "It contains the recognised contract, or the roles that the inputs have by their use. Correct it, and check with "
-     "`--contract FILE` (`docs/check/contract-file.md`).",
+     "The file contains the recognised contract, or the role of each input, inferred from its use. Correct the file, "
+     "then check with `--contract FILE` (`docs/check/contract-file.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.write_contract)},
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
      .store = store_switch, FIELD(check.list)},
@@ -936,27 +951,26 @@ struct option option_table[OPTIONS_MAX] = {
      "Pass the products ka La, kd Ld and ks Ls as uniforms, as in the lectures.", NULL, .store = store_switch,
      FIELD(shader.products)},
     {"lights-in", 0, GROUP_SHADER, "STORAGE", "auto", "How the shaders store the lights: array, block or texture.",
-     "No method has a fixed maximum number of lights; OpenGL allows the fewest in an array and the most in a texture.",
+     "No method has a fixed maximum number of lights. OpenGL allows the fewest lights in an array and the most in a "
+     "texture.",
      lights_in_words, .store = store_word, FIELD(shader.lights_in)},
     {"style", 0, GROUP_SHADER, "STYLE", "full", "The style of the shaders: full or lecture.",
-     "The lecture style uses the names of the blackboard: N, L, V, R, H, ka, kd, ks. Its uniforms and its picture "
-     "equal the full style's, for lambert, phong, blinn-phong and kajiya-kay with any lights and any shading. Lambent "
-     "refuses textures and other reflection models in this style. With `--stage application` a C function that lights "
-     "the vertices comes with the shaders. See `docs/teaching.md`.",
+     "The lecture style uses the names of the blackboard: N, L, V, R, H, ka, kd, ks. For `lambert`, `phong`, "
+     "`blinn-phong` and `kajiya-kay`, with any lights and any shading, its uniforms and its picture are the same as in "
+     "the full style. Lambent rejects textures and other reflection models in this style. With `--stage application` "
+     "Lambent also prints a C function that lights the vertices. See `docs/teaching.md`.",
      style_words, .store = store_word, FIELD(shader.style)},
     {"mistake", 0, GROUP_SHADER, "NAME", NULL,
      "Introduce a known mistake into shaders of the lecture style; `list` lists them.",
-     "For the exercise \"find the mistake\": `lambent check` reports the mistake. `lambent compare MODEL --across "
-     "mistake=A,B` shows the effect of mistakes. `--mistake list --json` prints the list for programs.",
+     "Use it for exercises such as \"find the mistake\": `lambent check` reports the mistake. `lambent compare MODEL "
+     "--across mistake=A,B` shows the effect of mistakes. `--mistake list --json` prints the list for programs.",
      .store = store_text, .others = "error bug fault wrong", FIELD(shader.mistake)},
     {"parametric", 0, GROUP_SHAPE, "FORMULAS", NULL,
      "A surface over u and v: 'x = ...; y = ...; z = ...', after any definitions.",
-     "`a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)` is a torus. Formulas have `+ - * / ^`, "
-     "parentheses, `pi`, `tau`, `e`, and the functions sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt "
-     "cbrt "
-     "abs sign floor mod min max hypot pow. Normals come from symbolic derivatives. z is up, as in books, unless "
-     "`--up` "
-     "says otherwise. `docs/shapes.md` describes the language and has examples.",
+     "`a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)` is a torus. Formulas support `+ - * / ^`, "
+     "parentheses, `pi`, `tau`, `e`, and these functions: sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt "
+     "cbrt abs sign floor mod min max hypot pow. Normals come from symbolic derivatives. z is up, as in books, unless "
+     "`--up` says otherwise. `docs/shapes.md` describes the language and has examples.",
      .store = store_text, .others = "formula formulas surface equation", FIELD(shape.parametric), .loads = true},
     {"u", 0, GROUP_SHAPE, "FROM..TO", "0..2pi", "The range of u, two constant expressions.", NULL, .store = store_text,
      .others = "u-range", FIELD(shape.u_range), .loads = true},
@@ -964,24 +978,25 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "v-range", FIELD(shape.v_range), .loads = true},
     {"implicit", 0, GROUP_SHAPE, "FORMULA", NULL,
      "The surface on which an expression of x, y and z is zero: 'x^2+y^2+z^2-1'.",
-     "The expression is negative inside; `x^2+y^2+z^2 = 1` is the same surface. Definitions precede it, `a = 2; "
-     "(sqrt(x^2+y^2)-a)^2 + z^2 - 1`, in the language of `--parametric`. Normals are the symbolic gradient. "
-     "`--segments` is the number of cells along the longest side of the box around the surface, 96 by default.",
+     "The expression is negative inside; `x^2+y^2+z^2 = 1` is the same surface. Definitions may precede the "
+     "expression: `a = 2; (sqrt(x^2+y^2)-a)^2 + z^2 - 1`. The language is the same as in `--parametric`. Normals come "
+     "from the symbolic gradient. `--segments` sets the number of cells along the longest side of the box around the "
+     "surface (default: 96).",
      .store = store_text, .others = "implicit-surface isosurface level-set marching-cubes sdf", FIELD(shape.implicit),
      .loads = true},
     {"x", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of x to which an implicit surface is cut.",
-     "Two constant expressions. By default Lambent searches for the surface in -4..4, and in -16..16 if the surface is "
-     "closed only there.",
+     "Give two constant expressions. By default Lambent searches for the surface in -4..4, and in -16..16 if the "
+     "surface is closed only in the larger range.",
      .store = store_text, .others = "x-range box bounds", FIELD(shape.x_range), .loads = true},
     {"y", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of y.", NULL, .store = store_text,
      .others = "y-range", FIELD(shape.y_range), .loads = true},
     {"z", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of z.", NULL, .store = store_text,
      .others = "z-range", FIELD(shape.z_range), .loads = true},
     {"flip", 0, GROUP_SHAPE, NULL, NULL, "Swap front and back faces.",
-     "By default the front is the side to which the derivative by u, cross the derivative by v, points; for an "
-     "implicit surface, the side to which the gradient points.",
+     "By default the front of a parametric surface is the side to which the cross product of the derivatives by u and "
+     "by v points. The front of an implicit surface is the side to which the gradient points.",
      .store = store_switch, .others = "flip-normals invert-normals", FIELD(shading.flip), .loads = true},
-    {"object", 0, GROUP_SHADER, "N", "all", "Only this object of the scene, counted from 0.",
+    {"object", 0, GROUP_SHADER, "N", "all", "Print the shaders for only this object of the scene, counted from 0.",
      "One pair of shaders serves a whole scene, unless only some of its objects are two-sided or only some have "
      "tangents for Kajiya-Kay.",
      .store = store_integer, FIELD(shader.object), .has_field = offsetof(struct options, shader.has_object), .min = 0,
@@ -989,18 +1004,18 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"port", 0, GROUP_VIEWER, "N", "any free port", "The port of 127.0.0.1 that the viewer listens on.", NULL,
      .store = store_integer, FIELD(viewer.port), .min = 1, .max = 65535},
-    {"idle", 0, GROUP_VIEWER, "MINUTES", "30", "Stop when no page has been open for this long.", NULL,
+    {"idle", 0, GROUP_VIEWER, "MINUTES", "30", "Stop if no page has been open for this many minutes.", NULL,
      .store = store_number, .others = "idle-timeout", FIELD(viewer.idle_minutes),
      .has_field = offsetof(struct options, viewer.has_idle), .min = 0.001, .max = 1e6},
     {"no-open", 0, GROUP_VIEWER, NULL, NULL, "Print the address, and do not open a browser.",
-     "Without a display Lambent opens no browser either.", .store = store_switch, .others = "no-browser headless",
+     "Without a display Lambent never opens a browser.", .store = store_switch, .others = "no-browser headless",
      FIELD(viewer.no_open)},
 
     {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
-     "By default the environment's `LAMBENT_FONT` names the font. Without it, Lambent uses the first installed of "
-     "DejaVu Sans, Liberation Sans, Noto Sans, FreeSans and Roboto, in Debian's folders. FreeType draws the letters, "
-     "which may differ by a few shades between its versions; the pictures on the sheet are always identical. An SVG "
-     "names DejaVu Sans, and its viewer selects the font.",
+     "By default the environment variable `LAMBENT_FONT` names the font. If it is not set, Lambent uses the first of "
+     "these fonts that is installed in Debian's folders: DejaVu Sans, Liberation Sans, Noto Sans, FreeSans, Roboto. "
+     "FreeType draws the letters, which may differ by a few shades between versions of FreeType. The pictures on the "
+     "sheet are always identical. An SVG names DejaVu Sans, and its viewer selects the font.",
      .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(captions.font)},
     {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw without text; no font is needed.", NULL, .store = store_switch,
      .others = "no-text no-labels", FIELD(captions.no_captions)},

@@ -46,7 +46,7 @@ const char *option_words_list(const struct option *option, char text[OPTION_WORD
     return text;
 }
 
-// The value of one of the option's words.
+// Returns the value of one of the option's words.
 static bool read_word(const struct option *option, const char *value, int *found, lam_error *error)
 {
     struct suggestion nearest = suggest_start(value);
@@ -58,7 +58,7 @@ static bool read_word(const struct option *option, const char *value, int *found
         suggest_try(&nearest, w->name);
     }
     char known[OPTION_WORDS_SIZE], guess[64] = "";
-    if (nearest.best && nearest.best[0] > '9') // a number is not a mistyped word
+    if (nearest.best && nearest.best[0] > '9') // a number is never a mistyped word
         snprintf(guess, sizeof guess, "; did you mean '%s'?", nearest.best);
     return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s%s", value, option_words_list(option, known),
                     guess);
@@ -211,7 +211,7 @@ bool store_angle(const struct option *option, const char *value, struct options 
     return true;
 }
 
-// 0 is a cutoff too: nothing is left out.
+// A cutoff of 0 is valid: no light is skipped.
 bool store_cutoff(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     float *share = field_of(options, option->field);
@@ -234,7 +234,7 @@ bool store_exposure(const struct option *option, const char *value, struct optio
     return true;
 }
 
-// "800" or "1920x1080", up to `end`.
+// Parses "800" or "1920x1080", up to `end`.
 static bool read_size(const char *value, long max, int size[2], char **end)
 {
     *end = (char *)(uintptr_t)value;
@@ -316,8 +316,8 @@ bool store_segments(const struct option *option, const char *value, struct optio
     return true;
 }
 
-// A number that k, M, G, T may multiply by powers of 1000, or Ki, Mi, Gi, Ti by powers of 1024. NULL: not a number;
-// otherwise the rest of the text.
+// Parses a number with an optional suffix: k, M, G, T (powers of 1000) or Ki, Mi, Gi, Ti (powers of 1024). Returns the
+// rest of the text, or NULL if it is no number.
 static const char *read_multiple(const char *value, double *out)
 {
     double number;
@@ -333,7 +333,7 @@ static const char *read_multiple(const char *value, double *out)
     return rest;
 }
 
-// "500M", or "none", which only the limits of time and memory have.
+// Parses "500M", or "none", which is valid only for the time and memory limits.
 bool store_bytes(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     double number;
@@ -382,7 +382,7 @@ bool store_color(const struct option *option, const char *value, struct options 
     return true;
 }
 
-// "0.5" for all three channels, or "r/g/b".
+// Parses "0.5" for all three channels, or "r/g/b".
 bool store_reflectivity(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     double numbers[3];
@@ -435,7 +435,7 @@ bool store_list(const struct option *option, const char *value, struct options *
                   : complain(error, LAM_BAD_ARGUMENT, "its value is empty, expected a file of names");
 }
 
-// "-", or a file; other programs accept a number here.
+// Accepts "-" or a file. Other programs accept a number here.
 bool store_jobs(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     if (*value && strspn(value, "0123456789") == strlen(value))
@@ -467,7 +467,7 @@ bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg)
     return text && !*text && *angle_deg >= -1e6 && *angle_deg <= 1e6;
 }
 
-// A file or a folder that exists.
+// Accepts a file or a folder that exists.
 bool store_path(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     if (access(value, F_OK) != 0)

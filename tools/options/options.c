@@ -101,7 +101,7 @@ bool option_given(const struct options *options, const char *name)
     return option && options->given[option - option_table];
 }
 
-// Names of this option in other programs.
+// Returns whether other programs use this name for the option.
 static const char *const model_names[] = {"i", "in", "input", "infile", "model", "mesh", "shape", "load", "open", NULL};
 
 static bool is_one_of(const char *word, const char *const *words)
@@ -128,7 +128,7 @@ static bool unknown_long(const char *name, size_t length, uint64_t groups, lam_e
     return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'", typed);
 }
 
-// A letter is suggested only by its own row: similar spelling means nothing for letters.
+// Suggests a letter only if a row lists it: similar spelling is meaningless for single letters.
 static bool unknown_letter(const char *word, char letter, uint64_t groups, lam_error *error)
 {
     const char typed[2] = {letter, 0};
@@ -157,8 +157,8 @@ static bool is_known_option(const char *word)
     return word[0] == '-' && word[1] == '-' && word[2] && find_long(word + 2, strcspn(word + 2, "="));
 }
 
-// The option that was meant: of several values, or where a name has since become another option's and the value is a word of the
-// old one.
+// Returns the option that the user meant: the plural form for several values, or the option that formerly had this name
+// if the value is one of its words.
 static const struct option *meant_by(const struct option *option, const char *value)
 {
     if (option->several && strchr(value, ','))
@@ -184,7 +184,7 @@ static bool is_light(const struct option *option)
     return strcmp(option->name, "light") == 0 || strcmp(option->name, "rig") == 0;
 }
 
-// Whether the command line has lights of its own, which replace a look's: a rig, or a light without +.
+// Returns whether the command line sets lights (a rig, or a light without +), which replace the lights of a look.
 static bool own_lights(const struct options *options)
 {
     bool own = option_given(options, "rig");
@@ -193,7 +193,7 @@ static bool own_lights(const struct options *options)
     return own;
 }
 
-// Options of the picture alone: none that names a file to write, or another look.
+// A look may contain only options of the picture, and no option that names an output file or another look.
 static bool fits(const struct option *option)
 {
     static const char *const others[] = {"look", "output", "save-scene", "size", "show", "light-cutoff"};
@@ -207,7 +207,7 @@ static bool fits(const struct option *option)
 struct look_lines {
     struct options *options;
     const struct options *before; // of the command line
-    bool lights;                  // it has lights of its own
+    bool lights;                  // the command line sets lights
 };
 
 static bool take_look_line(void *user, int line, char *name, char *value, lam_error *error)
@@ -237,7 +237,7 @@ static bool take_look_line(void *user, int line, char *name, char *value, lam_er
 
 static bool apply_look(const char *name, struct options *options, lam_error *error)
 {
-    struct options before = *options; // shares its lists; only the flags are read
+    struct options before = *options; // this copy shares the lists of the original; only its flags are read
     struct look_lines lines = {options, &before, own_lights(options)};
     options->lighting.look = name;
     options->lighting.look_first = options->lighting.lights.count;
@@ -302,7 +302,7 @@ static bool apply(const struct option *typed, const char *value, uint64_t groups
                     reason.text);
 }
 
-// Whether the next word is the value of an option whose value is optional.
+// Returns whether the next argument is the value of an option whose value is optional.
 static bool follows(const struct option *option, const char *word, const struct options *options)
 {
     struct options copy = *options;
@@ -310,15 +310,15 @@ static bool follows(const struct option *option, const char *word, const struct 
     return option->store(option, word, &copy, &unused);
 }
 
-// Whether the word after an option with an optional value is a mistyped value: one plain word that names no file, shape
-// or command.
+// Returns whether the argument after an option with an optional value is a mistyped value: a plain word that names no
+// file, shape or command.
 static bool is_mistyped(const char *word)
 {
     return isalpha((unsigned char)*word) && !word[strspn(word, "abcdefghijklmnopqrstuvwxyz-")] &&
            access(word, F_OK) != 0 && lam_shape_find(word) < 0 && !find_command(word);
 }
 
-// The word after an option that takes a value; NULL with the error if it is missing.
+// Returns the argument after an option that needs a value, or NULL with the error if it is missing.
 static const char *next_value(const struct option *option, int count, char **words, int *at, lam_error *error)
 {
     if (*at + 1 < count && !is_known_option(words[*at + 1]))
@@ -331,7 +331,7 @@ static const char *next_value(const struct option *option, int count, char **wor
     return NULL;
 }
 
-// "--name", "--name=value" or "--name value".
+// Parses "--name", "--name=value" or "--name value".
 static bool read_long(int count, char **words, int *at, uint64_t groups, struct options *options, lam_error *error)
 {
     const char *name = words[*at] + 2;
@@ -352,7 +352,7 @@ static bool read_long(int count, char **words, int *at, uint64_t groups, struct 
     return apply(option, value, groups, options, error);
 }
 
-// "-q", "-qv", "-ofile" or "-o file".
+// Parses "-q", "-qv", "-ofile" or "-o file".
 static bool read_letters(int count, char **words, int *at, uint64_t groups, struct options *options, lam_error *error)
 {
     size_t length = strcspn(words[*at] + 1, "="); // -v is a letter, also where an option has the name --v
@@ -412,7 +412,7 @@ int options_first_operand(int count, char **words)
     return -1;
 }
 
-// The dashes of a text program, which replaces "--" as one types.
+// Detects the dash that word processors substitute for "--".
 static bool has_long_dash(const char *word)
 {
     return strncmp(word, "–", 3) == 0 || strncmp(word, "—", 3) == 0 || strncmp(word, "−", 3) == 0;

@@ -1,4 +1,4 @@
-// show_option.c: parses the value of --show, a word or a word and a light: "diffuse", "light:key", "n.l:2".
+// show_option.c: parses the value of --show: a word, or a word and a light: "diffuse", "light:key", "n.l:2".
 #include "show_option.h"
 
 #include <stdio.h>
@@ -14,7 +14,8 @@ static bool takes_light(lam_output show)
     return show == LAM_OUTPUT_LIGHT || show == LAM_OUTPUT_N_L || show == LAM_OUTPUT_N_H;
 }
 
-// The output with this name; LAM_OUTPUT_COUNT: none. Sets `light` to the text after the colon, NULL without one.
+// Returns the output with this name, or LAM_OUTPUT_COUNT if there is none. Sets `light` to the text after the colon, or
+// to NULL.
 static lam_output split(const char *text, const char **light)
 {
     *light = NULL;
@@ -65,7 +66,8 @@ static bool has_direction(const lam_light *light)
     return light->type != LAM_LIGHT_AMBIENT && light->type != LAM_LIGHT_HEMISPHERE;
 }
 
-// Finds a light by name, else by number from 1; without either, the first light with a direction. −1: none.
+// Finds a light by name, then by number from 1. Without a name or number, finds the first light with a direction.
+// Returns −1 if there is none.
 static int find(const char *wanted, const lam_light *lights, int count)
 {
     for (int i = 0; i < count; i++)
@@ -76,7 +78,7 @@ static int find(const char *wanted, const lam_light *lights, int count)
     return wanted && *wanted >= '0' && *wanted <= '9' && !*end && number >= 1 && number <= count ? (int)number - 1 : -1;
 }
 
-// Lists lights as "'key', 'fill', 3", unnamed ones by number. Ends with "…" if they do not fit.
+// Lists lights as "'key', 'fill', 3", unnamed lights by number. Ends with "…" if the list does not fit.
 static void list(const lam_light *lights, int count, bool directed, char *out, size_t capacity)
 {
     size_t used = 0;

@@ -9,7 +9,7 @@
 
 struct suggestion suggest_start(const char *typed)
 {
-    // Accepts a third of the letters wrong, at least one.
+    // Accepts up to a third of the letters as wrong, and always one.
     int allowed = (int)strlen(typed) / 3;
     return (struct suggestion){.typed = typed, .distance = allowed < 1 ? 2 : allowed + 1};
 }
@@ -17,7 +17,7 @@ struct suggestion suggest_start(const char *typed)
 void suggest_try(struct suggestion *suggestion, const char *word)
 {
     int distance = lam_word_distance(suggestion->typed, word);
-    // Of words that are as near, the one that the other continues.
+    // Among equally near words, prefers the word that is a prefix of the other.
     const char *best = suggestion->best;
     bool shorter = best && distance == suggestion->distance && strncmp(best, word, strlen(word)) == 0;
     if (distance < suggestion->distance || shorter) {

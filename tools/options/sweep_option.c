@@ -1,4 +1,4 @@
-// sweep_option.c: parses --sweep: its keys come from the tables of options, materials and lights.
+// sweep_option.c: parses --sweep. The keys come from the tables of options, materials and lights.
 #include "sweep_option.h"
 
 #include <stdio.h>
@@ -48,7 +48,7 @@ static const lam_field *light_field(const char *key)
     return NULL;
 }
 
-// The number of a component's letter in a field; −1: no such component.
+// Returns the index of the component with this letter in a field, or −1.
 static int component_of(const lam_field *field, const char *letter)
 {
     const char *letters = field->type == LAM_FIELD_RGB                                           ? "rgb"
@@ -242,8 +242,9 @@ double sweep_value(const struct sweep *sweep, int frame, int count)
     int parts = sweep->stop_count - 1;
     if (parts < 1)
         return sweep->stops[0];
-    int steps = sweep->closed || count < 2 ? count : count - 1; // from the first stop to the last
-    // In units of a step's share of a part, so that the stops themselves are met exactly.
+    int steps = sweep->closed || count < 2 ? count : count - 1; // from the first stop to the last. In units of a step's
+                                                                // share of a part, so that the stops themselves are met
+                                                                // exactly.
     int64_t at = (int64_t)frame * parts, part = at / steps, rest = at % steps;
     if (part >= parts)
         return sweep->stops[parts];

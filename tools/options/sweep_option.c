@@ -242,9 +242,7 @@ double sweep_value(const struct sweep *sweep, int frame, int count)
     int parts = sweep->stop_count - 1;
     if (parts < 1)
         return sweep->stops[0];
-    int steps = sweep->closed || count < 2 ? count : count - 1; // from the first stop to the last. In units of a step's
-                                                                // share of a part, so that the stops themselves are met
-                                                                // exactly.
+    int steps = sweep->closed || count < 2 ? count : count - 1; // Steps from the first stop to the last.
     int64_t at = (int64_t)frame * parts, part = at / steps, rest = at % steps;
     if (part >= parts)
         return sweep->stops[parts];

@@ -21,26 +21,27 @@ typedef struct lam_animation_params {
     LAM_RESERVED(8);
 } lam_animation_params;
 
-// The format of an animation whose file has this name: "png" (animated PNG, which shows its first frame where a program
-// does not know animations) or "webp". NULL: the extension belongs to no format with several pictures.
+// Returns the format of an animation whose file has this name: "png" (animated PNG, which shows its first frame where a
+// program does not know animations) or "webp". Returns NULL if the extension belongs to no format with several
+// pictures.
 LAM_API const char *lam_animation_format(const char *path);
 
-// Begins an animation of pictures of width × height pixels in one of these formats. `params` may be NULL; it is copied. The
-// caller frees the animation. NULL on failure: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (another format; WebP without libwebp or
-// libwebpmux), LAM_LIMIT.
+// Begins an animation of pictures of width × height pixels in one of these formats. `params` may be NULL; it is copied.
+// The caller frees the animation. Returns NULL on failure: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (another format; WebP
+// without libwebp or libwebpmux), LAM_LIMIT.
 LAM_API lam_animation *lam_animation_make(const char *format, int width, int height, const lam_animation_params *params,
                                           lam_error *error);
 
 // Encodes the next frame, of 8 bits a channel and the animation's size. Only the smallest rectangle that contains all
 // changes since the previous frame is stored. `control` may be NULL; its memory limit counts the encoded frames of a
-// PNG too, and the encoder's canvases of a WebP. False: LAM_BAD_ARGUMENT, LAM_LIMIT, LAM_CANCELLED; the animation is
-// then of no more use but to be freed.
+// PNG too, and the encoder's canvases of a WebP. Fails with LAM_BAD_ARGUMENT, LAM_LIMIT, LAM_CANCELLED; the animation
+// is then of no more use but to be freed.
 LAM_API bool lam_animation_add(lam_animation *animation, const lam_image *frame, const lam_control *control,
                                lam_error *error);
 
 // Ends the animation, which has at least one frame, and makes the bytes of its file; the caller frees them. The same
 // frames give the same bytes of a PNG on every machine (LAM_COMPRESS_FAST); for a WebP they depend on the version of
-// its library. Later calls fail. False: LAM_BAD_ARGUMENT, LAM_LIMIT, LAM_CANCELLED.
+// its library. Later calls fail. Fails with LAM_BAD_ARGUMENT, LAM_LIMIT, LAM_CANCELLED.
 LAM_API bool lam_animation_finish(lam_animation *animation, const lam_control *control, lam_bytes *out,
                                   lam_error *error);
 

@@ -133,8 +133,9 @@ typedef struct lam_control {
     LAM_RESERVED(1);
 } lam_control;
 
-// The memory that this process may use, bytes: the smallest of the machine's, its control group's (cgroup v2 and v1,
-// with the groups above it), RLIMIT_AS and RLIMIT_DATA. UINT64_MAX: unknown. Reads a few files of the system each time.
+// Returns the memory that this process may use, bytes: the smallest of the machine's, its control group's (cgroup v2
+// and v1, with the groups above it), RLIMIT_AS and RLIMIT_DATA. UINT64_MAX: unknown. Reads a few files of the system
+// each time.
 LAM_API uint64_t lam_memory_available(void);
 
 // A position, direction or angle triple.
@@ -165,16 +166,17 @@ typedef struct lam_mat4 {
     double m[4][4];
 } lam_mat4;
 
-// The identity.
+// Returns the identity.
 LAM_API lam_mat4 lam_mat4_identity(void);
 
-// The right-handed rotation about an axis through the origin, of any length but 0. The same bytes on every machine.
+// Returns the right-handed rotation about an axis through the origin, of any length but 0. The same bytes on every
+// machine.
 LAM_API lam_mat4 lam_mat4_rotation(lam_vec3 axis, double angle_rad);
 
-// The version of the library, "major.minor.patch". A static string.
+// Returns the version of the library, "major.minor.patch". The string is static.
 LAM_API const char *lam_version(void);
 
-// One line about the build: compiler, instruction sets, libraries. A static string.
+// One line about the build: compiler, instruction sets, libraries. The string is static.
 LAM_API const char *lam_build_info(void);
 
 // Bytes of the well-formed UTF-8 character (RFC 3629) that begins at `bytes`, of which `size` may be read: 1..4. 0:
@@ -185,9 +187,9 @@ LAM_API int lam_utf8_length(const void *bytes, size_t size);
 // (optimal string alignment). Words of more than 63 bytes count as 63 apart.
 LAM_API int lam_edit_distance(const char *a, const char *b);
 
-// How far a typed word is from a word of this interface, for suggestions. 0: it means that word (they differ in capitals,
-// '-', '_' and spaces at most, or people call it so: "sun" for "directional"). 1: the word begins with it, three letters
-// or more. Else the edit distance.
+// Returns how far a typed word is from a word of this interface, for suggestions. 0: it means that word (they differ in
+// capitals, '-', '_' and spaces at most, or people call it so: "sun" for "directional"). 1: the word begins with it,
+// three letters or more. Else the edit distance.
 LAM_API int lam_word_distance(const char *typed, const char *word);
 
 #ifdef __cplusplus

@@ -24,10 +24,10 @@ typedef struct lam_camera {
     LAM_RESERVED(16);
 } lam_camera;
 
-// A perspective camera at (0, 0, 4) that looks at the origin with a field of view of 30°.
+// Returns a perspective camera at (0, 0, 4) that looks at the origin with a field of view of 30°.
 LAM_API lam_camera lam_camera_default(void);
 
-// The matrix from world to eye space: the eye at the origin, x to the right, y up, looking along −z.
+// Returns the matrix from world to eye space: the eye at the origin, x to the right, y up, looking along −z.
 LAM_API lam_mat4 lam_camera_view_matrix(const lam_camera *camera);
 
 // Where a point of eye space lies in a picture of width × height pixels: *x and *y in pixels from its upper left corner, outside
@@ -66,13 +66,14 @@ typedef enum lam_side {
     LAM_SIDE_COUNT
 } lam_side;
 
-// The name of a side: "three-quarter", "front", "iso". A static string; NULL out of range.
+// Returns the name of a side: "three-quarter", "front", "iso". Returns a static string, or NULL if the index is out of
+// range.
 LAM_API const char *lam_side_name(lam_side side);
 
-// The side of a name; LAM_SIDE_COUNT: there is none.
+// Returns the side of a name, or LAM_SIDE_COUNT if there is none.
 LAM_API lam_side lam_side_find(const char *name);
 
-// The view of a side, in perspective. Out of range: the three-quarter view.
+// Returns the view of a side, in perspective. Out of range: the three-quarter view.
 LAM_API lam_view lam_view_of_side(lam_side side);
 
 // Places a camera so that the scene's projected vertices (not their bounding box) fill a picture of width × height
@@ -103,7 +104,7 @@ LAM_API bool lam_scene_camera(const lam_scene *scene, int index, lam_camera *cam
 // and the sentence says what was found and what was expected.
 LAM_API bool lam_camera_parse(const char *text, const lam_scene *scene, lam_camera *camera, lam_error *error);
 
-// The keys of lam_camera_parse, from 0; NULL out of range.
+// Returns the keys of lam_camera_parse, from 0, or NULL if the index is out of range.
 LAM_API const char *lam_camera_key(int index);
 
 #ifdef __cplusplus

@@ -17,12 +17,13 @@ typedef struct lam_font lam_font;
 
 // Opens a font file: TrueType, OpenType or any other format of FreeType. `path` NULL: the file that the environment
 // variable LAMBENT_FONT names, else the first of lam_font_path() that exists; in the static program of `make static`
-// the font that it contains. NULL on failure: LAM_UNSUPPORTED (no
-// FreeType or no font; the sentence names the Debian packages), LAM_CANNOT_READ (not a font), LAM_LIMIT.
+// the font that it contains. Returns NULL on failure: LAM_UNSUPPORTED (no FreeType or no font; the sentence names the
+// Debian packages), LAM_CANNOT_READ (not a font), LAM_LIMIT.
 LAM_API lam_font *lam_font_open(const char *path, lam_error *error);
 LAM_API void lam_font_free(lam_font *font); // NULL is fine
 
-// The paths where lam_font_open looks for fonts, from 0, in this order. Static strings; NULL out of range.
+// Returns the paths where lam_font_open looks for fonts, from 0, in this order. The strings are static. Returns NULL if
+// the index is out of range.
 LAM_API const char *lam_font_path(int index);
 
 // Width in pixels of a line of UTF-8 text at a font size of `size_px` pixels, 1..1000. Bytes that are not UTF-8 count

@@ -16,13 +16,13 @@ extern "C" {
 // (docs/check.md, "Contracts"). Nothing changes it, so any number of checks may share one.
 typedef struct lam_check_contract lam_check_contract;
 
-// The names of the contracts that are built in: "lambent", "pittsburgh", "oregon", … NULL past the last.
+// Returns the names of the contracts that are built in: "lambent", "pittsburgh", "oregon", … NULL past the last.
 LAM_API const char *lam_check_contract_shipped(int index);
-// The file of a contract that is built in, by its name. NULL: there is none.
+// Returns the file of a contract that is built in, by its name. Returns NULL if there is none.
 LAM_API const char *lam_check_contract_text(const char *name);
 
-// Reads a contract. `file`: its name, for messages; NULL: none. The caller frees the contract. NULL: LAM_CANNOT_READ,
-// with the place that is wrong, or LAM_LIMIT.
+// Reads a contract. `file`: its name, for messages, or NULL if there is none. The caller frees the contract. Fails with
+// LAM_CANNOT_READ, with the place that is wrong, or LAM_LIMIT.
 LAM_API lam_check_contract *lam_check_contract_read(const char *text, size_t size, const char *file, lam_error *error);
 LAM_API void lam_check_contract_free(lam_check_contract *contract); // NULL is fine
 
@@ -60,11 +60,11 @@ typedef struct lam_check_role {
 // Row `row` of the roles, counted from 0. False past the last one.
 LAM_API bool lam_check_role_row(int row, lam_check_role *role);
 
-// The known mistakes: their ids ("no-gate") and a sentence about each. NULL past the last.
+// Returns the known mistakes: their ids ("no-gate") and a sentence about each. Returns NULL past the last.
 LAM_API const char *lam_check_mistake(int index);
 LAM_API const char *lam_check_mistake_explanation(int index);
 
-// The reference scenes and the property that each one tests. NULL past the last.
+// Returns the reference scenes and the property that each one tests. Returns NULL past the last.
 LAM_API const char *lam_check_scene_name(int index);
 LAM_API const char *lam_check_scene_description(int index);
 
@@ -365,8 +365,8 @@ LAM_API void lam_check_report_free(lam_check_report *report); // zeroed is fine
 
 // Writes a contract file for a pair of shaders: the contract of `report`, or without a report (NULL) the roles of their
 // inputs by their use. A comment beside each entry states its meaning and what to correct. The file gives the verdict
-// of the report. The caller frees `out` with lam_bytes_free. False: LAM_BAD_ARGUMENT (the vertex shader is missing, or
-// the shaders are of a kind that the check does not understand), LAM_LIMIT.
+// of the report. The caller frees `out` with lam_bytes_free. Fails with LAM_BAD_ARGUMENT (the vertex shader is missing,
+// or the shaders are of a kind that the check does not understand), LAM_LIMIT.
 LAM_API bool lam_check_contract_write(const lam_check_params *params, const lam_check_report *report, lam_bytes *out,
                                       lam_error *error);
 

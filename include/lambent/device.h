@@ -26,10 +26,11 @@ typedef enum lam_isa {
     LAM_ISA_COUNT
 } lam_isa;
 
-// The name of an instruction set: "scalar", "sse4". A static string; NULL out of range.
+// Returns the name of an instruction set: "scalar", "sse4". Returns a static string, or NULL if the index is out of
+// range.
 LAM_API const char *lam_isa_name(lam_isa isa);
 
-// Whether this build and this processor have the instruction set.
+// Returns whether this build and this processor have the instruction set.
 LAM_API bool lam_isa_usable(lam_isa isa);
 
 // Parameters of a CPU device. All zero: one thread for each processor and the widest instruction set.
@@ -45,7 +46,7 @@ typedef struct lam_cpu_params {
 LAM_API lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error);
 
 // Makes a device that checks its arguments, builds the frame and draws nothing, for tests and for measuring the time of
-// everything else. NULL: LAM_LIMIT.
+// everything else. Fails with LAM_LIMIT.
 LAM_API lam_device *lam_device_null(lam_error *error);
 
 LAM_API void lam_device_free(lam_device *device); // NULL is fine
@@ -53,10 +54,10 @@ LAM_API void lam_device_free(lam_device *device); // NULL is fine
 // One line about the device: "cpu avx2, 2 threads". It lives as long as the device.
 LAM_API const char *lam_device_name(const lam_device *device);
 
-// The instruction set in use; LAM_ISA_AUTO: not a CPU device.
+// Returns the instruction set in use, or LAM_ISA_AUTO if the device is no CPU device.
 LAM_API lam_isa lam_device_isa(const lam_device *device);
 
-// The number of threads that draw; 0: the device has no own threads.
+// Returns the number of threads that draw; 0: the device has no own threads.
 LAM_API int lam_device_threads(const lam_device *device);
 
 // Shading methods: where the lighting is evaluated.
@@ -162,20 +163,22 @@ typedef enum lam_tone {
     LAM_TONE_COUNT
 } lam_tone;
 
-// The name of a tone curve: "auto", "khronos-neutral". A static string; NULL out of range.
+// Returns the name of a tone curve: "auto", "khronos-neutral". Returns a static string, or NULL if the index is out of
+// range.
 LAM_API const char *lam_tone_name(lam_tone tone);
 
 // Applies a tone curve to a colour, each channel at least 0. AUTO and NONE: each channel is cut off at 1.
 LAM_API lam_rgb lam_tone_apply(lam_tone tone, lam_rgb color);
 
-// The name of an output: "picture", "ambient", "n.l". A static string; NULL out of range.
+// Returns the name of an output: "picture", "ambient", "n.l". Returns a static string, or NULL if the index is out of
+// range.
 LAM_API const char *lam_output_name(lam_output output);
 
-// Whether an output is light: the picture, its terms, and a light.
+// Returns whether an output is light: the picture, its terms, and a light.
 LAM_API bool lam_output_is_light(lam_output output);
 
-// The samples per pixel of a picture of this size, if lam_draw_params give none: 16 up to 256² pixels, where thin wires would break
-// into dashes, 8 up to 512², and 4 above.
+// Returns the samples per pixel of a picture of this size, if lam_draw_params give none: 16 up to 256² pixels, where
+// thin wires would break into dashes, 8 up to 512², and 4 above.
 LAM_API int lam_default_samples(int width, int height);
 
 // Ambient occlusion: how much of the light from all around reaches a point past the surfaces near it
@@ -221,7 +224,7 @@ typedef enum lam_ground {
     LAM_GROUND_COUNT
 } lam_ground;
 
-// The name of a kind of ground: "off", "shadow". A static string; NULL out of range.
+// Returns the name of a kind of ground: "off", "shadow". Returns a static string, or NULL if the index is out of range.
 LAM_API const char *lam_ground_name(lam_ground ground);
 
 // Edges of surfaces that are drawn as lines (docs/edges.md). Bits.

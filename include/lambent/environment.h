@@ -53,11 +53,12 @@ LAM_API lam_environment *lam_environment_load_faces(const char *const paths[LAM_
 LAM_API lam_environment *lam_environment_load(const char *path, lam_color_mode color, const lam_control *control,
                                               lam_error *error);
 
-// A built-in environment, computed: "sky" (a low sun over grey-brown ground) or "studio" (soft boxes of light in a dark
-// room). NULL: LAM_BAD_ARGUMENT (no such name), LAM_LIMIT.
+// Returns a built-in environment, computed: "sky" (a low sun over grey-brown ground) or "studio" (soft boxes of light
+// in a dark room). Fails with LAM_BAD_ARGUMENT (no such name), LAM_LIMIT.
 LAM_API lam_environment *lam_environment_built_in(const char *name, lam_error *error);
 
-// The names of the built-in environments, from 0. Static strings; NULL out of range.
+// Returns the names of the built-in environments, from 0. The strings are static. Returns NULL if the index is out of
+// range.
 LAM_API const char *lam_environment_built_in_name(int index);
 
 // Releases an environment; scenes that use it keep it. NULL is fine.

@@ -312,8 +312,8 @@ typedef struct lam_explanation {
 
 // Draws the part of the picture around pixel (x, y), counted from the upper left corner, and records every number of
 // that pixel. The code that draws pictures runs; the arguments are lam_draw's, with the picture's size and format in
-// place of the picture. The device's next picture is not affected. The caller frees the result. NULL on failure:
-// LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (not the CPU device), LAM_LIMIT, LAM_CANCELLED.
+// place of the picture. The device's next picture is not affected. The caller frees the result. Returns NULL on
+// failure: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (not the CPU device), LAM_LIMIT, LAM_CANCELLED.
 LAM_API lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                                      const lam_draw_params *params, int width, int height, lam_pixel_format format,
                                      int x, int y, const lam_control *control, lam_error *error);

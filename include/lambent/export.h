@@ -25,11 +25,11 @@ typedef struct lam_export_params {
     LAM_RESERVED(5);
 } lam_export_params;
 
-// Makes the files of a model from a scene: its meshes, objects and materials with their textures, and its lights and cameras, as far as
-// the format holds them. The up axis becomes the format's: coordinates are turned. `format` is one of lam_export_format. `params` may be
-// NULL. The caller frees the result with lam_export_free. NULL on failure: LAM_BAD_ARGUMENT (nothing that the format can hold; a
-// thumbnail in a format without one),
-// LAM_UNSUPPORTED (no such format, or a library that writes it is not installed), LAM_LIMIT.
+// Makes the files of a model from a scene: its meshes, objects and materials with their textures, and its lights and
+// cameras, as far as the format holds them. The up axis becomes the format's: coordinates are turned. `format` is one
+// of lam_export_format. `params` may be NULL. The caller frees the result with lam_export_free. Returns NULL on
+// failure: LAM_BAD_ARGUMENT (nothing that the format can hold; a thumbnail in a format without one), LAM_UNSUPPORTED
+// (no such format, or a library that writes it is not installed), LAM_LIMIT.
 LAM_API lam_export *lam_scene_export(const lam_scene *scene, const char *format, const lam_export_params *params,
                                      lam_error *error);
 LAM_API void lam_export_free(lam_export *result); // NULL is fine
@@ -42,7 +42,8 @@ LAM_API lam_bytes lam_export_file(const lam_export *result, int index);
 // Sentences, from 0, about what the files do not say although the scene does; NULL: no more.
 LAM_API const char *lam_export_loss(const lam_export *result, int index);
 
-// The formats, from 0: the name, which is the ending of file names too ("glb"). A static string; NULL out of range.
+// Returns the formats, from 0: the name, which is the ending of file names too ("glb"). Returns a static string, or
+// NULL if the index is out of range.
 LAM_API const char *lam_export_format(int index);
 
 #ifdef __cplusplus

@@ -43,7 +43,7 @@ typedef struct lam_field {
 // The most rows of either table.
 enum { LAM_FIELDS_MAX = 40 };
 
-// A row of a table; NULL past the end. Of lights a key may have several rows, with different defaults for
+// Returns a row of a table, or NULL past the end. Of lights a key may have several rows, with different defaults for
 // different types.
 LAM_API const lam_field *lam_material_field(int index);
 LAM_API const lam_field *lam_light_field(int index);

@@ -53,7 +53,7 @@ typedef struct lam_gl_params {
     LAM_RESERVED(5);
 } lam_gl_params;
 
-// Makes an OpenGL device; lam_device_free frees it. `params` may be NULL. NULL on failure: LAM_UNSUPPORTED if a
+// Makes an OpenGL device; lam_device_free frees it. `params` may be NULL. Returns NULL on failure: LAM_UNSUPPORTED if a
 // library, a driver or a version is missing (the sentence names it and the package to install), LAM_LIMIT.
 LAM_API lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error);
 

@@ -123,9 +123,9 @@ LAM_API bool lam_image_save_layers(const lam_layer *layers, int count, const cha
 // .webp. LAM_UNSUPPORTED for another extension, with a list of the writable ones.
 LAM_API bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error);
 
-// The picture formats, from 0: the name, which is also an extension ("png"); another extension (NULL: none); and one
-// line about the stored numbers ("8 bits, sRGB, with alpha"; NULL: the format is only read). Every format is read.
-// Static strings; NULL out of range.
+// Returns the picture formats, from 0: the name, which is also an extension ("png"); another extension (NULL: none);
+// and one line about the stored numbers ("8 bits, sRGB, with alpha", or NULL if the format is only read). Every format
+// is read. The strings are static. Returns NULL if the index is out of range.
 LAM_API const char *lam_image_format_name(int format);
 LAM_API const char *lam_image_format_alias(int format);
 LAM_API const char *lam_image_format_written(int format);
@@ -145,9 +145,10 @@ LAM_API bool lam_image_load(lam_image *image, const char *path, const lam_contro
 LAM_API bool lam_image_load_linear(lam_image *image, const char *path, lam_color_mode color, const lam_control *control,
                                    lam_error *error);
 
-// Whether the file at `path` says that Lambent wrote it: PNG by its text "Software: lambent", PPM by the comment
-// "# lambent" in its second line, JPEG by the comment "lambent". False for PFM and WebP, which have no room for a remark,
-// and for a file that does not exist, is not regular or is not readable. Reads the beginning of the file only.
+// Returns whether the file at `path` says that Lambent wrote it: PNG by its text "Software: lambent", PPM by the
+// comment "# lambent" in its second line, JPEG by the comment "lambent". False for PFM and WebP, which have no room for
+// a remark, and for a file that does not exist, is not regular or is not readable. Reads the beginning of the file
+// only.
 LAM_API bool lam_image_is_from_lambent(const char *path);
 
 // The difference of two pictures of the same size and format, over red, green, blue and alpha (1 in formats without it);
@@ -163,7 +164,7 @@ typedef struct lam_difference {
     LAM_RESERVED(8);
 } lam_difference;
 
-// Measures the difference of two pictures. False: LAM_BAD_ARGUMENT (sizes or formats differ).
+// Measures the difference of two pictures. Fails with LAM_BAD_ARGUMENT (sizes or formats differ).
 LAM_API bool lam_image_compare(const lam_image *a, const lam_image *b, lam_difference *difference, lam_error *error);
 
 // A picture of the differences of two pictures of the same size and format, LAM_RGBA8 or LAM_RGBA32F: each colour

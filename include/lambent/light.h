@@ -28,7 +28,7 @@ typedef struct lam_light_type_info {
     LAM_RESERVED(8);
 } lam_light_type_info;
 
-// NULL: no such kind.
+// Returns NULL if there is no such kind.
 LAM_API const lam_light_type_info *lam_light_type_describe(lam_light_type type);
 
 // The space of a light's position, direction and up.
@@ -96,11 +96,11 @@ typedef struct lam_light {
     LAM_RESERVED(30);
 } lam_light;
 
-// A white light of a type at the origin, direction (0, 0, −1): ambient 0 (LAM_LIGHT_AMBIENT: 0.2), diffuse and specular
-// 1, attenuation 1, 0, 0; spot: cutoff 45°, exponent 0; hemisphere: sky 0.4, ground 0.1.
+// Returns a white light of a type at the origin, direction (0, 0, −1): ambient 0 (LAM_LIGHT_AMBIENT: 0.2), diffuse and
+// specular 1, attenuation 1, 0, 0; spot: cutoff 45°, exponent 0; hemisphere: sky 0.4, ground 0.1.
 LAM_API lam_light lam_light_default(lam_light_type type);
 
-// Checks a light's numbers against the ranges above. False: LAM_BAD_ARGUMENT, and the sentence names the field.
+// Checks a light's numbers against the ranges above. Fails with LAM_BAD_ARGUMENT, and the sentence names the field.
 LAM_API bool lam_light_check(const lam_light *light, lam_error *error);
 
 // Ready-made sets of lights.

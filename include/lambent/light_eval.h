@@ -16,7 +16,8 @@ extern "C" {
 // 0 where the sum is 0, and 1 for lights of other types. The light must pass lam_light_check.
 LAM_API float lam_attenuation_at(const lam_light *light, float distance);
 
-// The cone's factor of a spot light, 0..1, for a point that lies `angle_rad` off its axis. 1 for lights of other types.
+// Returns the cone's factor of a spot light, 0..1, for a point that lies `angle_rad` off its axis. 1 for lights of
+// other types.
 LAM_API float lam_spot_at(const lam_light *light, double angle_rad);
 
 // The highlight's strength S, 0..1, with the light straight above the surface (l = n) and the eye `angle_rad` away from

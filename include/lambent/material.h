@@ -41,7 +41,7 @@ typedef struct lam_reflection_info {
     LAM_RESERVED(7);
 } lam_reflection_info;
 
-// NULL: no such model.
+// Returns NULL if there is no such model.
 LAM_API const lam_reflection_info *lam_reflection_describe(lam_reflection model);
 
 // The maps of a material: a texture changes a field from point to point (docs/textures.md). MTL's and glTF's names are
@@ -91,7 +91,7 @@ typedef enum lam_map {
     LAM_MAP_COUNT
 } lam_map;
 
-// The word of a map in reports and messages: "diffuse", "normal". NULL: no such map.
+// Returns the word of a map in reports and messages: "diffuse", "normal". Returns NULL if there is no such map.
 LAM_API const char *lam_map_name(lam_map map);
 
 // How a point is drawn whose opacity (diffuse alpha × map × vertex colour) is below 1.
@@ -182,14 +182,15 @@ typedef struct lam_material {
     LAM_RESERVED(64);
 } lam_material;
 
-// The material of parts that name none: neutral light grey with a soft highlight.
+// Returns the material of parts that name none: neutral light grey with a soft highlight.
 LAM_API lam_material lam_material_default(void);
 
-// A metallic–roughness material as the classic models can show it: kd = base (1 − metallic), ks = f0 (α + 8)/8 with
-// f0 = mix(0.04, base, metallic), α = 2/roughness⁴ − 2 within 1…4096, ka = base. A classic material is returned as it is.
+// Returns a metallic–roughness material as the classic models can show it: kd = base (1 − metallic), ks = f0 (α + 8)/8
+// with f0 = mix(0.04, base, metallic), α = 2/roughness⁴ − 2 within 1…4096, ka = base. A classic material is returned as
+// it is.
 LAM_API lam_material lam_material_as_classic(const lam_material *material);
 
-// The reverse: base and metallic from kd and ks, roughness from α. A physical material is returned as it is.
+// Returns the reverse: base and metallic from kd and ks, roughness from α. A physical material is returned as it is.
 LAM_API lam_material lam_material_as_physical(const lam_material *material);
 
 // The classic named materials of OpenGL's `teapots.c` demonstration (SGI, 1993/1997).
@@ -225,15 +226,16 @@ typedef enum lam_material_id {
     LAM_MATERIAL_COUNT
 } lam_material_id;
 
-// A named material, opaque. Its published colours were chosen by eye on a display, so they are sRGB and are decoded to
-// linear light: chrome's diffuse 0.4 becomes 0.1329. LAM_COLOR_RAW leaves them as published. Out of range: the default
-// material.
+// Returns a named material, opaque. Its published colours were chosen by eye on a display, so they are sRGB and are
+// decoded to linear light: chrome's diffuse 0.4 becomes 0.1329. LAM_COLOR_RAW leaves them as published. Out of range:
+// the default material.
 LAM_API lam_material lam_material_named(lam_material_id id, lam_color_mode color);
 
-// The name of a material in lower case with hyphens, "black-plastic". A static string; NULL out of range.
+// Returns the name of a material in lower case with hyphens, "black-plastic". Returns a static string, or NULL if the
+// index is out of range.
 LAM_API const char *lam_material_name(lam_material_id id);
 
-// The material of a name, in any case, with space and '_' for '-'. LAM_MATERIAL_COUNT: there is none.
+// Returns the material of a name, in any case, with space and '_' for '-'. LAM_MATERIAL_COUNT: there is none.
 LAM_API lam_material_id lam_material_find(const char *name);
 
 #ifdef __cplusplus

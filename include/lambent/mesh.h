@@ -113,15 +113,17 @@ typedef struct lam_shape_params {
     LAM_RESERVED(8);
 } lam_shape_params;
 
-// The built-in shapes, from 0: sphere, torus, plane, cube, cylinder, cone, teapot, torus-knot, gyroid, metaballs. They
-// have y up and are centred on the origin; with radius 1 each touches the cube from −1 to 1 from inside.
+// Returns the built-in shapes, from 0: sphere, torus, plane, cube, cylinder, cone, teapot, torus-knot, gyroid,
+// metaballs. They have y up and are centred on the origin; with radius 1 each touches the cube from −1 to 1 from
+// inside.
 LAM_API int lam_shape_count(void);
 
-// The name of a shape, and one line about it. Static strings; NULL out of range.
+// Returns the name of a shape, and one line about it. The strings are static. Returns NULL if the index is out of
+// range.
 LAM_API const char *lam_shape_name(int shape);
 LAM_API const char *lam_shape_summary(int shape);
 
-// The number of the shape with this name; −1: there is none.
+// Returns the number of the shape with this name, or −1 if there is none.
 LAM_API int lam_shape_find(const char *name);
 
 // A point of a parametric surface.

@@ -52,13 +52,13 @@ typedef struct lam_setting {
 // The most rows of the table: lam_picture_settings has a bit for each.
 enum { LAM_SETTINGS_MAX = 64 };
 
-// A row of the table; NULL past the end.
+// Returns a row of the table, or NULL past the end.
 LAM_API const lam_setting *lam_draw_setting(int index);
 
-// The index of the row with this key; −1: no such row.
+// Returns the index of the row with this key, or −1 if there is no such row.
 LAM_API int lam_draw_setting_find(const char *key);
 
-// True if the member is 0.
+// Returns true if the member is 0.
 LAM_API bool lam_setting_is_default(const lam_setting *setting, const lam_draw_params *params);
 
 // Copies the member.

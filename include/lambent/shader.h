@@ -18,7 +18,7 @@ typedef enum lam_glsl {
     LAM_GLSL_COUNT
 } lam_glsl;
 
-// The name of a version: "330", "120", "300es". A static string; NULL out of range.
+// Returns the name of a version: "330", "120", "300es". Returns a static string, or NULL if the index is out of range.
 LAM_API const char *lam_glsl_name(lam_glsl version);
 
 // Where the shaders read the lights from. There is no fixed limit to their number; an implementation allows fewest in

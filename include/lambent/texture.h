@@ -22,9 +22,9 @@ typedef enum lam_texture_values {
     LAM_TEXTURE_NUMBERS, // taken as they are: normals, roughness
 } lam_texture_values;
 
-// Makes a texture of a picture, which is copied: up to 16384 pixels on a side. Reports use `name` for it; NULL: none.
-// The caller frees it with lam_texture_free. NULL on failure: LAM_BAD_ARGUMENT (the picture; a number that is not
-// finite), LAM_LIMIT (size, memory).
+// Makes a texture of a picture, which is copied: up to 16384 pixels on a side. Reports use `name` for it, or NULL if
+// there is none. The caller frees it with lam_texture_free. Returns NULL on failure: LAM_BAD_ARGUMENT (the picture; a
+// number that is not finite), LAM_LIMIT (size, memory).
 LAM_API lam_texture *lam_texture_make(const struct lam_image *image, lam_texture_values values, const char *name,
                                       lam_error *error);
 

@@ -22,7 +22,7 @@ extern "C" {
 // material is unchanged.
 LAM_API bool lam_material_parse(const char *text, lam_color_mode mode, lam_material *material, lam_error *error);
 
-// The keys of lam_material_parse, from 0; NULL out of range.
+// Returns the keys of lam_material_parse, from 0, or NULL if the index is out of range.
 LAM_API const char *lam_material_key(int index);
 
 // How lam_scene_add_light_text reads a light. All zero is the default.
@@ -51,7 +51,7 @@ typedef struct lam_light_text_params {
 LAM_API int lam_scene_add_light_text(lam_scene *scene, const char *text, const lam_light_text_params *params,
                                      lam_error *error);
 
-// The keys of lam_scene_add_light_text for lights of a type, from 0; NULL out of range.
+// Returns the keys of lam_scene_add_light_text for lights of a type, from 0, or NULL if the index is out of range.
 LAM_API const char *lam_light_key(lam_light_type type, int index);
 
 #ifdef __cplusplus

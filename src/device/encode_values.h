@@ -13,7 +13,7 @@ void encode_empty(const struct frame *frame, lam_pixel_format format, void *to);
 // Writes the excess of the picture's pixel p (premultiplied) over 0…1, or in 8 bits a colour that marks it.
 void encode_clipped(lam_pixel_format format, const float p[4], void *to);
 
-// Whether 8 bits store numbers that are not sRGB-encoded.
+// Returns whether 8 bits store numbers that are not sRGB-encoded.
 static inline bool values_are_raw(const struct frame *frame)
 {
     bool color = lam_output_is_light(frame->settings.output) || frame->settings.output == LAM_OUTPUT_BASE_COLOR;

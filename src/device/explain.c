@@ -76,7 +76,7 @@ static void leave_eye_space(const lam_camera *camera, const lam_object *object, 
     point->mesh_position = mat4_point(&to_mesh, point->world_position);
 }
 
-// A coordinate as a place in the picture, 0…1.
+// Returns a coordinate as a place in the picture, 0…1.
 static double wrapped(double s, lam_wrap wrap)
 {
     if (wrap == LAM_WRAP_CLAMP)

@@ -14,13 +14,13 @@ struct pixel_lanes {
     num r, g, b, a;
 };
 
-// A sum of premultiplied colours after exposure.
+// Returns a sum of premultiplied colours after exposure.
 LANE_FN struct pixel_lanes exposed(const struct frame *frame, struct pixel_lanes p)
 {
     return (struct pixel_lanes){p.r * frame->exposure, p.g * frame->exposure, p.b * frame->exposure, p.a};
 }
 
-// A sum of premultiplied colours after exposure and the frame's tone curve; still premultiplied.
+// Returns a sum of premultiplied colours after exposure and the frame's tone curve; still premultiplied.
 LANE_FN struct pixel_lanes toned(const struct frame *frame, struct pixel_lanes p)
 {
     num part = pick(p.a > 0.0f, frame->exposure / p.a, num_of(0.0f));
@@ -43,7 +43,7 @@ LANE_FN struct pixel_lanes over_background(const struct frame *frame, struct pix
 LANE_FN num straight_channel(num x, num a) { return pick(a > 0.0f, x / a, num_of(0.0f)); }
 LANE_FN num encoded_channel(num straight, int raw) { return raw ? saturate(straight) : srgb_encode(straight); }
 
-// A premultiplied channel as a byte: divided by alpha, encoded, rounded.
+// Returns a premultiplied channel as a byte: divided by alpha, encoded, rounded.
 LANE_FN inum to_byte(num x, num a, int raw)
 {
     return int_of(encoded_channel(straight_channel(x, a), raw) * 255.0f + 0.5f);

@@ -31,7 +31,7 @@ struct recorder {
     lam_explained_values values;
 };
 
-// Adds a fragment, zeroed; NULL: out of memory.
+// Adds a fragment, zeroed, or NULL if memory runs out.
 lam_explained_fragment *recorder_add(struct recorder *recorder);
 
 // Records that a translucent fragment is blended into a sample. `transmittance`: of the layers before it.
@@ -41,7 +41,7 @@ void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int
 // Records the light that a sample's layers let through from the picture behind them or from the background, in the sum's units.
 void recorder_behind(struct recorder *recorder, int pixel, const float light[3]);
 
-// Memory for the explanation, zeroed; NULL: out of memory.
+// Memory for the explanation, zeroed, or NULL if memory runs out.
 void *recorder_alloc(struct recorder *recorder, size_t count, size_t size);
 
 #endif

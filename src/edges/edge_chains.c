@@ -37,7 +37,7 @@ static struct end end_of(const lam_mesh *mesh, const struct mesh_edge *edge, uin
     return (struct end){{p[0], p[1], p[2]}, end};
 }
 
-// The cosine of the turn from a line that arrives at one end to a line that leaves from another.
+// Returns the cosine of the turn from a line that arrives at one end to a line that leaves from another.
 static double straightness(const struct edge_measure *measures, uint32_t a, uint32_t b)
 {
     const struct edge_measure *m = &measures[a >> 1], *n = &measures[b >> 1];

@@ -62,7 +62,7 @@ static bool is_culled(const struct frame_draw *draw, bool front)
     return draw->cull == (front ? LAM_CULL_FRONT : LAM_CULL_BACK);
 }
 
-// The style that an edge is drawn in; −1: it is not.
+// Returns the style that an edge is drawn in, or −1 if it is not.
 static int style_of(const struct edge_piece *piece, const struct mesh_edge *edge)
 {
     const lam_draw_params *settings = &piece->view->frame->settings;
@@ -119,7 +119,8 @@ static void to_window(const struct edge_view *view, const double p[3], double q[
     }
 }
 
-// The height of a triangle over a line, pixels, from the corner that the line has not; a great one where that is not before the eye.
+// Returns the height of a triangle over a line, pixels, from the corner that the line has not; a great one where that
+// is not before the eye.
 static double height_over(const struct edge_piece *piece, uint32_t corner, const struct edge_line *line)
 {
     double p[3], q[4];
@@ -145,7 +146,7 @@ static double half_width(const struct edge_piece *piece, const struct mesh_edge 
     return (share < least ? least : share < 1 ? share : 1) * width / 2;
 }
 
-// Sets up the line of an edge, but for its points. False: it is outside of the picture.
+// Sets up the line of an edge, but for its points. Returns false if it is outside of the picture.
 static bool set_line(const struct edge_piece *piece, const struct mesh_edge *edge, int style, struct edge_line *line)
 {
     const struct edge_view *view = piece->view;

@@ -47,10 +47,10 @@ struct edge_stroke {
 typedef void edge_rays(const struct edge_view *view, const struct edge_line *lines, const struct edge_point *points,
                        size_t count, uint8_t *hidden);
 
-// The widest of at most `lanes` lanes. Every one gives the same answers.
+// Returns the widest of at most `lanes` lanes. Every one gives the same answers.
 edge_rays *edge_rays_for(int lanes);
 
-// A piece of a line's picture is drawn into `strokes`. False: out of memory.
+// A piece of a line's picture is drawn into `strokes`. Returns false if memory runs out.
 bool edge_stroke_add(struct edge_strokes *strokes, struct edge_stroke stroke, struct call_control *call);
 
 // Fills memory->coverage from the strokes of all threads.

@@ -24,7 +24,7 @@ struct cover_job {
 
 static double absolute_of(double x) { return x < 0 ? -x : x; }
 
-// The share of a pixel that lies below x along an axis with the direction (ux, uy) from its centre.
+// Returns the share of a pixel that lies below x along an axis with the direction (ux, uy) from its centre.
 static double share_below(double x, double ux, double uy)
 {
     double a = absolute_of(ux), b = absolute_of(uy), size = absolute_of(x), share = 1;
@@ -36,7 +36,7 @@ static double share_below(double x, double ux, double uy)
     return x < 0 ? 1 - share : share;
 }
 
-// How much of the pixel around (x, y) a stroke covers. (ux, uy): its direction.
+// Returns how much of the pixel around (x, y) a stroke covers. (ux, uy): its direction.
 static double coverage_at(const struct edge_stroke *s, double x, double y, double ux, double uy, double length)
 {
     double dx = x - s->x[0], dy = y - s->y[0], along = dx * ux + dy * uy, across = dx * uy - dy * ux, whole = 1;

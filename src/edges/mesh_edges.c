@@ -12,14 +12,15 @@ static bool is_inner(const lam_mesh *mesh, uint32_t corner)
     return mesh->inner_edges && mesh->inner_edges[corner / 3] >> (corner % 3) & 1;
 }
 
-// The third vertex of the triangle whose edge leads from a corner.
+// Returns the third vertex of the triangle whose edge leads from a corner.
 static uint32_t apex_of(const struct corner_weld *weld, uint32_t corner)
 {
     return weld->of[corner - corner % 3 + (corner % 3 + 2) % 3];
 }
 
-// The edge of `count` corners that lead along it. Triangles with the same three vertices are one face: files may contain each face
-// twice, once for either side. Of such twins the corner counts that leads against the first face's.
+// Returns the edge of `count` corners that lead along it. Triangles with the same three vertices are one face: files
+// may contain each face twice, once for either side. Of such twins the corner counts that leads against the first
+// face's.
 static struct mesh_edge edge_of(const lam_mesh *mesh, const struct corner_weld *weld, const uint64_t *keys,
                                 uint32_t count)
 {
@@ -42,7 +43,7 @@ static struct mesh_edge edge_of(const lam_mesh *mesh, const struct corner_weld *
     return edge;
 }
 
-// The ends of the edge from a corner on, the lower first. False: the triangle has equal corners.
+// The ends of the edge from a corner on, the lower first. Returns false if the triangle has equal corners.
 static bool ends_of(const struct corner_weld *weld, uint32_t corner, uint32_t *low, uint32_t *high)
 {
     uint32_t first = corner - corner % 3;

@@ -18,7 +18,7 @@ float texel_weight(int size, int s, int t)
     return 1.0f / (square * __builtin_sqrtf(square));
 }
 
-// The share of source texel `i` of `n` that lies in texel `k` of `m`.
+// Returns the share of source texel `i` of `n` that lies in texel `k` of `m`.
 static float overlap(int i, int n, int k, int m)
 {
     int64_t low = (int64_t)i * m, high = low + m, from = (int64_t)k * n, to = from + n; // in units of 1 / (n m)

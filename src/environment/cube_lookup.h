@@ -35,7 +35,7 @@ LANE_FN struct cube_side cube_side(num x, num y, num z)
     return side;
 }
 
-// The place on a face from −1 to 1; NaN for the zero vector.
+// Returns the place on a face from −1 to 1; NaN for the zero vector.
 LANE_FN struct cube_place cube_point(num x, num y, num z)
 {
     struct cube_side side = cube_side(x, y, z);

@@ -27,7 +27,7 @@ static inline float *cube_texel(const struct lam_environment *cube, int face, in
            (size_t)(s + 1) * 3;
 }
 
-// A cube of that size, texels undefined. NULL: out of memory.
+// Returns a cube of that size, texels undefined. Returns NULL if memory runs out.
 struct lam_environment *cube_make(int size, lam_error *error);
 
 // Memory after the texels, so that the last one too can be read as four numbers.
@@ -47,8 +47,8 @@ struct picture_source {
     void *user;
 };
 
-// An environment of one picture or of six faces (`count`), read one after the other within a call. `call` may be NULL.
-// The environment's memory stays charged.
+// Returns an environment of one picture or of six faces (`count`), read one after the other within a call. `call` may
+// be NULL. The environment's memory stays charged.
 struct lam_environment *environment_read(const struct picture_source *source, int count, lam_color_mode color,
                                          struct call_control *call, lam_error *error);
 

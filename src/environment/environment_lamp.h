@@ -12,7 +12,7 @@ struct environment_lamp {
     float angular_radius_rad; // of the disc that has the lamp's spread
 };
 
-// Found once, and kept with the environment. False: LAM_LIMIT, LAM_CANCELLED. `call` may be NULL.
+// Found once, and kept with the environment. Fails with LAM_LIMIT, LAM_CANCELLED. `call` may be NULL.
 bool environment_lamp(const struct lam_environment *cube, struct environment_lamp *lamp, struct call_control *call,
                       lam_error *error);
 

@@ -44,7 +44,7 @@ static int far_size(int level) { return levels[level].growth > 0 ? levels[level]
 
 int prefiltered_size(int level) { return levels[level].size; }
 
-// The share of GGX's mirrors, D(h) (h.n), whose angle's tangent is below `tangent`.
+// Returns the share of GGX's mirrors, D(h) (h.n), whose angle's tangent is below `tangent`.
 static double ggx_share(double tangent, double alpha)
 {
     double square = tangent * tangent;
@@ -238,7 +238,7 @@ int environment_light_rows(void)
     return (texels + ENVIRONMENT_LIGHT_WIDTH - 1) / ENVIRONMENT_LIGHT_WIDTH;
 }
 
-// A light with only level 0.
+// Returns a light with only level 0.
 static struct environment_light *start(const struct lam_environment *cube, lam_error *error)
 {
     struct environment_light *light = calloc(1, sizeof *light);
@@ -260,7 +260,7 @@ static struct environment_light *start(const struct lam_environment *cube, lam_e
     return light;
 }
 
-// The lower one of the two levels that are mixed, as prefiltered_look has it.
+// Returns the lower one of the two levels that are mixed, as prefiltered_look has it.
 static int lower_level(float level) { return level < ENVIRONMENT_LEVELS - 2 ? (int)level : ENVIRONMENT_LEVELS - 2; }
 
 unsigned environment_light_parts(float first, float last)

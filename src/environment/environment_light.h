@@ -29,7 +29,8 @@ struct environment_light {
 };
 enum { ENVIRONMENT_LIGHT_ALL = (2 << ENVIRONMENT_LEVELS) - 1 };
 
-// The parts that roughnesses between two levels read: the irradiance, these levels, and the levels between and next to them.
+// Returns the parts that roughnesses between two levels read: the irradiance, these levels, and the levels between and
+// next to them.
 unsigned environment_light_parts(float first, float last);
 
 int prefiltered_size(int level); // texels on a side of levels 1 and up
@@ -62,10 +63,10 @@ struct cube_chain {
 bool cube_chain_make(struct cube_chain *chain, const struct lam_environment *cube, struct pool *pool,
                      struct call_control *call, lam_error *error);
 void cube_chain_free(struct cube_chain *chain);
-// The copy whose size is nearest to `size`, by ratio.
+// Returns the copy whose size is nearest to `size`, by ratio.
 const struct lam_environment *cube_chain_near(const struct cube_chain *chain, double size);
 
-// The solid angle of a texel up to a factor, and its direction, not of length 1.
+// Returns the solid angle of a texel up to a factor, and its direction, not of length 1.
 float texel_weight(int size, int s, int t);
 
 // Sums over every texel of a small copy of a cube: the irradiance, or the environment prefiltered for a wide lobe.

@@ -37,7 +37,8 @@ static double squared(double x, int n)
     return x;
 }
 
-// A clear afternoon: blue above, pale at the horizon, the sun a third up to the right in front (+X +Z), brown ground.
+// Returns a clear afternoon: blue above, pale at the horizon, the sun a third up to the right in front (+X +Z), brown
+// ground.
 static struct rgb sky(lam_vec3 d)
 {
     static const struct rgb zenith = {{0.10, 0.24, 0.62}}, horizon = {{0.72, 0.80, 0.88}},
@@ -90,7 +91,7 @@ static double soft_edge(double x, double half_width)
     return ramp(-half_width - edge, -half_width, x < 0 ? x : -x);
 }
 
-// The walls at a height in the room, −1 … 1: the floor's colour below, and a band of light at the horizon.
+// Returns the walls at a height in the room, −1 … 1: the floor's colour below, and a band of light at the horizon.
 static struct rgb wall_at(double height)
 {
     static const struct rgb floor_color = {{0.085, 0.0825, 0.08}}, wall = {{0.055, 0.0567, 0.0633}},

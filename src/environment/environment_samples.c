@@ -9,7 +9,7 @@
 
 enum { DENSITY_SIZE = 128 }; // about: of the copy of the environment by which bright directions are drawn
 
-// The bits of `i` behind the binary point, mirrored.
+// Returns the bits of `i` behind the binary point, mirrored.
 static double radical_inverse(uint32_t i)
 {
     double value = 0, digit = 0.5;
@@ -26,7 +26,7 @@ static void draw_disc(struct disc_point *points, int count)
     }
 }
 
-// The sum of the brightness of a row of a face times its texels' solid angles; `weights` receives the summands.
+// Returns the sum of the brightness of a row of a face times its texels' solid angles; `weights` receives the summands.
 static double weigh_row(const struct lam_environment *cube, int face, int t, double *weights)
 {
     double sum = 0;
@@ -39,7 +39,7 @@ static double weigh_row(const struct lam_environment *cube, int face, int t, dou
     return sum;
 }
 
-// The direction of a point of a face, which reaches from −1 to 1, and its light.
+// Returns the direction of a point of a face, which reaches from −1 to 1, and its light.
 static struct sampled_light light_at(const struct lam_environment *cube, const float to_environment[3][3], int face,
                                      double across, double down, double density)
 {

@@ -5,7 +5,7 @@
 #include "cube_lookup.h"
 #include "environment_light.h"
 
-// The light of level `number` of each lane at a point of a face (cube_point).
+// Returns the light of level `number` of each lane at a point of a face (cube_point).
 LANE_FN struct cube_color level_look(const struct environment_light *light, inum number, struct cube_place point)
 {
     float sizes[LANES], texels[3][4][LANES];
@@ -30,7 +30,8 @@ LANE_FN struct cube_color level_look(const struct environment_light *light, inum
     return (struct cube_color){cube_mix(texels[0], s, t), cube_mix(texels[1], s, t), cube_mix(texels[2], s, t)};
 }
 
-// The light around a direction at a level, 0 … ENVIRONMENT_LEVELS − 1 (prefilter_level), linear between two of them.
+// Returns the light around a direction at a level, 0 … ENVIRONMENT_LEVELS − 1 (prefilter_level), linear between two of
+// them.
 LANE_FN struct cube_color prefiltered_look(const struct environment_light *light, num level, num x, num y, num z)
 {
     struct cube_place point = cube_point(x, y, z);

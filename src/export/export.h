@@ -50,7 +50,7 @@ struct exporter {
 #define EXPORTER_DECLARED(name) extern const struct exporter exporter_##name;
 EXPORTERS(EXPORTER_DECLARED)
 
-// The exporter of an ending; NULL, with the error that names `path`: there is none.
+// Returns the exporter of an ending; NULL, with the error that names `path`: there is none.
 const struct exporter *exporter_find(const char *ending, const char *path, lam_error *error);
 
 // Says that something of the scene is not in the file; once for each sentence.
@@ -59,8 +59,8 @@ void export_lose(struct exporting *e, const char *format, ...) __attribute__((fo
 // Says what no flat format holds: lights, cameras, an environment, animations. `cameras`: the format has lights and cameras.
 void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras);
 
-// Adds a file beside the model, whose bytes come from malloc and are given away. Its name is the model's without its ending, and
-// `ending`: "-0.png". NULL: LAM_LIMIT.
+// Adds a file beside the model, whose bytes come from malloc and are given away. Its name is the model's without its
+// ending, and `ending`: "-0.png". Fails with LAM_LIMIT.
 const char *export_add_file(struct exporting *e, const char *ending, lam_bytes bytes);
 
 // Out of memory: false, with the error.
@@ -80,7 +80,7 @@ lam_vec3 export_turned(const struct exporting *e, lam_vec3 p);
 lam_vec3 export_position(const struct exporting *e, const lam_mesh *mesh, uint32_t vertex);
 lam_vec3 export_normal(const struct exporting *e, const lam_mesh *mesh, uint32_t index);
 
-// The element of an attribute at a corner; `own`: its index array, which may be NULL.
+// Returns the element of an attribute at a corner; `own`: its index array, which may be NULL.
 static inline uint32_t export_element(const uint32_t *own, const lam_mesh *mesh, size_t corner)
 {
     return own ? own[corner] : mesh->indices ? mesh->indices[corner] : (uint32_t)corner;
@@ -94,18 +94,19 @@ struct export_vertices {
 };
 bool export_share_vertices(struct exporting *e, const lam_mesh *mesh, struct export_vertices *out);
 
-// The element of a corner's colour. A colour, linear; and as 8 bits, sRGB-encoded. The mesh has colours.
+// Returns the element of a corner's colour. A colour, linear; and as 8 bits, sRGB-encoded. The mesh has colours.
 uint32_t export_color_element(const lam_mesh *mesh, size_t corner);
 void export_color(const lam_mesh *mesh, size_t element, float color[4]);
 void export_color_bytes(const lam_mesh *mesh, size_t element, uint8_t bytes[4]);
 
-// A channel of light as a number of OBJ and MTL.
+// Returns a channel of light as a number of OBJ and MTL.
 double export_encoded(float light);
 
-// A texture's picture as PNG, from malloc. False: it cannot be had exactly (floats), or out of memory, which the error says.
+// A texture's picture as PNG, from malloc. Returns false if it cannot be had exactly (floats), or out of memory, which
+// the error says.
 bool export_texture(struct exporting *e, const lam_texture *texture, lam_bytes *png);
 
-// The material of a part, or the scene's default one.
+// Returns the material of a part, or the scene's default one.
 const lam_material *export_material(const struct exporting *e, int index);
 
 #endif

@@ -84,7 +84,7 @@ void export_color(const lam_mesh *mesh, size_t element, float color[4])
     }
 }
 
-// The byte whose light is nearest: it is found by halving, since the curve grows.
+// Returns the byte whose light is nearest: it is found by halving, since the curve grows.
 static uint8_t encoded(float light)
 {
     int low = 0, high = 255;
@@ -98,8 +98,9 @@ static uint8_t encoded(float light)
     return (uint8_t)low;
 }
 
-// The number that OBJ and MTL have for a channel of light: sRGB-encoded below 1. Their reader rounds it to a float and decodes it; of all floats
-// between 0 and 1 this is the first whose light is not below, so that a colour which came from such a file gets its own number. Most are bytes.
+// Returns the number that OBJ and MTL have for a channel of light: sRGB-encoded below 1. Their reader rounds it to a
+// float and decodes it; of all floats between 0 and 1 this is the first whose light is not below, so that a colour
+// which came from such a file gets its own number. Most are bytes.
 double export_encoded(float light)
 {
     uint32_t low = 0, high = 0x3f800000; // the bits of 0 and 1

@@ -50,18 +50,20 @@ json_t *glb_floats(struct glb *glb, const float *numbers, int count);
 // Names an extension in extensionsUsed, and returns its object in `object`, which is made if it is not there.
 json_t *glb_extension(struct glb *glb, json_t *object, const char *name);
 
-// Appends bytes to the buffer, aligned to four, as a view. Returns its number. `target`: of the view; 0: none.
+// Appends bytes to the buffer, aligned to four, as a view. Returns its number. `target`: of the view, or 0 if there is
+// none.
 int glb_add_view(struct glb *glb, const void *bytes, size_t size, int target);
 
 bool glb_append(struct glb *glb, struct scene_list *list, const void *item, size_t size);
 
-// The number of the file's mesh for an object. −1: out of memory.
+// Returns the number of the file's mesh for an object. −1: out of memory.
 int glb_mesh_of(struct glb *glb, const lam_object *object);
 
-// The number of a material (−1: the default one).
+// Returns the number of a material (−1: the default one).
 int glb_material(struct glb *glb, int material, bool double_sided);
 
-// The object that refers to a map's texture, with its set and transform; NULL: there is no map, or its picture cannot be written.
+// Returns the object that refers to a map's texture, with its set and transform, or NULL if there is no map, or its
+// picture cannot be written.
 json_t *glb_texture(struct glb *glb, const lam_texture_map *map);
 
 // Nodes: the scene's objects, lights and cameras.

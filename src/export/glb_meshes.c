@@ -5,7 +5,7 @@
 
 enum { FLOAT = 5126, UNSIGNED_INT = 5125, UNSIGNED_BYTE = 5121, ARRAY_BUFFER = 34962, ELEMENT_ARRAY_BUFFER = 34963 };
 
-// Whether all attributes already have one number: as files of glTF and PLY are read.
+// Returns whether all attributes already have one number: as files of glTF and PLY are read.
 static bool has_one_number(const lam_mesh *m)
 {
     bool own = m->normal_indices || m->texcoord_indices || m->second_texcoord_indices || m->tangent_indices ||
@@ -36,7 +36,7 @@ static int add_accessor(struct glb *glb, int view, int component, const char *ty
                              (json_int_t)count, "type", type));
 }
 
-// An attribute of floats.
+// Returns an attribute of floats.
 static int add_floats(struct glb *glb, const struct vertices *v, const float *items, const uint32_t *own, int width)
 {
     static const char *const types[] = {NULL, NULL, "VEC2", "VEC3", "VEC4"};

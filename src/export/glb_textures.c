@@ -16,7 +16,7 @@ static bool is_same(const lam_texture *a, const lam_texture *b)
            memcmp(a->bytes, b->bytes, (size_t)x->width * (size_t)x->height * (size_t)a->channels) == 0;
 }
 
-// The number of a texture's image; −1: it cannot be written.
+// Returns the number of a texture's image, or −1 if it cannot be written.
 static int image_of(struct glb *glb, const lam_texture *texture)
 {
     for (int i = 0; i < glb->pictures.count; i++) {
@@ -40,7 +40,7 @@ static int image_of(struct glb *glb, const lam_texture *texture)
 
 static int wrap_code(lam_wrap wrap) { return wrap == LAM_WRAP_CLAMP ? 33071 : wrap == LAM_WRAP_MIRROR ? 33648 : 10497; }
 
-// The number of the sampler; −1: the default one, which repeats and filters between levels.
+// Returns the number of the sampler; −1: the default one, which repeats and filters between levels.
 static int sampler_of(struct glb *glb, const lam_texture_map *map)
 {
     static const int minify[2][3] = {{9987, 9985, 9729}, {9986, 9984, 9728}}; // linear, nearest; by lam_mip

@@ -172,7 +172,7 @@ static bool put_material(struct exporting *e, struct text *text, const lam_mater
     return put_maps(e, text, m, pictures, flips);
 }
 
-// The name of a material, which no other has.
+// Returns the name of a material, which no other has.
 static const char *name_of(struct exporting *e, const char *const *names, int index)
 {
     const lam_material *m = export_material(e, index);

@@ -15,7 +15,7 @@ struct mtl_names {
 // Writes the materials that e->flat uses to a file beside the model, with their pictures.
 bool mtl_write(struct exporting *e, struct mtl_names *out);
 
-// The name of a material; NULL: none.
+// Returns the name of a material, or NULL if there is none.
 static inline const char *mtl_name(const struct mtl_names *names, int material)
 {
     return names->file ? names->names[material >= 0 && material < names->count ? material : names->count] : NULL;

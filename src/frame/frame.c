@@ -113,20 +113,21 @@ static void build_draw(struct frame_draw *draw, const lam_mesh *mesh, const lam_
 
 static int material_index(int scene_index) { return scene_index < 0 ? 0 : scene_index + 1; }
 
-// Whether some point of a material is translucent or masked. `varies`: by the mesh's colours.
+// Returns whether some point of a material is translucent or masked. `varies`: by the mesh's colours.
 static bool sees_through(const lam_material *material, bool varies)
 {
     varies |= material->maps[LAM_MAP_OPACITY] || texture_map_translucent(material->maps[LAM_MAP_DIFFUSE]);
     return material->alpha_mode != LAM_ALPHA_OPAQUE && (varies || material->diffuse.a < 1);
 }
 
-// Whether light goes through a material.
+// Returns whether light goes through a material.
 static bool transmits(const struct frame *frame, int material, lam_reflection model)
 {
     return frame_is_physical(model) && frame_layers(frame, frame->materials[material]) & LAYER_TRANSMISSION;
 }
 
-// Whether what is behind a material is blurred or bent: not at an index of 1, which is that of air, nor at 0, which lets no light in.
+// Returns whether what is behind a material is blurred or bent: not at an index of 1, which is that of air, nor at 0,
+// which lets no light in.
 static bool refracts(const struct frame *frame, int material, lam_reflection model)
 {
     const lam_material *m = frame->materials[material];
@@ -274,10 +275,10 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
     return true;
 }
 
-// Whether an output contains the light of the environment.
+// Returns whether an output contains the light of the environment.
 static bool shows_reflection(lam_output output) { return output_is_picture(output) || output == LAM_OUTPUT_REFLECTION; }
 
-// Whether physical materials are lit as such.
+// Returns whether physical materials are lit as such.
 static bool uses_physical(const struct frame *frame)
 {
     return frame->settings.reflection == LAM_REFLECTION_AUTO || frame_is_physical(frame->settings.reflection);
@@ -323,7 +324,7 @@ static void leave_facets(struct frame *frame)
 // Of the cavity, as a share of half the diagonal of the scene's box.
 #define CAVITY_RADIUS 0.05
 
-// Whether a texture colours the drawn surfaces.
+// Returns whether a texture colours the drawn surfaces.
 static bool has_color_maps(const struct frame *frame)
 {
     for (int i = 0; i < frame->range_count; i++)

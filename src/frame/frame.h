@@ -175,14 +175,14 @@ struct frame {
     size_t strokes_used;   // bytes
 };
 
-// False: LAM_BAD_ARGUMENT, a number is out of its range (frame_check.c).
+// Fails with LAM_BAD_ARGUMENT, a number is out of its range (frame_check.c).
 bool frame_camera_check(const lam_camera *camera, lam_error *error);
 bool frame_params_check(const lam_draw_params *params, lam_error *error);
 
-// The reflection model that lights a material; never AUTO.
+// Returns the reflection model that lights a material; never AUTO.
 lam_reflection frame_reflection(const struct frame *frame, const lam_material *material);
 
-// Whether rays are sent from lit points; edges send others (draws_edges).
+// Returns whether rays are sent from lit points; edges send others (draws_edges).
 static inline bool frame_has_rays(const struct frame *frame)
 {
     return frame->settings.shadows || frame->settings.occlusion == LAM_OCCLUSION_RAYS;
@@ -194,7 +194,7 @@ void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat
 // Decides about edges, and fills in their data; `pixel`: eye space to pixels.
 void frame_edges_build(struct frame *frame, const lam_mat4 *view, const lam_mat4 *pixel);
 
-// Whether shadow rays meet a draw's triangles.
+// Returns whether shadow rays meet a draw's triangles.
 static inline bool frame_draw_casts(const struct frame_draw *draw) { return !draw->strokes && !draw->ground; }
 
 // A position of a draw's mesh in world space.
@@ -205,30 +205,32 @@ static inline void frame_to_world(const struct frame_draw *draw, const float fro
         to[i] = ((draw->world[i][0] * x + draw->world[i][1] * y) + draw->world[i][2] * z) + draw->world[i][3];
 }
 
-// Whether a model lights physical materials.
+// Returns whether a model lights physical materials.
 bool frame_is_physical(lam_reflection model);
 
-// The greatest number of materials that frame_materials_build and frame_back_material convert to the other kind.
+// Returns the greatest number of materials that frame_materials_build and frame_back_material convert to the other
+// kind.
 size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *scene);
 void frame_materials_build(struct frame *frame, const lam_scene *scene);
-// The layers of a material that the frame draws: LAYER_…. Light goes through surfaces under Phong shading only.
+// Returns the layers of a material that the frame draws: LAYER_…. Light goes through surfaces under Phong shading only.
 int frame_layers(const struct frame *frame, const lam_material *material);
 
-// The index of a back's material beside this front.
+// Returns the index of a back's material beside this front.
 int frame_back_material(struct frame *frame, int front, int back);
 
-// The index of the material of unlit lines and points: with the emission added to the diffuse colour. If nobody chose a colour, neither
-// for the material nor for the vertices (`colored`), it is a grey that can be seen, unless the background is dark.
+// Returns the index of the material of unlit lines and points: with the emission added to the diffuse colour. If nobody
+// chose a colour, neither for the material nor for the vertices (`colored`), it is a grey that can be seen, unless the
+// background is dark.
 int frame_stroke_material(struct frame *frame, int front, bool colored);
 
 // The colours that lights are multiplied by: kd and ks; of a physical material base (1 − metallic), and 1, since Fresnel's
 // factor comes later (fresnel_of).
 void frame_material_colors(const lam_material *material, float kd[3], float ks[3]);
 
-// Whether a classic material of the frame was made from a metallic-roughness one.
+// Returns whether a classic material of the frame was made from a metallic-roughness one.
 bool frame_material_is_converted(const struct frame *frame, const lam_material *material);
 
-// The greatest S of a material's lobe, with Fresnel's factor.
+// Returns the greatest S of a material's lobe, with Fresnel's factor.
 float frame_lobe_max(const lam_material *material);
 
 // Returns the highlight exponent of a material, after match_highlights and gl1.

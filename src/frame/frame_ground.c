@@ -22,7 +22,7 @@
 // The brightness of a checker's dark squares relative to its bright ones.
 #define DARK_SQUARE 0.45f
 
-// The largest of 1, 2 and 5 times a power of ten that is at most x.
+// Returns the largest of 1, 2 and 5 times a power of ten that is at most x.
 static double round_number(double x)
 {
     double power = 1;
@@ -33,7 +33,7 @@ static double round_number(double x)
     return power * 5 <= x ? power * 5 : power * 2 <= x ? power * 2 : power;
 }
 
-// The height of the scene's lowest vertex along `up`, from `centre`.
+// Returns the height of the scene's lowest vertex along `up`, from `centre`.
 static double lowest(const lam_scene *scene, lam_vec3 right, lam_vec3 front, lam_vec3 up, lam_vec3 centre)
 {
     struct view_axes axes = {.right = right, .above = front, .back = v3_scale(up, -1), .centre = centre};
@@ -104,7 +104,7 @@ static double fade(double x, double first, double last)
     return t * t * (3 - 2 * t);
 }
 
-// The opacity of a catcher at a point, by its distance from the picture's border; 0 behind the eye.
+// Returns the opacity of a catcher at a point, by its distance from the picture's border; 0 behind the eye.
 static double border_fade(const struct frame *frame, const lam_mat4 *to_pixel, lam_vec3 at)
 {
     double p[4];

@@ -8,7 +8,7 @@
 bool frame_lights_build(struct frame *frame, const lam_scene *scene, lam_rig rig, int only, const lam_mat4 *view,
                         lam_error *error);
 
-// Whether shadows are enabled: directly, or by the ground that catches them. Before frame_build has decided.
+// Returns whether shadows are enabled: directly, or by the ground that catches them. Before frame_build has decided.
 static inline bool wants_shadows(const lam_draw_params *params) { return params->shadows || params->ground; }
 
 // Makes the environment's brightest lamp a light of its own, where the environment lights all surfaces that are lit and the picture

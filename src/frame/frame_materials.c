@@ -20,7 +20,7 @@ lam_reflection frame_reflection(const struct frame *frame, const lam_material *m
     return material->physical ? LAM_REFLECTION_GGX : LAM_REFLECTION_BLINN_PHONG;
 }
 
-// Whether a model lights a material as it is. LAM_REFLECTION_NONE shows the diffuse colour of either kind.
+// Returns whether a model lights a material as it is. LAM_REFLECTION_NONE shows the diffuse colour of either kind.
 static bool fits(const lam_material *material, lam_reflection model)
 {
     return model == LAM_REFLECTION_NONE || material->physical == frame_is_physical(model);
@@ -93,7 +93,8 @@ int frame_back_material(struct frame *frame, int front, int back)
     return second;
 }
 
-// Whether nobody chose the colour of a material: a scene's default, or the default of a glTF primitive without one.
+// Returns whether nobody chose the colour of a material: a scene's default, or the default of a glTF primitive without
+// one.
 static bool is_unchosen(const struct frame *frame, int front)
 {
     const lam_material *m = frame->materials[front];

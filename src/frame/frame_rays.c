@@ -41,7 +41,7 @@ static void place_draw(struct frame_draw *draw, const lam_scene *scene, const la
         find_rounding(draw, scene);
 }
 
-// The matrix from a light's frame to world space (frame.c has found the object).
+// Returns the matrix from a light's frame to world space (frame.c has found the object).
 static lam_mat4 world_of(const lam_scene *scene, const lam_light *light, const lam_mat4 *eye_to_world)
 {
     switch (light->frame) {

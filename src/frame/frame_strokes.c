@@ -90,8 +90,8 @@ bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, c
     return !bytes || buffer_reserve(&frame->strokes, bytes, call, error);
 }
 
-// How much nearer a stroke of a width lies: the share of its distance; orthographic: the distance. `pixel`: a pixel's height
-// in eye space where w is 1.
+// Returns how much nearer a stroke of a width lies: the share of its distance; orthographic: the distance. `pixel`: a
+// pixel's height in eye space where w is 1.
 static double nearer_by(const struct stroke_view *view, double width, double pixel)
 {
     return view->orthographic || width * pixel < 0.25 ? width * pixel : 0.25;
@@ -134,7 +134,7 @@ static void interpolate(const float *from, const uint32_t *own, const lam_mesh *
         out[i] = place.t == 0 ? a[i] : place.t == 1 ? b[i] : mixed(a[i], b[i], place.t);
 }
 
-// The byte whose light is nearest.
+// Returns the byte whose light is nearest.
 static uint8_t encode_srgb(double light)
 {
     int low = 0, high = 255;

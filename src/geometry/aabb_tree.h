@@ -26,7 +26,7 @@ struct aabb_tree {
     size_t first[BOX_LEVELS], count[BOX_LEVELS];
 };
 
-// `used` lists the vertices of the tree, in order (NULL: the first `count`). False when memory has run out.
+// `used` lists the vertices of the tree, in order (NULL: the first `count`). Returns false if memory runs out.
 bool box_tree_make(struct aabb_tree *tree, const lam_mesh *mesh, const uint32_t *used, size_t count,
                    struct arena *arena, struct pool *pool, lam_error *error);
 
@@ -38,7 +38,7 @@ static inline const box_of_six *boxes_of_level(const struct aabb_tree *tree, int
     return tree->boxes + tree->first[level];
 }
 
-// The end of the items of a box that begins at `first`, with `each` items in a box, of `all` items.
+// Returns the end of the items of a box that begins at `first`, with `each` items in a box, of `all` items.
 static inline size_t box_end(size_t first, size_t each, size_t all) { return all - first < each ? all : first + each; }
 
 #endif

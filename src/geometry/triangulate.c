@@ -84,7 +84,7 @@ static void face_normal(const float *a, const float *b, const float *c, double o
     out[2] = u[0] * v[1] - u[1] * v[0];
 }
 
-// Whether two triangles that share an edge of a quad face the same way.
+// Returns whether two triangles that share an edge of a quad face the same way.
 static bool same_side(const float *a, const float *b, const float *c, const float *d, const float *e, const float *f)
 {
     double m[3], n[3];
@@ -126,7 +126,7 @@ static int64_t turn_at(const struct corner *corners, uint32_t i)
 
 static bool same_place(const struct corner *a, const struct corner *b) { return a->x == b->x && a->y == b->y; }
 
-// Projects and snaps the corners, turned so that the polygon runs counter-clockwise. False: it has no area.
+// Projects and snaps the corners, turned so that the polygon runs counter-clockwise. Returns false if it has no area.
 static bool snap(const float *positions, const uint32_t *numbers, uint32_t count, struct corner *corners)
 {
     // Newell's normal, relative to the first corner: the sum of the fan's.
@@ -194,7 +194,8 @@ static uint64_t spread(uint32_t x)
 
 static uint64_t morton(const struct corner *c) { return spread((uint32_t)c->x) | spread((uint32_t)c->y) << 1; }
 
-// Sorts corner numbers by Morton code: a stable radix sort, a byte of the code at a time. False: the call must end.
+// Sorts corner numbers by Morton code: a stable radix sort, a byte of the code at a time. Returns false if the call
+// must end.
 static bool sort_points(const struct corner *corners, uint32_t *points, uint32_t *extra, uint32_t count,
                         struct call_control *call)
 {
@@ -253,7 +254,7 @@ static void tree_remove(struct clip *clip, uint32_t i)
         clip->boxes[node].count--;
 }
 
-// Whether the whole box lies right of a→b, or on it where touching does not count.
+// Returns whether the whole box lies right of a→b, or on it where touching does not count.
 static bool box_outside(const struct box *box, const struct corner *a, const struct corner *b, bool touching)
 {
     // The box's corner farthest to the left of the edge.
@@ -278,8 +279,9 @@ static bool point_inside(const struct corner *const triangle[3], const struct co
     return true;
 }
 
-// Whether a corner that is not convex lies in corner i's triangle (on its edge counts where `touching`). A polygon of few
-// repeated points could visit all nodes for each corner; once its steps are spent, all its corners count as blocked.
+// Returns whether a corner that is not convex lies in corner i's triangle (on its edge counts where `touching`). A
+// polygon of few repeated points could visit all nodes for each corner; once its steps are spent, all its corners count
+// as blocked.
 static bool blocked(struct clip *clip, uint32_t i, bool touching)
 {
     if (clip->leaves == 0 || clip->boxes[1].count == 0)
@@ -388,7 +390,7 @@ static void cut(struct clip *clip, uint32_t i)
     }
 }
 
-// Cuts off corner after corner. False: the call must end.
+// Cuts off corner after corner. Returns false if the call must end.
 static bool clip_ears(struct clip *clip, uint32_t count, struct call_control *call, uint32_t *triples)
 {
     uint32_t left = count;

@@ -26,8 +26,8 @@ void triangulator_start(struct triangulator *scratch, struct call_control *call)
 void triangulator_stop(struct triangulator *scratch);
 
 // Splits the polygon whose corner i lies at positions[3·corners[i] …] (finite numbers), count ≥ 3, and writes count − 2
-// triples of corner numbers (0 … count − 1, valid for every attribute) to `triples`, wound like the polygon. False when
-// memory has run out or the call must end (call_should_continue says which); never for up to four corners.
+// triples of corner numbers (0 … count − 1, valid for every attribute) to `triples`, wound like the polygon. Returns
+// false when memory has run out or the call must end (call_should_continue says which); never for up to four corners.
 bool triangulate(struct triangulator *scratch, const float *positions, const uint32_t *corners, uint32_t count,
                  uint32_t *triples);
 

@@ -105,8 +105,8 @@ static bool check_frame(const lam_animation *animation, const lam_image *frame, 
     return true;
 }
 
-// Whether the limit leaves room for the frames so far, and for the next one: the picture before, its changed part, and as much for
-// its encoding. Else the animation is of no more use.
+// Returns whether the limit leaves room for the frames so far, and for the next one: the picture before, its changed
+// part, and as much for its encoding. Else the animation is of no more use.
 static bool check_memory(lam_animation *animation, const lam_control *control, lam_error *error)
 {
     struct call_control call;

@@ -202,7 +202,7 @@ static bool put_indexed(const struct bmp *bmp, const uint8_t *from, uint32_t y, 
     return true;
 }
 
-// A value of 0…max as a byte: floor(255·v/max + ½).
+// Returns a value of 0…max as a byte: floor(255·v/max + ½).
 static uint8_t masked(const struct mask *mask, uint32_t pixel)
 {
     uint64_t value = pixel >> mask->shift & mask->max;

@@ -56,17 +56,17 @@ enum { CODEC_HEAD = 512 };
 CODECS(CODEC)
 #undef CODEC
 
-// The codec of a file that starts with these bytes; NULL: none. `name` (may be NULL): where the bytes do not tell, the ending
-// of this file name does.
+// Returns the codec of a file that starts with these bytes, or NULL if there is none. `name` (may be NULL): where the
+// bytes do not tell, the ending of this file name does.
 const struct codec *codec_of(const uint8_t *bytes, size_t size, const char *name);
 
-// False: LAM_BAD_ARGUMENT.
+// Fails with LAM_BAD_ARGUMENT.
 bool save_params_check(const lam_save_params *params, lam_error *error);
 
-// The threads that encode a picture; NULL: this thread alone. `threads` as in lam_save_params.
+// Returns the threads that encode a picture; NULL: this thread alone. `threads` as in lam_save_params.
 struct pool *encoding_pool(const lam_image *image, int threads);
 
-// Whether a header's size can be read; no memory is taken for others. LAM_LIMIT (lam_control.pixel_limit).
+// Returns whether a header's size can be read; no memory is taken for others. LAM_LIMIT (lam_control.pixel_limit).
 bool picture_size_check(const struct picture_file *file, uint32_t width, uint32_t height, lam_error *error);
 
 // Makes the picture that a codec fills, of a size that was checked. Its bytes are charged to the file's call. LAM_LIMIT.
@@ -80,7 +80,7 @@ bool picture_make_larger(const struct picture_file *file, uint32_t width, uint32
 // Frees a picture and refunds its bytes. `call` may be NULL; an empty picture is fine.
 void picture_free(struct call_control *call, lam_image *image);
 
-// Whether decoding continues with row `y`; false: the error is filled.
+// Returns whether decoding continues with row `y`, or false and fills the error.
 static inline bool picture_continues(const struct picture_file *file, int64_t y, lam_error *error)
 {
     return y % 16 != 0 || call_should_continue(file->call) || call_error(file->call, error);

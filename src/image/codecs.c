@@ -58,7 +58,7 @@ static const char *list_names(const char *before, char list[LIST_BYTES])
     return list;
 }
 
-// The formats that take the place of one that cannot be written; NULL: it is not known.
+// Returns the formats that take the place of one that cannot be written, or NULL if it is not known.
 static const char *instead_of(const char *word)
 {
     static const struct {

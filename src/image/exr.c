@@ -111,7 +111,7 @@ static const char *letters_of(const lam_layer *layer)
     return layer->channels ? layer->channels : named ? "RGB" : "RGBA";
 }
 
-// Lists the channels of all layers. NULL: an error; nothing is left to free.
+// Lists the channels of all layers. Returns NULL on error; nothing is left to free.
 static struct channel *list_channels(const lam_layer *layers, int count, int *channel_count, lam_error *error)
 {
     struct channel *channels = calloc(4 * (size_t)count, sizeof *channels);
@@ -267,7 +267,8 @@ static int64_t size_of_source(exr_const_context_t context, void *user)
     return (int64_t)((const struct source *)user)->size;
 }
 
-// The position of a channel of the file in a pixel of the picture; −1: none. Y is luminance, for all three colours.
+// Returns the position of a channel of the file in a pixel of the picture, or −1 if there is none. Y is luminance, for
+// all three colours.
 static int place_of(const char *name)
 {
     static const char letters[] = "RGBA";
@@ -275,7 +276,7 @@ static int place_of(const char *name)
     return found ? (int)(found - letters) : strcmp(name, "Y") == 0 ? 0 : -1;
 }
 
-// Whether every chunk is present, before memory is allocated for the picture.
+// Returns whether every chunk is present, before memory is allocated for the picture.
 static exr_result_t find_chunks(const struct core *core, exr_context_t file, int top, int64_t height)
 {
     int32_t rows = 1;

@@ -25,7 +25,7 @@ struct header {
     size_t pixels; // their start
 };
 
-// The end of the line that starts at `at`; NULL: the file ends within the line.
+// Returns the end of the line that starts at `at`; NULL: the file ends within the line.
 static const uint8_t *line_end(const uint8_t *at, const uint8_t *end)
 {
     const uint8_t *found = memchr(at, '\n', (size_t)(end - at));

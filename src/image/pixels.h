@@ -29,7 +29,8 @@ static inline void *image_row(const lam_image *image, int y)
 // As lam_image_make, with more bytes behind the pixels.
 bool image_make_larger(lam_image *image, int width, int height, lam_pixel_format format, size_t more, lam_error *error);
 
-// Whether a picture of the caller's can be used: its pixels, size, format and stride. `what` begins the sentence.
+// Returns whether a picture of the caller's can be used: its pixels, size, format and stride. `what` begins the
+// sentence.
 bool image_check(const lam_image *image, const char *what, lam_error *error);
 
 // `count` pixels from a format to its working format, and back. `raw`: luminance of the unchanged numbers.

@@ -26,7 +26,7 @@ struct tga {
 
 static bool is_color_bits(uint32_t bits) { return bits == 15 || bits == 16 || bits == 24 || bits == 32; }
 
-// Takes the header apart. False: it is not one of a TGA file, and the error (may be NULL) says why.
+// Takes the header apart. Returns false if it is not one of a TGA file, and the error (may be NULL) says why.
 static bool take_header(const struct picture_file *file, struct tga *tga, lam_error *error)
 {
     const uint8_t *bytes = file->bytes;
@@ -112,7 +112,7 @@ static bool put_pixel(const struct tga *tga, const uint8_t *from, uint8_t *to, l
     return true;
 }
 
-// The place of pixel number `x` of row number `y` in the file's order.
+// Returns the place of pixel number `x` of row number `y` in the file's order.
 static uint8_t *place_of(const struct tga *tga, const lam_image *image, uint32_t x, uint32_t y)
 {
     size_t row = tga->top_down ? y : tga->height - 1 - y, column = tga->right_to_left ? tga->width - 1 - x : x;

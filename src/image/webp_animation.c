@@ -125,7 +125,7 @@ static bool animation_finish(void *state, const lam_save_params *params, lam_byt
     return out->data || fail_memory(error, data.size);
 }
 
-// The encoder's three canvases. It gives the lengths of its encoded frames only with the finished file.
+// Returns the encoder's three canvases. It gives the lengths of its encoded frames only with the finished file.
 static uint64_t animation_held(const void *state)
 {
     const struct webp_animation *animation = state;

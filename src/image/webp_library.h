@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-// Whether WebP pictures can be read here.
+// Returns whether WebP pictures can be read here.
 bool webp_is_installed(void);
 
 #ifdef HAVE_WEBP

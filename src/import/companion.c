@@ -13,7 +13,7 @@
 // --- names
 
 // Copies the components of a path, without "." and empty ones, to `out`, which may be where `name` is. A ".." takes the
-// component before it away. False: it leaves the folder, nothing is left, or `capacity` is too small.
+// component before it away. Returns false if it leaves the folder, nothing is left, or `capacity` is too small.
 static bool copy_components(const char *name, char *out, size_t capacity)
 {
     size_t used = 0;
@@ -61,7 +61,7 @@ static char *path_allowed(const struct import_source *source, const char *path, 
     return real;
 }
 
-// Whether a name that leads out of the folder leads to a file that the caller allows.
+// Returns whether a name that leads out of the folder leads to a file that the caller allows.
 static bool is_allowed(const struct import_source *source, const char *name)
 {
     const struct companions *companions = source->open_state;

@@ -34,7 +34,7 @@ bool companion_open_of_scene(const struct import_source *source, const char *nam
                              struct companion *out, lam_error *error);
 
 // The companions of a model that a scene file names: `model` was opened by open_of_scene as `name`. The strings are in
-// `arena`. False: out of memory.
+// `arena`. Returns false if memory runs out.
 bool companions_of_model(const struct import_source *scene, const char *name, const struct companion *model,
                          struct arena *arena, struct companions *out, lam_error *error);
 

@@ -19,7 +19,7 @@ void file_list_start(struct file_list *list);
 bool file_list_add(struct file_list *list, const char *path);
 
 // Gives the model's own path (NULL: none) and then the others, in alphabetical order and each once, to the scene, whose
-// arena copies them. False: out of memory.
+// arena copies them. Returns false if memory runs out.
 bool file_list_give(struct file_list *list, const char *model, struct lam_scene *scene, lam_error *error);
 
 void file_list_end(struct file_list *list);

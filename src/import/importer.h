@@ -56,7 +56,8 @@ struct importer {
 IMPORTERS(IMPORTER)
 #undef IMPORTER
 
-// The crease angle for scene_prepare, of a load with these parameters (0: the default). Flat normals are facet normals.
+// Returns the crease angle for scene_prepare, of a load with these parameters (0: the default). Flat normals are facet
+// normals.
 static inline double importer_crease(const struct importer *importer, lam_normals normals, double crease_angle_rad)
 {
     return importer->flat_normals && normals == LAM_NORMALS_FILE && crease_angle_rad == 0 ? FACET_CREASE_RAD

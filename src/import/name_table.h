@@ -16,10 +16,10 @@ struct name_table {
     uint32_t capacity, count; // capacity: a power of two, or 0
 };
 
-// The value of a name; −1: none.
+// Returns the value of a name, or −1 if there is none.
 int32_t name_table_find(const struct name_table *table, const char *name);
 
-// Adds a name; of equal names the first is kept. False: out of memory.
+// Adds a name; of equal names the first is kept. Returns false if memory runs out.
 bool name_table_add(struct name_table *table, const char *name, int32_t value);
 
 #endif

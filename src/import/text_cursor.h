@@ -26,7 +26,7 @@ static inline const uint8_t *text_skip_word(const uint8_t *at, const uint8_t *en
     return at;
 }
 
-// The line's '\n' or '\r', or `end`.
+// Returns the line's '\n' or '\r', or `end`.
 static inline const uint8_t *text_line_end(const uint8_t *at, const uint8_t *end)
 {
     while (at < end && *at != '\n' && *at != '\r')
@@ -34,20 +34,20 @@ static inline const uint8_t *text_line_end(const uint8_t *at, const uint8_t *end
     return at;
 }
 
-// Whether the word at `at` is `word` (lower case), in any case.
+// Returns whether the word at `at` is `word` (lower case), in any case.
 bool text_is_word(const uint8_t *at, const uint8_t *end, const char *word);
 
-// The number of times that the word occurs in the text.
+// Returns the number of times that the word occurs in the text.
 size_t text_count_word(const uint8_t *at, const uint8_t *end, const char *word);
 
-// The number, from 1, of the line at `at`; lines end in "\n", "\r\n" or "\r". Linear time: for messages only.
+// Returns the number, from 1, of the line at `at`; lines end in "\n", "\r\n" or "\r". Linear time: for messages only.
 size_t text_line(const uint8_t *bytes, const uint8_t *at);
 
 // The word at `at` for a message: in quotes, cut by shown_name; or "the end of the file". Returns `out`.
 enum { TEXT_FOUND_SIZE = SHOWN_NAME_SIZE + 2 };
 const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUND_SIZE]);
 
-// Copies a name to a UTF-8 string; invalid bytes and control characters become '?'. NULL: out of memory.
+// Copies a name to a UTF-8 string; invalid bytes and control characters become '?'. Returns NULL if memory runs out.
 char *text_name(struct arena *arena, const uint8_t *at, size_t length);
 
 #endif

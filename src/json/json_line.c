@@ -44,7 +44,7 @@ static void skip_value(struct cursor *c)
     } while (depth > 0);
 }
 
-// Moves from an object or a list to one of its members: to its key if it has one. False: it is not there.
+// Moves from an object or a list to one of its members: to its key if it has one. Returns false if it is not there.
 static bool enter(struct cursor *c, const struct place *step, const char **found)
 {
     skip_space(c);

@@ -94,7 +94,7 @@ static bool accept(struct parser *p, char c)
     return true;
 }
 
-// The four digits of \uXXXX at `at`; −1: there are none.
+// Returns the four digits of \uXXXX at `at`, or −1 if there are none.
 static int read_unit(const struct parser *p, const char *at)
 {
     int unit = 0;
@@ -131,7 +131,7 @@ static char *put_utf8(char *to, int c)
     return to;
 }
 
-// The escape at the backslash. It is never shorter than its character in UTF-8. NULL: an error.
+// Returns the escape at the backslash. It is never shorter than its character in UTF-8. Returns NULL on error.
 static char *read_escape(struct parser *p, char *to)
 {
     static const char letters[] = "\"\\/bfnrt", characters[] = "\"\\/\b\f\n\r\t";
@@ -155,7 +155,7 @@ static char *read_escape(struct parser *p, char *to)
     return put_utf8(to, unit);
 }
 
-// A text at its opening quote, decoded, from malloc; NULL: an error.
+// Returns a text at its opening quote, decoded, from malloc; NULL: an error.
 static char *read_text(struct parser *p, size_t *length)
 {
     const char *start = p->at++, *close = p->at;

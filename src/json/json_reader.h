@@ -30,7 +30,8 @@ struct place {
 // Writes "objects[1].material.shininess"; a longer place is cut.
 void json_place(const struct place *place, char *out, size_t capacity);
 
-// The line of a value, or of its key, from 1; of the innermost value around it that there is. 0: none of them, or `place` is NULL.
+// Returns the line of a value, or of its key, from 1; of the innermost value around it that there is. 0: none of them,
+// or `place` is NULL.
 int json_line_of(const char *text, size_t size, const struct place *place);
 
 // Returns false.
@@ -54,7 +55,7 @@ bool json_number_of(const struct json_reader *r, const struct place *place, cons
 bool json_numbers_of(const struct json_reader *r, const struct place *place, const json_t *list, size_t min, size_t max,
                      double *out, size_t *count);
 
-// The value of a key of `object`, checked; *out stays as it is where the key is missing. False: it is wrong.
+// The value of a key of `object`, checked; *out stays as it is where the key is missing. Returns false if it is wrong.
 bool json_take_number(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,
                       double min, double max, double *out);
 bool json_take_bool(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,

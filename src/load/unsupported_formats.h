@@ -13,7 +13,7 @@ struct unsupported_format {
 // NULL: not recognised.
 const struct unsupported_format *unsupported_format_of(const uint8_t *bytes, size_t size);
 
-// The 3D format whose files have this ending (without its dot); NULL: not known.
+// Returns the 3D format whose files have this ending (without its dot); NULL: not known.
 const struct unsupported_format *unsupported_format_named(const char *ending);
 
 #endif

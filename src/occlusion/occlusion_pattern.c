@@ -3,7 +3,7 @@
 
 #include "linear.h"
 
-// The bits of a number 0…1023, with a 0 between each two.
+// Returns the bits of a number 0…1023, with a 0 between each two.
 static uint32_t spread_bits(uint32_t n)
 {
     uint32_t spread = 0;
@@ -12,7 +12,7 @@ static uint32_t spread_bits(uint32_t n)
     return spread;
 }
 
-// The place of a point of the disc along a curve that fills it (Morton, 1966).
+// Returns the place of a point of the disc along a curve that fills it (Morton, 1966).
 static uint32_t place_of(double x, double y)
 {
     return spread_bits((uint32_t)(511.5 * (x + 1))) | spread_bits((uint32_t)(511.5 * (y + 1))) << 1;

@@ -24,8 +24,8 @@ struct occlusion_pattern {
     double cosine[OCCLUSION_TURNS], sine[OCCLUSION_TURNS]; // of the turns of occlusion_turn
 };
 
-// The turn at a pixel: interleaved gradient noise (Jimenez 2014) in whole numbers, whose neighbours differ as much as
-// possible.
+// Returns the turn at a pixel: interleaved gradient noise (Jimenez 2014) in whole numbers, whose neighbours differ as
+// much as possible.
 static inline uint32_t occlusion_turn(uint32_t x, uint32_t y)
 {
     uint32_t part = x * 0x112e0be8u + y * 0x017e8cd9u;       // fraction of 0.06711056 x + 0.00583715 y

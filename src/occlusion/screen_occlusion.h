@@ -58,7 +58,7 @@ static inline size_t screen_pixel(const struct screen_occlusion *o, int x, int y
            (size_t)(x >> half);
 }
 
-// The distance of a frame's ground at a pixel's centre, SCREEN_EMPTY if it is not visible.
+// Returns the distance of a frame's ground at a pixel's centre, SCREEN_EMPTY if it is not visible.
 static inline float screen_ground_depth(const struct frame *frame, int x, int y)
 {
     const struct frame_ground *ground = &frame->ground;

@@ -50,8 +50,8 @@ struct builder {
 // Fills primitives, and the hierarchy's centre and scale.
 bool ray_triangles_prepare(struct builder *builder, lam_error *error);
 
-// The largest number of nodes below a range of this many triangles. A node with fewer than NODE_CHILDREN children has
-// leaves alone, and more than LEAF_MIN triangles; hence, by induction, (2 count − 1)/7.
+// Returns the largest number of nodes below a range of this many triangles. A node with fewer than NODE_CHILDREN
+// children has leaves alone, and more than LEAF_MIN triangles; hence, by induction, (2 count − 1)/7.
 static inline uint32_t ray_nodes_below(uint32_t count) { return count ? (uint32_t)((2 * (uint64_t)count - 1) / 7) : 0; }
 
 // Divides the primitives into nodes and leaves.

@@ -213,7 +213,7 @@ static void add(struct large *l, const struct range *r, struct list *list)
     ranges_of(list)[list->count++] = *r;
 }
 
-// Divides a range by its cells. False: it has one, or all their middles are the same, or it is too deep.
+// Divides a range by its cells. Returns false if it has one, or all their middles are the same, or it is too deep.
 static bool halve_cells(struct large *l, struct range *r, struct range *right)
 {
     struct split split;

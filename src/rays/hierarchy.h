@@ -50,8 +50,8 @@ struct hierarchy_memory {
     struct scene_token *token; // held; NULL: nothing is built
 };
 
-// Builds the hierarchy of a frame, unless the one in memory is of the same meshes at the same places; *built: whether it
-// did. NULL: LAM_LIMIT (memory, time), LAM_CANCELLED.
+// Builds the hierarchy of a frame, unless the one in memory is of the same meshes at the same places; *built: whether
+// it did. Fails with LAM_LIMIT (memory, time), LAM_CANCELLED.
 const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, const struct frame *frame,
                                            struct pool *pool, struct call_control *call, bool *built, lam_error *error);
 void hierarchy_free(struct hierarchy_memory *memory);

@@ -111,10 +111,10 @@ static int by_number(const void *a, const void *b)
     return (x->number > y->number) - (x->number < y->number);
 }
 
-// The channels of the light that passes: one unless something tints it.
+// Returns the channels of the light that passes: one unless something tints it.
 static int passed_channels(const struct frame *frame) { return frame->tints_rays ? 3 : 1; }
 
-// The share of the light that passes along LANES rays, for each of passed_channels.
+// Returns the share of the light that passes along LANES rays, for each of passed_channels.
 static __attribute__((noinline)) void trace(struct light_rays *r, const struct ray_lanes *ray, unsigned active,
                                             float passed[3][LANES])
 {
@@ -243,7 +243,7 @@ LANE_FN void rays_to_light(struct ray_lanes *ray, const struct light_rays *r, co
     }
 }
 
-// The share of a light that reaches LANES points, the `active` ones; for each of passed_channels.
+// Returns the share of a light that reaches LANES points, the `active` ones; for each of passed_channels.
 LANE_FN void trace_light(struct light_rays *r, const struct ray_starts *from, const struct frame_light *light,
                          unsigned active, float passed[3][LANES])
 {

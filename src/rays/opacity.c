@@ -46,7 +46,7 @@ bool ray_corner_texcoord(const lam_mesh *mesh, int set, uint32_t corner, float o
     return from != NULL;
 }
 
-// A channel of the colours of a triangle's vertices.
+// Returns a channel of the colours of a triangle's vertices.
 static float vertex_color(const lam_mesh *mesh, uint32_t triangle, int channel, float b1, float b2)
 {
     float value[3];
@@ -55,7 +55,7 @@ static float vertex_color(const lam_mesh *mesh, uint32_t triangle, int channel, 
     return at_weights(value, b1, b2);
 }
 
-// A channel of a map at level 0; 1 where the mesh has no texture coordinates for it.
+// Returns a channel of a map at level 0; 1 where the mesh has no texture coordinates for it.
 static float map_value(const lam_mesh *mesh, const lam_texture_map *map, int channel, uint32_t triangle, float b1,
                        float b2)
 {

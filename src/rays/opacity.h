@@ -4,8 +4,8 @@
 
 #include "frame.h"
 
-// The opacity of a triangle of the frame, 0…1, where its corners have the weights 1 − b1 − b2, b1 and b2, textures taken at their
-// level 0. A masked surface has 0 or 1. `back`: of its back side.
+// Returns the opacity of a triangle of the frame, 0…1, where its corners have the weights 1 − b1 − b2, b1 and b2,
+// textures taken at their level 0. A masked surface has 0 or 1. `back`: of its back side.
 float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b1, float b2);
 
 // The light that such a point lets pass, red, green, blue: 1 − opacity, and of the opaque share the light that
@@ -23,8 +23,8 @@ struct ray_layers {
     bool failed; // out of memory
 };
 
-// The colour of a corner of a mesh with colours, linear and with alpha, and its texture coordinates in a map's set; false: the
-// mesh has none. Corners are counted over all triangles.
+// The colour of a corner of a mesh with colours, linear and with alpha, and its texture coordinates in a map's set, or
+// false if the mesh has none. Corners are counted over all triangles.
 void ray_corner_color(const lam_mesh *mesh, uint32_t corner, float out[4]);
 bool ray_corner_texcoord(const lam_mesh *mesh, int set, uint32_t corner, float out[2]);
 

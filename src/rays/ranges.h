@@ -74,7 +74,7 @@ static inline void halves_of(struct range *r, uint32_t left, const struct box bo
     r->area = half_area(boxes[0]);
 }
 
-// The part with the largest box among the ones `open` to division; −1: none is.
+// Returns the part with the largest box among the ones `open` to division, or −1 if none is.
 static inline int widest_part(const struct range *parts, const bool *open, int count)
 {
     int widest = -1;
@@ -128,7 +128,7 @@ static inline void fill_bins(struct bins *bins, const struct split *s, const str
     }
 }
 
-// The bins along the longest side of the box of middles. False: the middles are the same.
+// The bins along the longest side of the box of middles. Returns false if the middles are the same.
 static inline bool choose_axis(const struct range *r, struct split *s)
 {
     num size = r->middles.high - r->middles.low;
@@ -205,7 +205,7 @@ static inline uint32_t partition(struct primitive *p, uint32_t count, const stru
 // The box of a range's primitives and of twice their middles.
 void range_measure(const struct primitive *p, uint32_t count, struct box *box, struct box *middles);
 
-// Divides a range in two: itself, and *right. False: it becomes a leaf, or there is no memory.
+// Divides a range in two: itself, and *right. Returns false if it becomes a leaf, or there is no memory.
 bool range_halve(struct builder *builder, struct range *range, struct range *right);
 
 // Enters the node of a range that was divided into `parts`, and says where theirs go.

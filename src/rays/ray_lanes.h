@@ -82,8 +82,8 @@ LANE_FN dnum along(const double row[3][LANES], int at, const dnum p[3])
     return (dnum_load(row[0] + at) * p[0] + dnum_load(row[1] + at) * p[1]) + dnum_load(row[2] + at) * p[2];
 }
 
-// The lanes of `active` whose rays a triangle is in the way of. `weights` (may be NULL) gets the weights of its corners, each
-// times their sum, and `t` the rays' t.
+// Returns the lanes of `active` whose rays a triangle is in the way of. `weights` (may be NULL) gets the weights of its
+// corners, each times their sum, and `t` the rays' t.
 LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_lanes *ray, const struct ray_view *view,
                          unsigned active, double weights[3][LANES], double t[LANES])
 {
@@ -226,7 +226,7 @@ struct ray_bundle {
     eight end;
 };
 
-// The first ray of `rest` and those beside it that go nearly the same way.
+// Returns the first ray of `rest` and those beside it that go nearly the same way.
 LANE_FN unsigned bundle_lanes(const struct box_rays *b, unsigned rest)
 {
     int first = __builtin_ctz(rest);
@@ -270,7 +270,7 @@ LANE_FN void bundle_of(struct ray_bundle *bundle, const struct box_rays *b, unsi
     }
 }
 
-// The children of a node that a bundle may meet, as bits. `single`: it is one ray.
+// Returns the children of a node that a bundle may meet, as bits. `single`: it is one ray.
 LANE_FN unsigned meets_children(const struct ray_bundle *b, const struct ray_node *node, bool single)
 {
     const float *planes = node->planes[0][0];
@@ -284,7 +284,7 @@ LANE_FN unsigned meets_children(const struct ray_bundle *b, const struct ray_nod
     return eight_not_above(near, far);
 }
 
-// The rays that meet a child of a node.
+// Returns the rays that meet a child of a node.
 LANE_FN unsigned meets_child(const struct box_rays *b, const struct ray_bundle *bundle, const struct ray_node *node,
                              int child)
 {
@@ -304,7 +304,7 @@ LANE_FN unsigned meets_child(const struct box_rays *b, const struct ray_bundle *
 typedef unsigned ray_filter(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
                             const struct ray_view *view, unsigned lanes);
 
-// The lanes of a bundle whose rays have a triangle in their way.
+// Returns the lanes of a bundle whose rays have a triangle in their way.
 LANE_FN unsigned walk_bundle(const struct hierarchy *h, const struct ray_lanes *ray, const struct ray_view *view,
                              const struct box_rays *boxes, const struct ray_bundle *bundle, ray_filter *filter,
                              void *user, bool single)
@@ -355,7 +355,7 @@ LANE_FN unsigned walk_bundle(const struct hierarchy *h, const struct ray_lanes *
     }
 }
 
-// The lanes of `active` whose rays have a triangle in their way. `filter` NULL: every triangle ends a ray.
+// Returns the lanes of `active` whose rays have a triangle in their way. `filter` NULL: every triangle ends a ray.
 LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray, unsigned active, ray_filter *filter,
                          void *user)
 {
@@ -379,8 +379,8 @@ LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray,
 }
 
 #if LANES == 1
-// The nearest triangle in the way of a ray, by its number in the frame, of several at the same place the lowest; *t: where.
-// NO_TRIANGLE: none is. `counts`: whether a triangle does.
+// Returns the nearest triangle in the way of a ray, by its number in the frame, of several at the same place the
+// lowest; *t: where. NO_TRIANGLE: none is. `counts`: whether a triangle does.
 LANE_FN uint32_t nearest_hit(const struct hierarchy *h, const struct ray_lanes *ray,
                              bool (*counts)(void *user, const struct ray_triangle *triangle,
                                             const struct ray_lanes *ray, const struct ray_view *view),

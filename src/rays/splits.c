@@ -28,7 +28,7 @@ static void ray_triangle_fill(const struct builder *b, uint32_t number, struct p
 
 static bool same_point(const double a[3], const double b[3]) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
 
-// Whether two triangles have the same three positions, in any order.
+// Returns whether two triangles have the same three positions, in any order.
 static bool same_positions(const struct ray_triangle *a, const struct ray_triangle *b)
 {
     static const int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
@@ -221,7 +221,7 @@ static bool sort_group(struct builder *b, const struct range *r)
 }
 
 // Divides a range of few triangles at the middle between the outermost middles, which is hardly worse there than the
-// best of many boundaries, and much sooner found. False: it becomes a leaf.
+// best of many boundaries, and much sooner found. Returns false if it becomes a leaf.
 static bool halve_few(struct primitive *p, struct range *r, int axis, struct range *right)
 {
     struct primitive sorted[MIDDLE_MAX];

@@ -60,7 +60,7 @@ static void fill_report(const lam_scene *scene, const lam_camera *camera, const 
     }
 }
 
-// Whether the lights of a glTF file, in candela and lux, light the scene.
+// Returns whether the lights of a glTF file, in candela and lux, light the scene.
 static bool has_file_lights(const lam_scene *scene, const lam_picture_settings *settings)
 {
     const char *format = lam_scene_format(scene);

@@ -18,8 +18,8 @@ static double luminance(const float *p)
     return 0.2126 * (double)p[0] + 0.7152 * (double)p[1] + 0.0722 * (double)p[2];
 }
 
-// The share of the picture that is black. Of the model: pixels whose surface is not black itself. With a ground, its pixels count too:
-// `lit` has a white background.
+// Returns the share of the picture that is black. Of the model: pixels whose surface is not black itself. With a
+// ground, its pixels count too: `lit` has a white background.
 static double black_share(const lam_image *lit, const lam_image *surfaces, bool ground)
 {
     size_t counted = 0, black = 0;

@@ -42,7 +42,7 @@ static struct view_extents extents_of(const struct fitting *fitting, double frac
     return (struct view_extents){.kx = ky * fitting->aspect, .ky = ky};
 }
 
-// The world point at (x, y, z) in the axes of the view.
+// Returns the world point at (x, y, z) in the axes of the view.
 static lam_vec3 to_world(const struct view_axes *axes, double x, double y, double z)
 {
     lam_vec3 across = v3_add(v3_scale(axes->right, x), v3_scale(axes->above, y));
@@ -169,7 +169,7 @@ static void apply_zoom(const struct fitting *fitting, lam_camera *camera)
 // 1 − cos(π/48) = 0.2 % of its distance from the axis.
 enum { TURNS = 48 };
 
-// Whether the camera sees all points, with this fraction of the picture.
+// Returns whether the camera sees all points, with this fraction of the picture.
 static bool holds(const struct fitting *fitting, const lam_camera *camera, const struct view_points *points,
                   double fraction)
 {

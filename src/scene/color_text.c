@@ -88,8 +88,8 @@ enum { NAMES = sizeof names / sizeof names[0] };
 
 const char *lam_color_name(int index) { return index >= 0 && index < NAMES ? names[index].name : NULL; }
 
-// The hexadecimal form of a colour as other programs write it: "ff8800", "0xff8800", "255,136,0" or "rgb(255, 136, 0)". False: it
-// is none of these.
+// The hexadecimal form of a colour as other programs write it: "ff8800", "0xff8800", "255,136,0" or "rgb(255, 136, 0)".
+// Returns false if it is none of these.
 static bool hex_of(const char *text, char hex[16])
 {
     static const char digits[] = "0123456789abcdef";

@@ -32,9 +32,9 @@ struct material_field {
 };
 const struct material_field *material_field(int index); // NULL past the end
 
-// The layers that a material has: LAYER_… of layer_kinds.h, 0 for a classic one.
+// Returns the layers that a material has: LAYER_… of layer_kinds.h, 0 for a classic one.
 int material_layers(const lam_material *material);
-// The layer that reads a map; 0: none, it belongs to every material.
+// Returns the layer that reads a map; 0: none, it belongs to every material.
 int map_layer(lam_map map);
 
 struct light_field {
@@ -53,7 +53,7 @@ struct field_fault {
 bool field_fits(const lam_field *field, const void *object, struct field_fault *fault);
 
 bool field_equal(const lam_field *field, const void *a, const void *b);
-// Whether its bytes are 0: a flag then has its default.
+// Returns whether its bytes are 0: a flag then has its default.
 bool field_is_zero(const lam_field *field, const void *object);
 bool field_is_standard(const lam_field *field, const void *object); // compared as floats
 // Sets the default, and any numbers whose angles are in degrees.

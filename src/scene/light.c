@@ -70,7 +70,8 @@ bool lam_light_check(const lam_light *light, lam_error *error)
 
 // --- Rigs
 
-// A directional light in the camera's frame. `from`: the direction to the light; x right, y up, z towards the viewer.
+// Returns a directional light in the camera's frame. `from`: the direction to the light; x right, y up, z towards the
+// viewer.
 static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, float specular)
 {
     lam_light light = lam_light_default(LAM_LIGHT_DIRECTIONAL);
@@ -120,8 +121,8 @@ static int headlight(lam_light lights[LAM_RIG_LIGHTS_MAX])
     return 1;
 }
 
-// The three lights of a portrait. The sum of all lights is at most 0.8 + 0.4·cos 73° + 0.05, below 1; the ratio of key
-// to fill is 2 to 1.
+// Returns the three lights of a portrait. The sum of all lights is at most 0.8 + 0.4·cos 73° + 0.05, below 1; the ratio
+// of key to fill is 2 to 1.
 static int three_point(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = camera_light("key", v3(-1.0, 1.0, 1.0), 0.8f, 0.8f);
@@ -133,7 +134,7 @@ static int three_point(lam_light lights[LAM_RIG_LIGHTS_MAX])
     return 4;
 }
 
-// The light of the first program in a lighting course.
+// Returns the light of the first program in a lighting course.
 static int lecture(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = lam_light_default(LAM_LIGHT_POINT);

@@ -100,8 +100,8 @@ static const struct named_material named[LAM_MATERIAL_COUNT] = {
         {"yellow-rubber", {0.05f, 0.05f, 0.0f}, {0.5f, 0.5f, 0.4f}, {0.7f, 0.7f, 0.04f}, SHININESS(0.078125)},
 };
 
-// A grey that ranges from sRGB 60 to 230 under the studio rig, with headroom for a highlight that shows the form but
-// does not look like metal or wet clay.
+// Returns a grey that ranges from sRGB 60 to 230 under the studio rig, with headroom for a highlight that shows the
+// form but does not look like metal or wet clay.
 lam_material lam_material_default(void)
 {
     lam_material material = {.illum = -1};
@@ -137,7 +137,7 @@ lam_material lam_material_named(lam_material_id id, lam_color_mode color)
 
 const char *lam_material_name(lam_material_id id) { return known(id) ? named[id].name : NULL; }
 
-// A letter in the table's spelling. ASCII only, independent of the locale.
+// Returns a letter in the table's spelling. ASCII only, independent of the locale.
 static char canonical_letter(char c)
 {
     if (c >= 'A' && c <= 'Z')

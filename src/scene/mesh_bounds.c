@@ -31,7 +31,7 @@ static void mark_piece(void *user, size_t index, int thread)
         __atomic_store_n(&used[indices[i]], 1, __ATOMIC_RELAXED);
 }
 
-// Sets the list of used vertices if some are unused. False: out of memory.
+// Sets the list of used vertices if some are unused. Returns false if memory runs out.
 static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
                       lam_error *error)
 {
@@ -91,7 +91,7 @@ static void search_piece(void *user, size_t index, int thread)
         __atomic_store_n(&alpha_search->found, 1, __ATOMIC_RELAXED);
 }
 
-// Whether a mesh has a colour with an alpha below 1.
+// Returns whether a mesh has a colour with an alpha below 1.
 static bool has_translucent_colors(const lam_mesh *mesh, struct pool *pool)
 {
     struct alpha_search alpha_search = {.mesh = mesh};
@@ -128,8 +128,8 @@ static void shift_piece(void *user, size_t index, int thread)
 
 // Gives a mesh that lies far from zero an origin, so that drawing, which computes in floats, keeps the detail that its
 // positions have. The new positions are exact: they and the origin are multiples of the old ones' last places, and
-// smaller. The mesh's arrays are the scene's own; if meshes share them, the mesh gets an array of its own. False: out
-// of memory.
+// smaller. The mesh's arrays are the scene's own; if meshes share them, the mesh gets an array of its own. Returns
+// false if memory runs out.
 static bool move_origin(struct lam_scene *scene, lam_mesh *mesh, struct aabb_tree *boxes, struct pool *pool,
                         lam_error *error)
 {
@@ -193,7 +193,7 @@ static lam_vec3 upper(lam_vec3 a, lam_vec3 b)
     return v3(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
 }
 
-// Whether the transform maps boxes to boxes: it only scales and permutes axes.
+// Returns whether the transform maps boxes to boxes: it only scales and permutes axes.
 static bool keeps_boxes(const lam_mat4 *m)
 {
     for (int i = 0; i < 3; i++)

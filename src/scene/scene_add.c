@@ -40,7 +40,7 @@ static bool check_attribute(const char *name, const float *values, uint32_t coun
     return true;
 }
 
-// The word for the items of a mesh in messages.
+// Returns the word for the items of a mesh in messages.
 static const char *items_word(const lam_mesh *mesh)
 {
     return mesh->line_count ? "lines" : mesh->point_count ? "points" : "triangles";

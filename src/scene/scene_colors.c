@@ -1,7 +1,7 @@
 // scene_colors.c: surfaces that have colours of their own and no material.
 #include "scene_internal.h"
 
-// The index of a white material, which is made on first use; −1: out of memory.
+// Returns the index of a white material, which is made on first use; −1: out of memory.
 static int white_of(struct lam_scene *scene, int *white, lam_error *error)
 {
     if (*white < 0) {

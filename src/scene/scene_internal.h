@@ -102,8 +102,8 @@ struct lam_scene {
 struct lam_scene *scene_make(struct call_control *call, lam_error *error);
 void scene_built(struct lam_scene *scene);
 
-// Whether a scene has no lights, and a lit physical material of its own: the environment is then its light, or without
-// one the built-in studio, in place of a rig.
+// Returns whether a scene has no lights, and a lit physical material of its own: the environment is then its light, or
+// without one the built-in studio, in place of a rig.
 bool scene_lit_by_environment(const struct lam_scene *scene);
 
 struct scene_token *scene_token_hold(struct scene_token *token);
@@ -116,7 +116,8 @@ int scene_adopt_material(struct lam_scene *scene, const lam_material *material, 
 int scene_adopt_object(struct lam_scene *scene, const lam_object *object, lam_error *error);
 int scene_adopt_light(struct lam_scene *scene, const lam_light *light, lam_error *error);
 
-// Makes the scene share a texture that a material of it names: it is freed with the scene. False: out of memory.
+// Makes the scene share a texture that a material of it names: it is freed with the scene. Returns false if memory runs
+// out.
 bool scene_share_texture(struct lam_scene *scene, const lam_texture *texture, lam_error *error);
 // The same for a reference that the caller has and gives away, also on failure.
 bool scene_adopt_texture(struct lam_scene *scene, lam_texture *texture, lam_error *error);
@@ -131,7 +132,7 @@ void scene_warn(struct lam_scene *scene, const char *format, ...) __attribute__(
 // Counts a fully transparent material; the sentence of the first one is kept. The load ends with a warning of them.
 void scene_note_clear(struct lam_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// Records the origin of the meshes and materials from origin.first_… on. False: out of memory.
+// Records the origin of the meshes and materials from origin.first_… on. Returns false if memory runs out.
 bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object, lam_error *error);
 
 // Adds a built-in shape as a mesh, charged to the call of the scene's arena. Returns its index; −1 on failure.
@@ -145,27 +146,28 @@ bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_a
 // The same, but leaves smooth normals to the device.
 void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double crease_angle_rad);
 
-// Whether some mesh has a material with a normal map and no tangents.
+// Returns whether some mesh has a material with a normal map and no tangents.
 bool scene_needs_tangents(const struct lam_scene *scene);
 
 // Gives surfaces with colours of their own and no material a white one, so that they reflect their colours; the neutral
-// grey would darken them. For a scene that was just read. False: out of memory.
+// grey would darken them. For a scene that was just read. Returns false if memory runs out.
 bool scene_give_colors_white(struct lam_scene *scene, lam_error *error);
 // Gives MikkTSpace's tangents to each such mesh, or with `all` to every mesh, that has normals, texture coordinates and
 // no tangents, for the texture coordinates of the normal map. Charged to `call`.
 bool scene_make_tangents(struct lam_scene *scene, bool all, struct call_control *call, lam_error *error);
 
 // Computes the extents of new meshes, and gives distant meshes an origin (origin.h), which changes their positions in
-// place. Every public function that adds meshes ends with it, so that read access never writes. False: out of memory.
+// place. Every public function that adds meshes ends with it, so that read access never writes. Returns false if memory
+// runs out.
 bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error);
 
-// The largest distance of a triangle's vertex from a point, in world space.
+// Returns the largest distance of a triangle's vertex from a point, in world space.
 double scene_radius(const struct lam_scene *scene, lam_vec3 centre);
 
-// Whether a mesh consists of lines or points: functions that make normals or follow surfaces skip it.
+// Returns whether a mesh consists of lines or points: functions that make normals or follow surfaces skip it.
 static inline bool mesh_is_strokes(const lam_mesh *mesh) { return mesh->line_count || mesh->point_count; }
 
-// The number of triangles, of lines or of points, and of their corners.
+// Returns the number of triangles, of lines or of points, and of their corners.
 static inline uint32_t mesh_items(const lam_mesh *mesh)
 {
     return mesh->line_count ? mesh->line_count : mesh->point_count ? mesh->point_count : mesh->triangle_count;

@@ -5,7 +5,7 @@
 #include "fail.h"
 #include "float_state.h"
 
-// The first map that reads tangents.
+// Returns the first map that reads tangents.
 static const lam_texture_map *normal_map_at(const struct lam_scene *scene, int material)
 {
     bool there = material >= 0 && material < scene->materials.count;
@@ -17,8 +17,8 @@ static const lam_texture_map *normal_map_at(const struct lam_scene *scene, int m
                                                : m->maps[LAM_MAP_ANISOTROPY];
 }
 
-// The map that reads a mesh's tangents: the first one of its parts, or else of the first object that gives it a
-// material with one. NULL: none.
+// Returns the map that reads a mesh's tangents: the first one of its parts, or else of the first object that gives it a
+// material with one. Returns NULL if there is none.
 static const lam_texture_map *normal_map_of(const struct lam_scene *scene, int mesh)
 {
     const lam_mesh *m = scene_mesh(scene, mesh);

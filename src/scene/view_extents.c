@@ -91,7 +91,7 @@ static void search_block(const struct search *s, size_t block, int d)
     }
 }
 
-// The upper bound for the vertices of a box: its centre, plus its half sides along the direction.
+// Returns the upper bound for the vertices of a box: its centre, plus its half sides along the direction.
 static double bound_of(const struct search *s, const box_of_six box, int d)
 {
     lam_vec3 low = v3((double)box[0], (double)box[1], (double)box[2]);

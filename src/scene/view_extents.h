@@ -40,7 +40,8 @@ void view_extents_find(const struct view_points *points, struct view_extents *ex
 void view_extents_horizontal(const struct view_points *points, double kx, struct view_extents *extents);
 void view_extents_vertical(const struct view_points *points, double ky, struct view_extents *extents);
 
-// The smallest and largest distance of the scene's vertices in front of the eye, along the view. False: no vertices.
+// The smallest and largest distance of the scene's vertices in front of the eye, along the view. Returns false if there
+// are no vertices.
 bool view_extents_depth(const lam_scene *scene, const lam_mat4 *view, double *nearest, double *farthest);
 
 #endif

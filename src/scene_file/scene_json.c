@@ -13,7 +13,7 @@ enum { FORMULA_OPERATIONS = 200000000 };
 
 // --- is it one?
 
-// An object whose first kilobytes contain the key "lambent".
+// Returns an object whose first kilobytes contain the key "lambent".
 static int scene_probe(const uint8_t *bytes, size_t size)
 {
     static const char key[] = "\"lambent\"";
@@ -274,7 +274,7 @@ static bool read_root(struct scene_reader *r, const json_t *root)
            read_materials(r, root) && read_objects(r, root) && read_lights(r, root);
 }
 
-// The memory that Jansson needs for a file of this size at worst: one small value for each two bytes ("1,1,1").
+// Returns the memory that Jansson needs for a file of this size at worst: one small value for each two bytes ("1,1,1").
 static size_t tree_bytes(size_t size) { return size > SIZE_MAX / 32 ? SIZE_MAX : size * 32; }
 
 static bool scene_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)

@@ -31,7 +31,7 @@ bool read_material_keys(struct scene_reader *r, const struct place *place, const
     return true;
 }
 
-// A material of the file by its name: −1 if there is none.
+// Returns a material of the file by its name: −1 if there is none.
 static int named(const struct scene_reader *r, const char *name)
 {
     const char *key;

@@ -152,7 +152,7 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
 
 // --- finding
 
-// The text that identifies a formula's surface. False: it is too long.
+// The text that identifies a formula's surface. Returns false if it is too long.
 static bool key_of_formula(const struct model_wanted *wanted, char key[KEY_SIZE])
 {
     const lam_formula *f = wanted->formula;

@@ -72,7 +72,7 @@ static bool replace_parts(struct scene_reader *r, const struct place *place, con
     return true;
 }
 
-// The material that supplies a back side's missing keys: the object's, or else its first part's.
+// Returns the material that supplies a back side's missing keys: the object's, or else its first part's.
 static lam_material front_of(const struct lam_scene *scene, const lam_object *object)
 {
     const lam_mesh *mesh = scene_mesh(scene, object->mesh);

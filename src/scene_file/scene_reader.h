@@ -29,7 +29,7 @@ bool fail_place(struct scene_reader *r, const struct place *place, const char *f
 // Allowed keys of an object; another one is an error that names the nearest. The list ends with NULL.
 bool check_keys(struct scene_reader *r, const struct place *place, const json_t *object, const char *const *keys);
 
-// The value of a key of `object`, checked; *out stays as it is where the key is missing. False: it is wrong.
+// The value of a key of `object`, checked; *out stays as it is where the key is missing. Returns false if it is wrong.
 // Numbers lie in [min, max].
 bool take_number(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, double min,
                  double max, double *out);

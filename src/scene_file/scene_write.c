@@ -29,7 +29,7 @@ static json_t *number(double x)
     return whole ? json_integer((json_int_t)x) : json_real(x);
 }
 
-// The number with the fewest decimals that is the same float.
+// Returns the number with the fewest decimals that is the same float.
 static json_t *number_float(float f)
 {
     double x = (double)f, size = x < 0 ? -x : x, power = 1;
@@ -199,7 +199,7 @@ static bool same_material(const lam_material *a, const lam_material *b)
     return true;
 }
 
-// Whether at most one material has this name, so that it can be called by it.
+// Returns whether at most one material has this name, so that it can be called by it.
 static bool is_only_name(const struct scene_origin *origin, const char *name)
 {
     int count = 0;
@@ -303,7 +303,7 @@ static struct change change_of(const struct scene_writer *w, const lam_object *o
     return change;
 }
 
-// The change that all objects of a file share: one entry describes them. False: they differ.
+// The change that all objects of a file share: one entry describes them. Returns false if they differ.
 static bool common_change(const struct scene_writer *w, const struct scene_origin *origin, int first,
                           struct change *common)
 {

@@ -71,7 +71,7 @@ struct formula_graph {
 
 bool formula_graph_start(struct formula_graph *graph, struct arena *arena);
 
-// The node of an operation, which may be a known one or a simpler one.
+// Returns the node of an operation, which may be a known one or a simpler one.
 int formula_number(struct formula_graph *graph, double value);
 int formula_unary(struct formula_graph *graph, enum formula_op op, int a);
 int formula_binary(struct formula_graph *graph, enum formula_op op, int a, int b);

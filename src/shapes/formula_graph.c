@@ -246,7 +246,7 @@ void formula_differentiate(struct formula_graph *graph, int count, enum formula_
     }
 }
 
-// The values of the first `count` nodes.
+// Returns the values of the first `count` nodes.
 static const struct formula_node *evaluate(const struct formula *formula, int count, const double parameters[3])
 {
     struct formula_node *nodes = formula->nodes;

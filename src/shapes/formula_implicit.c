@@ -78,7 +78,8 @@ static lam_vec3 gradient_at(void *user, lam_vec3 p)
 
 static double step_of(double from, double to, int i) { return from + (to - from) * ((double)i / SEARCH_CELLS); }
 
-// Finds the crossed edges of a coarse lattice: the first and the last of their ends along each axis. False: there are none.
+// Finds the crossed edges of a coarse lattice: the first and the last of their ends along each axis. Returns false if
+// there are none.
 static bool find_crossings(struct implicit *s, bool *inside, int first[3], int last[3])
 {
     static const int strides[3] = {1, SEARCH_POINTS, SEARCH_POINTS * SEARCH_POINTS};
@@ -105,8 +106,8 @@ static bool find_crossings(struct implicit *s, bool *inside, int first[3], int l
     return found;
 }
 
-// Sets the ranges that are not given: around the surface, with a cell of the coarse lattice to spare. False: it was not found,
-// and the largest box that was searched is left.
+// Sets the ranges that are not given: around the surface, with a cell of the coarse lattice to spare. Returns false if
+// it was not found, and the largest box that was searched is left.
 static bool fit_box(struct implicit *s, bool *inside)
 {
     enum { SEARCHES = sizeof search_sides / sizeof *search_sides };

@@ -54,10 +54,10 @@ static bool is(const char *name, const char *at, size_t length)
     return strlen(name) == length && memcmp(name, at, length) == 0;
 }
 
-// The names of the parameters, as they are in messages.
+// Returns the names of the parameters, as they are in messages.
 static const char *parameter_names(const struct formula *formula) { return formula->implicit ? "x, y, z" : "u, v"; }
 
-// The number of the parameter with this name; −1: there is none.
+// Returns the number of the parameter with this name, or −1 if there is none.
 static int find_parameter(const struct formula *formula, const char *at, size_t length)
 {
     for (int i = 0; i < (formula->implicit ? 3 : 2); i++)
@@ -87,7 +87,7 @@ static size_t name_length(const char *at, const char *end)
     return length;
 }
 
-// The text at a place, for messages: "'sin'", "the end".
+// Returns the text at a place, for messages: "'sin'", "the end".
 static const char *found_at(const struct parser *p, const char *at, char out[SHOWN_NAME_SIZE + 2])
 {
     if (at >= p->end)
@@ -313,7 +313,7 @@ static int power(struct parser *p, bool *is_number)
     return base;
 }
 
-// Whether a factor follows that needs no '*' after a number: a name or a parenthesis.
+// Returns whether a factor follows that needs no '*' after a number: a name or a parenthesis.
 static bool factor_follows(struct parser *p)
 {
     skip_blanks(p);
@@ -405,7 +405,7 @@ static bool definition(struct parser *p)
     return !p->formula->graph.full || too_large(p->what, p->error);
 }
 
-// Whether a definition follows, and no expression. x = … is an equation: x is no name that can be defined.
+// Returns whether a definition follows, and no expression. x = … is an equation: x is no name that can be defined.
 static bool is_definition(const struct parser *p)
 {
     struct parser ahead = *p;

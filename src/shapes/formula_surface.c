@@ -59,7 +59,8 @@ static lam_surface_point evaluate(struct surface *s, double u, double v)
     return point;
 }
 
-// A derivative at the end of a piece, where the formula's own may belong to the other side of a crease or not exist.
+// Returns a derivative at the end of a piece, where the formula's own may belong to the other side of a crease or not
+// exist.
 static lam_vec3 one_sided(const struct surface *s, lam_vec3 own, lam_vec3 inner, int axis)
 {
     double unit = s->size / (s->to[axis] - s->from[axis]);
@@ -121,7 +122,7 @@ static bool fail_undefined(const struct surface *s, lam_error *error)
                 s -> from[1], s -> to[1]);
 }
 
-// The point at step i of n along `axis`, and at line j of the probes across it.
+// Returns the point at step i of n along `axis`, and at line j of the probes across it.
 static lam_surface_point probe(struct surface *s, int axis, double along, int j, int lines)
 {
     double across = step_of(s->from[!axis], s->to[!axis], j, lines - 1);
@@ -166,7 +167,7 @@ static int probed_lines(const struct surface *s, int axis)
     return s->segments[!axis] < PROBED_LINES ? s->segments[!axis] + 1 : PROBED_LINES;
 }
 
-// Whether the surface is cut along a line of the grid.
+// Returns whether the surface is cut along a line of the grid.
 static bool is_cut(struct surface *s, int axis, double along)
 {
     int lines = probed_lines(s, axis);
@@ -183,7 +184,7 @@ static bool is_cut(struct surface *s, int axis, double along)
     return pole;
 }
 
-// Whether both ends of an axis have the same points and normals.
+// Returns whether both ends of an axis have the same points and normals.
 static bool is_closed(struct surface *s, int axis)
 {
     int lines = s->segments[!axis] + 1;

@@ -36,7 +36,8 @@ struct segments {
     double slices, stacks;
 };
 
-// The horizontal direction after u slices, from the back to the left, and its derivative with respect to the angle.
+// Returns the horizontal direction after u slices, from the back to the left, and its derivative with respect to the
+// angle.
 static lam_vec3 around(const struct segments *n, double u, lam_vec3 *sideways)
 {
     struct circle_point at = circle(u, n->slices);
@@ -531,7 +532,7 @@ int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const 
     return end(scene, state, add_mesh(scene, made, &mesh, error));
 }
 
-// A copy in the scene's arena. NULL: out of memory.
+// Returns a copy in the scene's arena. Returns NULL if memory runs out.
 static const lam_formula *copy_formula(struct lam_scene *scene, const lam_formula *formula)
 {
     lam_formula *copy = arena_alloc_zeroed(&scene->arena, sizeof *copy);

@@ -32,7 +32,7 @@ struct cell_case {
 
 // --- The table
 
-// The edge between two corners that differ in one coordinate.
+// Returns the edge between two corners that differ in one coordinate.
 static int edge_between(int a, int b)
 {
     int axis = (a ^ b) == 1 ? 0 : (a ^ b) == 2 ? 1 : 2;
@@ -69,7 +69,7 @@ static void link_edges(int inside, int next[EDGES])
         }
 }
 
-// Whether two edges share a face of the cell. An edge lies in the two faces given by its other coordinates.
+// Returns whether two edges share a face of the cell. An edge lies in the two faces given by its other coordinates.
 static bool share_face(int a, int b)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -147,8 +147,8 @@ static lam_vec3 lattice(const struct march *m, int x, int y, int z)
 
 static bool is_inside(double value) { return value < 0; }
 
-// The root of f between a (0) and b (1), by the Illinois method: regula falsi that halves the value at an end which is
-// kept twice.
+// Returns the root of f between a (0) and b (1), by the Illinois method: regula falsi that halves the value at an end
+// which is kept twice.
 static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa, double fb)
 {
     const lam_implicit *s = m->surface;
@@ -184,7 +184,7 @@ static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa
     return before;
 }
 
-// The unit ∇f; if it is zero or not finite, central differences of f over a hundredth of a cell instead.
+// Returns the unit ∇f; if it is zero or not finite, central differences of f over a hundredth of a cell instead.
 static lam_vec3 normal_at(const struct march *m, lam_vec3 p)
 {
     const lam_implicit *s = m->surface;
@@ -308,7 +308,7 @@ static bool cross_between(struct march *m, int z, int below, int above)
     return true;
 }
 
-// The vertex on edge `edge` of the cell whose first corner is `at` in its plane.
+// Returns the vertex on edge `edge` of the cell whose first corner is `at` in its plane.
 static uint32_t edge_vertex(const struct march *m, int edge, size_t at, int below, int above)
 {
     size_t row = (size_t)m->cells[0] + 1;

@@ -47,7 +47,7 @@ struct tessellation {
     uint32_t *ids[3]; // vertices of the previous row, of this row and of the first
 };
 
-// The parameter at step i of n from a to b. The ends are exact; mirrored steps of a symmetric domain give
+// Returns the parameter at step i of n from a to b. The ends are exact; mirrored steps of a symmetric domain give
 // mirrored bits.
 static double parameter(double a, double b, int i, int n)
 {
@@ -58,7 +58,7 @@ static double parameter(double a, double b, int i, int n)
     return (a * (n - i) + b * i) / n;
 }
 
-// The middle of cell i.
+// Returns the middle of cell i.
 static double middle(double a, double b, int i, int n) { return parameter(a, b, 2 * i + 1, 2 * n); }
 
 static lam_surface_point evaluate(const struct tessellation *t, double u, double v)
@@ -113,7 +113,7 @@ static void frame_at(const struct tessellation *t, double u, double v, const lam
         *tangent = v3_unit(n.x * n.x < 0.5 ? v3_cross(v3(1, 0, 0), n) : v3_cross(v3(0, 1, 0), n));
 }
 
-// Whether all points of the boundary column at u coincide.
+// Returns whether all points of the boundary column at u coincide.
 static bool column_is_pole(const struct tessellation *t, double u)
 {
     const lam_parametric *s = t->surface;
@@ -260,7 +260,8 @@ static void add_triangle(struct tessellation *t, struct cell_corner a, struct ce
     }
 }
 
-// The corner (i, j) of cell (cell_i, cell_j). At a pole, each cell has its own attributes, at the index of the cell.
+// Returns the corner (i, j) of cell (cell_i, cell_j). At a pole, each cell has its own attributes, at the index of the
+// cell.
 static struct cell_corner corner_of(const struct tessellation *t, int i, int j, int cell_i, int cell_j, uint32_t vertex,
                                     bool row_pole)
 {

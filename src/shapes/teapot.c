@@ -43,7 +43,7 @@ static void bernstein(double t, double b[4], double d[4])
     d[3] = 3 * t * t;
 }
 
-// The patch of a parameter, and the parameter within it. A joint belongs to the next patch.
+// Returns the patch of a parameter, and the parameter within it. A joint belongs to the next patch.
 static int patch_of(double x, int steps, int count, double *within)
 {
     int patch = (int)(x / steps);

@@ -25,7 +25,7 @@ static int side_of(int side, int level) { return side >> level ? side >> level :
 // Levels of as many bytes lie in pages of their own: huge ones, which are touched faster.
 #define PAGES_FROM ((size_t)2 << 20)
 
-// Allocates a texture of this size, with its levels except for level 0 of bytes. NULL: LAM_LIMIT.
+// Allocates a texture of this size, with its levels except for level 0 of bytes. Fails with LAM_LIMIT.
 static struct lam_texture *allocate(const lam_image *image, int channels, const char *name, struct call_control *call,
                                     lam_error *error)
 {
@@ -107,7 +107,7 @@ static void drop_opaque_alpha(lam_image *image, struct call_control *call)
         call_refund(call, count);
 }
 
-// The numbers that a texel of a picture needs; 0: one of them is not finite.
+// Returns the numbers that a texel of a picture needs; 0: one of them is not finite.
 static int count_channels(const lam_image *image, const char *name, lam_error *error)
 {
     const float *pixel = image->pixels;

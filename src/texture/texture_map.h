@@ -4,13 +4,13 @@
 
 #include "texture_levels.h"
 
-// Whether a map can be used. `name` begins the sentence.
+// Returns whether a map can be used. `name` begins the sentence.
 bool texture_map_check(const lam_texture_map *map, const char *name, lam_error *error);
 
-// Whether two maps have the same texels everywhere: they may differ in channel, scale and offset.
+// Returns whether two maps have the same texels everywhere: they may differ in channel, scale and offset.
 bool texture_map_same(const lam_texture_map *a, const lam_texture_map *b);
 
-// Whether some texel's alpha is below 1.
+// Returns whether some texel's alpha is below 1.
 static inline bool texture_map_translucent(const lam_texture_map *map)
 {
     return map && map->texture && !map->texture->opaque;
@@ -38,7 +38,7 @@ struct texture_taps {
     } at[2];
 };
 
-// Whether two maps read the same places of pictures of the same size.
+// Returns whether two maps read the same places of pictures of the same size.
 bool texture_map_same_taps(const lam_texture_map *a, const lam_texture_map *b);
 
 // The texels of points, filtered, to four rows: the map's numbers before scale and offset.
@@ -49,7 +49,7 @@ void texture_fetch(const struct lam_texture *texture, const struct texture_taps 
 void texture_map_anisotropic(const lam_texture_map *map, const struct texture_points *points, int count, int anisotropy,
                              float *const out[4], float *level);
 
-// The texel of a map at a point, at level 0 alone.
+// Returns the texel of a map at a point, at level 0 alone.
 texel texture_map_base(const lam_texture_map *map, float s, float t);
 
 #endif

@@ -38,7 +38,7 @@ static void ranges_of_bytes(const uint8_t *bytes, size_t texels, size_t channels
     }
 }
 
-// The smallest bytes of the channels, then the largest ones, from the lowest byte on.
+// Returns the smallest bytes of the channels, then the largest ones, from the lowest byte on.
 static uint64_t ranges_of(const struct lam_texture *texture)
 {
     uint64_t *kept = (uint64_t *)(uintptr_t)&texture->ranges;

@@ -18,7 +18,8 @@ static texel mix_four(const texel four[4], float right, float lower)
     return mix(mix(four[0], four[1], right), mix(four[2], four[3], right), lower);
 }
 
-// A level's texels at a tap, mixed. `channels` is a constant where this is inlined; with 3 the fourth is any number.
+// Returns a level's texels at a tap, mixed. `channels` is a constant where this is inlined; with 3 the fourth is any
+// number.
 static inline __attribute__((always_inline)) texel fetch_tap(const struct lam_texture *texture, int channels, int level,
                                                              int32_t first, int32_t across, int32_t down, float right,
                                                              float lower)
@@ -91,7 +92,7 @@ static texel fetch_one(const struct lam_texture *texture, int level, const struc
     return fetch_tap(texture, texture->channels, level, tap->first, tap->across, tap->down, tap->right, tap->lower);
 }
 
-// A picture's place at a level of detail.
+// Returns a picture's place at a level of detail.
 static texel at_level(const lam_texture_map *map, float s, float t, float detail)
 {
     struct taps_lanes taps = taps_of(map, s, t, detail);
@@ -103,7 +104,7 @@ static texel at_level(const lam_texture_map *map, float s, float t, float detail
     return value;
 }
 
-// The mean of several probes along the longer axis of a footprint that is minified (convention 22).
+// Returns the mean of several probes along the longer axis of a footprint that is minified (convention 22).
 static texel along_axis(const lam_texture_map *map, const struct texture_matrix *matrix,
                         const struct texture_points *points, int i, const struct footprints *f, int most, float *level)
 {

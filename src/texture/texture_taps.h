@@ -78,15 +78,15 @@ LANE_FN struct tap_lanes tap_of(const lam_texture_map *map, num s, num t, inum w
 
 // --- the level
 
-// A side at levels that it has: of `side` texels at level 0, halved and rounded down, at least 1. Exact: it has at most
-// 15 bits.
+// Returns a side at levels that it has: of `side` texels at level 0, halved and rounded down, at least 1. Exact: it has
+// at most 15 bits.
 LANE_FN inum side_at(int side, inum level)
 {
     return imax_of(floor_of((float)side * num_of_bits(shift_left(127 - level, 23))), inum_of(1));
 }
 
-// The texels and weights to read at texture coordinates (after the map's transform) and levels of detail (OpenGL 4.6,
-// section 8.14).
+// Returns the texels and weights to read at texture coordinates (after the map's transform) and levels of detail
+// (OpenGL 4.6, section 8.14).
 LANE_FN struct taps_lanes taps_of(const lam_texture_map *map, num s, num t, num detail)
 {
     const struct texture_level *base = &map->texture->levels[0];

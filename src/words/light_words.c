@@ -39,7 +39,7 @@ struct reading {
     double w; // the position's fourth number
 };
 
-// The index of the first row of a key; −1: it is no field's.
+// Returns the index of the first row of a key, or −1 if it is no field's.
 static int field_index(const char *key)
 {
     for (int i = 0; lam_light_field(i); i++)
@@ -48,7 +48,7 @@ static int field_index(const char *key)
     return -1;
 }
 
-// The name of a key; NULL: no such key.
+// Returns the name of a key, or NULL if there is no such key.
 static const char *key_name(int key)
 {
     if (key >= LAM_FIELDS_MAX)

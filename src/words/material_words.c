@@ -29,7 +29,7 @@ static bool is_share(const lam_field *field) { return is_color(field) && field->
 
 static int factor_of(int field) { return LAM_FIELDS_MAX + field; }
 
-// The name of a key; NULL: no such key.
+// Returns the name of a key, or NULL if there is no such key.
 static const char *key_name(int key)
 {
     if (key >= MATERIAL_COLOR)

@@ -8,17 +8,17 @@
 // Bytes of a text with its end.
 enum { WORDS_MAX = 1024 };
 
-// Copies a text that will be split. False: it is too long.
+// Copies a text that will be split. Returns false if it is too long.
 bool word_copy(const char *text, char copy[WORDS_MAX], lam_error *error);
 
-// The index of `name` in a list that ends with NULL; −1 with the nearest one, or all of them, in the error.
+// Returns the index of `name` in a list that ends with NULL; −1 with the nearest one, or all of them, in the error.
 int word_key(const char *name, const char *const *names, lam_error *error);
 
 // The same of the keys from 0 to `count` − 1, at most WORD_KEYS_MAX, without those whose name is NULL.
 enum { WORD_KEYS_MAX = 256 };
 int word_key_of(const char *name, int count, const char *(*name_of)(int key), lam_error *error);
 
-// A finite decimal number, not "inf" or "nan". Returns the position after it; NULL: there is no number.
+// A finite decimal number, not "inf" or "nan". Returns the position after it, or NULL if there is no number.
 const char *word_number(const char *text, double *number);
 
 // Numbers with '/' between them, `min` to `max` of them. Where `radii` is not NULL, each may end in 'r', which sets

@@ -6,10 +6,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// From malloc, `*size` bytes; NULL: out of memory, or (*at is then where) `text` is no base64.
+// From malloc, `*size` bytes, or NULL if memory runs out, or (*at is then where) `text` is no base64.
 uint8_t *base64_decode(const char *text, size_t length, size_t *size, size_t *at);
 
-// From malloc, with a closing zero, *length characters. NULL: out of memory.
+// From malloc, with a closing zero, *length characters. Returns NULL if memory runs out.
 char *base64_encode(const uint8_t *bytes, size_t size, size_t *length);
 
 #endif

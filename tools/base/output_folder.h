@@ -4,7 +4,7 @@
 
 #include <lambent/base.h>
 
-// The folder of a path, from malloc: "." if it names none. NULL: out of memory.
+// Returns the folder of a path, from malloc: "." if it names none. Returns NULL if memory runs out.
 char *output_folder_of(const char *path);
 
 // Makes the missing folder of a path that output_check has accepted, with those above it. Error: LAM_CANNOT_WRITE.

@@ -75,7 +75,7 @@ static bool print_mapping(const struct batch_plan *plan, lam_error *error)
     return true;
 }
 
-// The path of the journal, from malloc; *none: there is none.
+// Returns the path of the journal, from malloc; *none: there is none.
 static char *journal_path(const struct batch_plan *plan, bool *none)
 {
     const char *named = plan->options->batch.journal;

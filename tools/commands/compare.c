@@ -50,7 +50,7 @@ struct compare {
     bool default_material; // one of them is a material
 };
 
-// The user's caption of a picture, or the sheet's.
+// Returns the user's caption of a picture, or the sheet's.
 static const char *caption_of(const struct compare *c, const struct cell *cell)
 {
     int index = (int)(cell - c->sheet.cells);
@@ -116,7 +116,7 @@ static bool cell_options(const struct compare *c, const struct cell *cell, const
     return ok;
 }
 
-// The device that draws a cell: of a sheet of mistakes, OpenGL with the mistake in its shaders.
+// Returns the device that draws a cell: of a sheet of mistakes, OpenGL with the mistake in its shaders.
 static lam_device *cell_device(const struct compare *c, const struct options *options, lam_error *error)
 {
     if (!c->sheet.mistakes)
@@ -175,7 +175,8 @@ static bool check_caption_count(const struct options *o, const struct sheet *she
                     o->captions.texts.count, sheet->count);
 }
 
-// Whether a mistake changes the shader of this scene. False: LAM_UNSUPPORTED, if it has nothing that the mistake spoils.
+// Returns whether a mistake changes the shader of this scene. Fails with LAM_UNSUPPORTED, if it has nothing that the
+// mistake spoils.
 static bool mistake_applies(struct compare *c, const struct cell *cell, lam_error *error)
 {
     struct options options;
@@ -476,7 +477,7 @@ static void print_json(const struct compare *c, const char *path)
     putc('\n', json.file);
 }
 
-// The sheet's path; "koala-terms.png" by default.
+// Returns the sheet's path; "koala-terms.png" by default.
 static char *path_of(const struct options *o, const char *model, const char *sheet)
 {
     char ending[64];

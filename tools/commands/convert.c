@@ -38,7 +38,7 @@ static const char *ending(const char *path)
     return dot ? dot + 1 : "";
 }
 
-// The path of a file of the result, from malloc. NULL: out of memory.
+// Returns the path of a file of the result, from malloc. Returns NULL if memory runs out.
 static char *path_of(const struct convert *c, const char *name)
 {
     char *path = NULL;

@@ -33,8 +33,8 @@ static double highlight_value(const struct curve *c, double x)
     return (double)lam_highlight_at(c->reflection, c->shininess, radians(x));
 }
 
-// The smallest x from which the curve stays below a level; all curves fall monotonically. Bisects an interval whose left
-// end is not below, down to neighbouring floats.
+// Returns the smallest x from which the curve stays below a level; all curves fall monotonically. Bisects an interval
+// whose left end is not below, down to neighbouring floats.
 static double find_below(const struct curve *curve, double level, double farthest)
 {
     // An inverse square evaluates to 0 at the light itself; the search starts beside it.
@@ -290,8 +290,8 @@ static const struct kind *find_kind(const char *name, lam_error *error)
     return NULL;
 }
 
-// The length of the axis: up to where the last curve has fallen to a twentieth, so that the curves fill the plot; 10 if
-// none does. The point at which they fall below 1/255 is beyond the axis, so the legend states it.
+// Returns the length of the axis: up to where the last curve has fallen to a twentieth, so that the curves fill the
+// plot; 10 if none does. The point at which they fall below 1/255 is beyond the axis, so the legend states it.
 static double length_of(const struct plot *plot, double farthest)
 {
     double most = 0;

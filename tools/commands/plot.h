@@ -33,7 +33,7 @@ struct plot {
 // Draws it over the whole page.
 bool plot_draw(const struct plot *plot, struct drawing *drawing, lam_error *error);
 
-// The kinds of plots, from 0; NULL out of range.
+// Returns the kinds of plots, from 0, or NULL if the index is out of range.
 const char *plot_kind(int index);
 
 #endif

@@ -21,7 +21,7 @@ static struct point place(const struct plot *plot, const struct layout *at, doub
                           at->bottom - (at->bottom - at->top) * y / plot->y_max};
 }
 
-// The spacing of the grid: 1, 2 or 5 times a power of ten, giving at most `max_steps` steps.
+// Returns the spacing of the grid: 1, 2 or 5 times a power of ten, giving at most `max_steps` steps.
 static double step_of(double length, int max_steps)
 {
     double power = 1;

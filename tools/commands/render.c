@@ -57,7 +57,7 @@ static bool check_together(int count, char **models, const struct options *o, la
     return true;
 }
 
-// Whether --journal asks for one; --dry-run does nothing that it could record.
+// Returns whether --journal asks for one; --dry-run does nothing that it could record.
 static bool journal_named(const struct options *o)
 {
     return o->batch.journal && strcmp(o->batch.journal, "none") != 0 && !o->report.dry_run;

@@ -106,7 +106,7 @@ static int binding_of(const char *block)
     return binding == 3 ? 1 : binding; // a shader has Materials or Products, never both
 }
 
-// Whether a uniform is the sampler of a material's map: its picture is the caller's to load.
+// Returns whether a uniform is the sampler of a material's map: its picture is the caller's to load.
 static bool is_map(const lam_shader_uniform *u)
 {
     return !u->count && strcmp(u->type, "sampler2D") == 0 && strcmp(u->name, "light_list") != 0 &&

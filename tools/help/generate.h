@@ -12,7 +12,7 @@ void generate_fish(void);
 void generate_scene_schema(void);    // scene_schema.c
 void generate_contract_schema(void); // contract_schema.c
 
-// The texts that can be generated, from 0; NULL out of range.
+// Returns the texts that can be generated, from 0, or NULL if the index is out of range.
 const char *generate_kind(int index);
 
 #endif

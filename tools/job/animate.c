@@ -109,7 +109,7 @@ bool animation_is_frame(const struct options *o, const char *pattern, const char
     return strcmp(pattern, path) == 0;
 }
 
-// The name of a frame's file: the number takes the place of each {frame}.
+// Returns the name of a frame's file: the number takes the place of each {frame}.
 static char *path_of_frame(const struct animation *a, int frame)
 {
     int digits = digits_of(a->count);
@@ -140,7 +140,7 @@ static bool name_frames(struct job *job, const struct animation *a, lam_error *e
 
 // --- the options of a frame
 
-// An axis letter of a turn about the up axis.
+// Returns an axis letter of a turn about the up axis.
 static char up_letter(lam_up up)
 {
     return up == LAM_UP_X || up == LAM_UP_NEGATIVE_X ? 'x' : up == LAM_UP_Z || up == LAM_UP_NEGATIVE_Z ? 'z' : 'y';
@@ -303,7 +303,7 @@ static bool set_length(struct job *job, lam_error *error)
     return !job->frames.first || name_frames(job, a, error);
 }
 
-// A scene that consists of a box.
+// Returns a scene that consists of a box.
 static lam_scene *box_scene(lam_vec3 low, lam_vec3 high, lam_up up, lam_error *error)
 {
     static const uint32_t corners[36] = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,

@@ -11,10 +11,10 @@ bool animation_check(const struct options *o, lam_error *error);
 // job_run for an animation: loads the model, draws the frames and writes them.
 bool animation_run(struct job *job, struct progress *progress, lam_error *error);
 
-// The number of frames that the options ask for.
+// Returns the number of frames that the options ask for.
 int animation_count(const struct options *o);
 
-// Whether a path is the file of one of these frames: `pattern` has {frame} in place of the number.
+// Returns whether a path is the file of one of these frames: `pattern` has {frame} in place of the number.
 bool animation_is_frame(const struct options *o, const char *pattern, const char *path);
 
 #endif

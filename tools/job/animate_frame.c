@@ -17,7 +17,7 @@ bool animation_sweeps(const struct animation *a, const char *option)
     return false;
 }
 
-// The share of a full turn that a frame has made, in degrees.
+// Returns the share of a full turn that a frame has made, in degrees.
 double animation_turn(const struct animation *a, int frame) { return 360.0 * frame / a->count; }
 
 void animation_sphere(const struct job *job, struct model_sphere *sphere)
@@ -54,7 +54,7 @@ static void turn_camera(lam_camera *camera, lam_vec3 centre, lam_vec3 axis, doub
     camera->up = matrix_apply(&turn, camera->up, 0);
 }
 
-// How far an option is swept from its value in the first frame.
+// Returns how far an option is swept from its value in the first frame.
 static double swept(const struct animation *a, const char *option)
 {
     for (int i = a->sweep_count - 1; i >= 0; i--) // the last one counts

@@ -25,13 +25,13 @@ struct animation {
 
 bool animation_wanted(const struct options *o);
 
-// The option that asks for frames, for messages: "turntable" or "sweep".
+// Returns the option that asks for frames, for messages: "turntable" or "sweep".
 const char *animation_option(const struct options *o);
 
-// Whether an option is swept.
+// Returns whether an option is swept.
 bool animation_sweeps(const struct animation *a, const char *option);
 
-// The share of a full turn that a frame has made, in degrees.
+// Returns the share of a full turn that a frame has made, in degrees.
 double animation_turn(const struct animation *a, int frame);
 
 // Without an animation these do nothing. animation_sphere: all frames turn about one point. animation_camera: the camera

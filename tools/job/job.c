@@ -54,8 +54,8 @@ bool job_control(const struct job *job, struct progress *progress, lam_control *
     return true;
 }
 
-// The crease angle for the library, where 0 means the default: a user's 0 becomes a negligible angle, which splits at
-// every edge.
+// Returns the crease angle for the library, where 0 means the default: a user's 0 becomes a negligible angle, which
+// splits at every edge.
 static double crease_of(const struct options *o)
 {
     return o->shading.crease_angle_deg < 0   ? 0
@@ -126,7 +126,7 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
     return NULL;
 }
 
-// True if only one frame is drawn, so that normals of its visible triangles suffice.
+// Returns true if only one frame is drawn, so that normals of its visible triangles suffice.
 static bool draws_once(const struct job *job)
 {
     const struct options *o = job->options;
@@ -273,7 +273,7 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     return true;
 }
 
-// Whether an option says how a model with lights of its own is lit.
+// Returns whether an option says how a model with lights of its own is lit.
 static bool lit_by_options(const struct options *o)
 {
     const struct lighting_options *l = &o->lighting;
@@ -383,7 +383,7 @@ static bool draw(struct job *job, struct progress *progress, lam_error *error)
     return ok;
 }
 
-// Whether the file stores 8 bits of sRGB-encoded colours.
+// Returns whether the file stores 8 bits of sRGB-encoded colours.
 static bool is_color(lam_output output) { return lam_output_is_light(output) || output == LAM_OUTPUT_BASE_COLOR; }
 
 lam_save_params job_save_params(const struct job *job, const lam_control *control)

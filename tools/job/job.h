@@ -102,7 +102,7 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error);
 // The same for one of several pictures, after job_check_output, job_load and job_arrange; `output` is its file.
 bool job_run_view(struct job *job, int view, struct progress *progress, lam_error *error);
 
-// Whether the picture's name is one that can be written, and by which format. Fills in `format`.
+// Returns whether the picture's name is one that can be written, and by which format. Fills in `format`.
 bool job_check_output(struct job *job, lam_error *error);
 
 // Frees the scene, the image, the lights and the paths of frames.

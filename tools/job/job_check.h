@@ -7,10 +7,10 @@
 // Error: LAM_BAD_ARGUMENT.
 bool job_check_options(const struct options *options, lam_error *error);
 
-// Whether the name is a built-in shape's or selects the formula of the options: "parametric", "implicit".
+// Returns whether the name is a built-in shape's or selects the formula of the options: "parametric", "implicit".
 bool job_model_is_shape(const char *model);
 
-// Whether options of formulas belong to the model. False: LAM_BAD_ARGUMENT.
+// Returns whether options of formulas belong to the model. Fails with LAM_BAD_ARGUMENT.
 bool job_check_formula(const char *model, const struct options *options, lam_error *error);
 
 #endif

@@ -12,8 +12,8 @@
 
 // --- materials
 
-// Whether metals that are named by --material mirror the studio: it lights the picture, and nothing asks for the numbers of the classic
-// table.
+// Returns whether metals that are named by --material mirror the studio: it lights the picture, and nothing asks for
+// the numbers of the classic table.
 static bool metals_mirror(const struct options *o, const lam_scene *scene)
 {
     const lam_draw_params *draw = &o->draw;
@@ -242,7 +242,7 @@ bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *er
 
 // --- drawing
 
-// A colour that was checked with the command line, else another.
+// Returns a colour that was checked with the command line, else another.
 static lam_rgba color_or(const char *text, int mode, lam_rgba otherwise)
 {
     lam_rgba color;

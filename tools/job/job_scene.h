@@ -17,7 +17,7 @@ bool job_turn(struct job *job, const struct model_sphere *sphere, lam_error *err
 // Adds the lights, after the camera has been placed.
 bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *error);
 
-// The drawing parameters of the options, without the background.
+// Returns the drawing parameters of the options, without the background.
 lam_draw_params draw_params_of(const struct options *o, lam_rig rig);
 
 #endif

@@ -7,7 +7,7 @@
 // Fills the control of the next library call: remaining time, memory limit, interrupt flag, progress bar (NULL: none).
 bool job_control(const struct job *job, struct progress *progress, lam_control *control, lam_error *error);
 
-// The camera that fills the picture with the scene, for all of its turns about `centre`.
+// Returns the camera that fills the picture with the scene, for all of its turns about `centre`.
 lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct options *o, lam_rig rig);
 
 // Makes one of several views the options of the next picture.

@@ -15,7 +15,7 @@ static lam_vec3 unit(lam_vec3 v)
     return length > 0 ? (lam_vec3){v.x / length, v.y / length, v.z / length} : (lam_vec3){0, -1, 0};
 }
 
-// A transform with its origin at p and axes scaled by `size`, the second along d.
+// Returns a transform with its origin at p and axes scaled by `size`, the second along d.
 static lam_mat4 place(lam_vec3 p, lam_vec3 d, double size, double along)
 {
     lam_vec3 other = fabs(d.y) < 0.9 ? (lam_vec3){0, 1, 0} : (lam_vec3){1, 0, 0};
@@ -47,7 +47,7 @@ static bool put(lam_scene *scene, int mesh, int material, lam_mat4 transform, la
     return mesh >= 0 && material >= 0 && lam_scene_add_object(scene, &object, error) >= 0;
 }
 
-// Whether the picture shows nothing of a ball.
+// Returns whether the picture shows nothing of a ball.
 static bool is_outside(const struct job *job, lam_vec3 centre, double radius)
 {
     const lam_camera *camera = &job->camera;

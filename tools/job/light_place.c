@@ -117,7 +117,7 @@ static struct surroundings surroundings_of(const struct job *job, const lam_ligh
     return s;
 }
 
-// A way to the light with another azimuth or elevation, and the same length.
+// Returns a way to the light with another azimuth or elevation, and the same length.
 static lam_vec3 placed(lam_vec3 way, const struct surroundings *s, bool azimuth, double degrees)
 {
     double height = dot(way, s->up), length = sqrt(dot(way, way));
@@ -183,7 +183,7 @@ void light_brighten(lam_light *light, double factor)
     brighten(&light->ground, factor);
 }
 
-// The row of a light's type; NULL: such lights have no such field.
+// Returns the row of a light's type; NULL: such lights have no such field.
 static const lam_field *field_of(const lam_light *light, const char *key)
 {
     for (int i = 0; lam_light_field(i); i++)
@@ -208,7 +208,7 @@ static bool set_field(lam_light *light, const struct sweep *sweep, double value)
     return true;
 }
 
-// False: the light has no such number.
+// Returns false if the light has no such number.
 static bool set_number(const struct job *job, const struct sweep *sweep, double value, lam_vec3 centre,
                        lam_light *light)
 {

@@ -5,7 +5,7 @@
 #include "job.h"
 #include "sweep_option.h"
 
-// The matrix from a light's frame to the world.
+// Returns the matrix from a light's frame to the world.
 lam_mat4 light_to_world(const struct job *job, const lam_light *light);
 
 // Turns lights fixed to the camera into lights of the world, at their present positions.

@@ -9,13 +9,13 @@
 #include "environment_option.h"
 #include "output.h"
 
-// True if the scene file has the setting and the command line does not override it.
+// Returns true if the scene file has the setting and the command line does not override it.
 static bool takes_setting(const struct job *job, unsigned bit, const char *option)
 {
     return (job->settings.present & bit) && !option_given(&job->own, option);
 }
 
-// True if the command line has the option of a setting.
+// Returns true if the command line has the option of a setting.
 static bool setting_given(const struct options *o, const lam_setting *setting)
 {
     char name[64];
@@ -92,7 +92,7 @@ static bool take_environment(const struct options *o, lam_picture_settings *s, c
            (*names = environment_option_faces(text, s->environment_faces, error)) != NULL;
 }
 
-// Whether a file lies in the folder (real path) or below it. True for one that cannot be found.
+// Returns whether a file lies in the folder (real path) or below it. True for one that cannot be found.
 static bool is_below(const char *path, const char *folder)
 {
     char *real = realpath(path, NULL);

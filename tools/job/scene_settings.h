@@ -7,11 +7,11 @@
 // Copies the options to job->own, completes them by the settings of the scene file, and points job->options there.
 void scene_settings_apply(struct job *job);
 
-// True if the scene file has the camera, and no option of the command line places another one.
+// Returns true if the scene file has the camera, and no option of the command line places another one.
 bool scene_settings_has_camera(const struct job *job);
 
-// False if the scene file of --save-scene names the model or a picture of the command line that lies outside of its
-// folder.
+// Returns false if the scene file of --save-scene names the model or a picture of the command line that lies outside of
+// its folder.
 bool scene_settings_are_beside(const struct job *job);
 
 // Writes the scene file of --save-scene, after the frame has been drawn.

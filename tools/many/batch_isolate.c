@@ -132,7 +132,7 @@ static bool read_text(struct rest *rest, char **to, size_t size)
     return read_bytes(rest, *to, size);
 }
 
-// The table's own name of a class.
+// Returns the table's own name of a class.
 static const char *class_name(const char *name)
 {
     for (const struct exit_code *code = exit_codes; code->meaning; code++)
@@ -141,7 +141,7 @@ static const char *class_name(const char *name)
     return "failed";
 }
 
-// False: the answer is not whole.
+// Returns false if the answer is not whole.
 static bool read_answer(struct batch_unit *u, const struct batch_answer *answer)
 {
     struct rest rest = {answer->data, answer->size};
@@ -236,7 +236,7 @@ static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_proc
     batch_process_free(process);
 }
 
-// Gives the next model to a process. False: there is none.
+// Gives the next model to a process. Returns false if there is none.
 static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_process *process, int slot)
 {
     struct batch_task task;

@@ -8,13 +8,13 @@
 // are missing.
 void batch_page_thumbnails(const struct batch *batch, const struct batch_unit *unit);
 
-// Whether one of them is missing, or older than its picture.
+// Returns whether one of them is missing, or older than its picture.
 bool batch_page_lacks(const struct batch *batch, const struct batch_unit *unit);
 
 // Makes the thumbnail of one picture, unless there is one that is not older. `is_new`: make it anyway.
 void batch_page_thumbnail(const char *page, const char *output, bool is_new);
 
-// Whether a path may be a thumbnail's beside the page.
+// Returns whether a path may be a thumbnail's beside the page.
 bool batch_page_is_thumbnail(const char *page, const char *path);
 
 struct batch_page {

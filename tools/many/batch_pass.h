@@ -5,7 +5,7 @@
 #include "batch_unit.h"
 
 // Begins a pass: 0: over all models that no earlier pass has drawn; later: over failed models that may be retried.
-// False: there is nothing to do, or an interrupt came.
+// Returns false if there is nothing to do, or an interrupt came.
 bool batch_begin_pass(struct batch *batch, int pass);
 
 // Begins a pass over the models that a killed run was drawing, and removes the files that its processes left. False:
@@ -13,8 +13,8 @@ bool batch_begin_pass(struct batch *batch, int pass);
 bool batch_begin_suspects(struct batch *batch);
 void batch_end_suspects(struct batch *batch);
 
-// The next model of the pass, or the next job, which is waited for with `waits`. False: there is none, or nothing more
-// may begin. Any thread.
+// The next model of the pass, or the next job, which is waited for with `waits`. Returns false if there is none, or
+// nothing more may begin. Any thread.
 bool batch_take(struct batch *batch, struct batch_task *task, bool waits);
 
 // Takes over the results of a unit: counts, lines of the journal, messages, the answer to a job. Any thread.

@@ -26,8 +26,8 @@ struct batch_process {
 typedef void batch_work(void *user, struct batch_answer *answer);
 bool batch_process_start(struct batch_process *process, batch_work *work, void *user);
 
-// Waits up to `wait_ms` for any of them to say or to end something, or for bytes to be read from the file `also` (−1: none). Returns the index of one that has ended, with its status
-// of waitpid; −1: none has.
+// Waits up to `wait_ms` for any of them to say or to end something, or for bytes to be read from the file `also` (−1:
+// none). Returns the index of one that has ended, with its status of waitpid, or −1 if none has.
 int batch_process_wait(struct batch_process *list, int count, int also, int wait_ms, int *status);
 
 void batch_process_kill(struct batch_process *process);

@@ -17,14 +17,14 @@
 // Older pictures that are read one by one; if there are more, their folder.
 enum { SINGLE = 64 };
 
-// Whether the pictures' folder as a whole may be read: the journal and the page need pictures again.
+// Returns whether the pictures' folder as a whole may be read: the journal and the page need pictures again.
 static bool takes_folder(const struct batch *b)
 {
     return !b->options->batch.jobs && !b->use &&
            (b->options_text || b->plan->count * (size_t)b->plan->view_count > SINGLE);
 }
 
-// The folder of a path, from malloc: "." if it names none.
+// Returns the folder of a path, from malloc: "." if it names none.
 static char *folder_of(const char *path)
 {
     const char *slash = strrchr(path, '/');

@@ -257,7 +257,8 @@ static void share_threads(struct batch *b)
     b->threads = b->workers == 1 ? b->options->work.threads : threads / b->workers;
 }
 
-// The options that the journal's pictures have in common, and which pictures a model has. From malloc; NULL: out of memory.
+// Returns the options that the journal's pictures have in common, and which pictures a model has. From malloc, or NULL
+// if memory runs out.
 static char *pictures_text(const struct batch *b)
 {
     const struct batch_plan *plan = b->plan;
@@ -319,7 +320,7 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     return ok && (!o->batch.jobs || (b->jobs = batch_jobs_open(b, error)));
 }
 
-// False: a picture was neither drawn nor recorded, for want of memory.
+// Returns false if a picture was neither drawn nor recorded, for want of memory.
 static bool has_every_outcome(const struct batch *b)
 {
     size_t pictures = b->plan->count * (size_t)b->plan->view_count, i = 0;

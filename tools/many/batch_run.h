@@ -5,8 +5,9 @@
 #include "batch_plan.h"
 #include "batch_use.h"
 
-// Draws the planned models and writes the journal and the page. `journal`: its path; NULL: none. `is_batch`: prints the
-// messages of `batch` (errors and a summary) instead of `render`'s. Returns the program's exit code.
+// Draws the planned models and writes the journal and the page. `journal`: its path, or NULL if there is none.
+// `is_batch`: prints the messages of `batch` (errors and a summary) instead of `render`'s. Returns the program's exit
+// code.
 int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch);
 
 // Draws the planned models for another use than files. Errors are printed in the order of the models. Returns what `use->finish` returns,

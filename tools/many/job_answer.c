@@ -121,7 +121,7 @@ void job_answer_error(struct job_answers *answers, json_t *id, uint64_t line, co
     put(answers, answer);
 }
 
-// The picture's file as base64. False: out of memory.
+// The picture's file as base64. Returns false if memory runs out.
 static bool add_data(json_t *picture, const lam_bytes *bytes)
 {
     size_t length = 0;

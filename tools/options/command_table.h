@@ -34,7 +34,7 @@ extern const struct command command_table[]; // in the order of COMMANDS; ends w
 const struct command *find_command(const char *name); // NULL: no such command
 uint64_t find_groups(const char *name);               // of a command; 0: no such command
 
-// The default of an option in words, for a command: its own, else the option's. NULL: none is shown.
+// Returns the default of an option in words, for a command: its own, else the option's. NULL: none is shown.
 const char *default_of(const struct command *command, const struct option *option);
 
 // Examples: a command line and its effect. Ends with NULL.

@@ -4,11 +4,11 @@
 
 #include "options.h"
 
-// Splits six file names separated by commas. `paths` point into the returned copy, which the caller frees. NULL: there
-// are not six.
+// Splits six file names separated by commas. `paths` point into the returned copy, which the caller frees. Returns NULL
+// if there are not six.
 char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUNT], lam_error *error);
 
-// The built-in environment of that name; NULL: there is none.
+// Returns the built-in environment of that name, or NULL if there is none.
 const char *environment_option_built_in(const char *name);
 
 // Loads or makes one, as `--environment` has it. The caller frees it; NULL: see lam_environment_load.

@@ -11,7 +11,7 @@ uint64_t limits_memory(const struct options *options);
 // Seconds for a model. 0: no limit.
 double limits_time(const struct options *options);
 
-// A control with all limits, and a whole model's time.
+// Returns a control with all limits, and a whole model's time.
 lam_control limits_control(const struct options *options);
 
 #endif

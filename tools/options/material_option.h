@@ -17,7 +17,7 @@ bool material_option_parse(const char *text, lam_color_mode mode, struct materia
 // A metal's name alone then selects the physical metal, which reflects the studio, instead of the classic table's row.
 void material_option_mirror(struct material_option *option);
 
-// The material that the option makes of one.
+// Returns the material that the option makes of one.
 lam_material material_option_apply(const struct material_option *option, lam_material material);
 
 // Gives a scene's objects their new material, or (`back`) their back sides. `name` is the option's, for errors.

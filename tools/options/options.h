@@ -153,21 +153,22 @@ void options_free(struct options *options);
 // Makes an independent copy. False: out of memory; there is nothing to free.
 bool options_copy(struct options *to, const struct options *from);
 
-// The option of a long name; NULL: no such option.
+// Returns the option of a long name, or NULL if there is no such option.
 const struct option *option_find(const char *name);
 
-// The position of the first word that is neither an option nor its value; −1: there is none, or "--" or an unknown
-// option comes before it.
+// Returns the position of the first word that is neither an option nor its value, or −1 if there is none, or "--" or an
+// unknown option comes before it.
 int options_first_operand(int count, char **words);
 
 // The words of an option: "flat, gouraud or phong". Returns `text`.
 enum { OPTION_WORDS_SIZE = 256 };
 const char *option_words_list(const struct option *option, char text[OPTION_WORDS_SIZE]);
 
-// True if the command line has the option, given by its long name.
+// Returns true if the command line has the option, given by its long name.
 bool option_given(const struct options *options, const char *name);
 
-// True if a command accepts an option: `groups` has bit g set for each group accepted as a whole, and TAKES_… bits.
+// Returns true if a command accepts an option: `groups` has bit g set for each group accepted as a whole, and TAKES_…
+// bits.
 bool option_is_taken(const struct option *option, uint64_t groups);
 
 // Parses the words of a command line (without the program's and the command's name). `groups` as above. Moves the
@@ -219,7 +220,7 @@ bool store_opaque_color(const struct option *, const char *, struct options *,
 // NULL if there is no number or it is too large.
 const char *read_number(const char *text, double *value);
 
-// Parses "x:30", an axis and an angle. False: not of that form, or over a million degrees.
+// Parses "x:30", an axis and an angle. Returns false if it is not of that form, or over a million degrees.
 bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg);
 
 double radians(double degrees);

@@ -12,7 +12,7 @@ struct suggestion {
 
 struct suggestion suggest_start(const char *typed);
 void suggest_try(struct suggestion *suggestion, const char *word);
-// Suggests the word if the typed one is among its other names, separated by spaces; NULL: it has none.
+// Suggests the word if the typed one is among its other names, separated by spaces, or NULL if it has none.
 void suggest_also(struct suggestion *suggestion, const char *word, const char *others);
 
 #endif

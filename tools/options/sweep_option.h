@@ -31,16 +31,16 @@ struct sweep {
     bool whole;     // values are rounded to whole numbers
 };
 
-// Whether numbers in order make an option's value, and the value makes a picture.
+// Returns whether numbers in order make an option's value, and the value makes a picture.
 bool sweep_takes_option(const struct option *option);
 
 // Parses "KEY=FROM..TO", also with stops between. On failure error->text lacks the option's name. LAM_BAD_ARGUMENT.
 bool sweep_parse(const char *text, struct sweep *sweep, lam_error *error);
 
-// Whether it sweeps the option of this name.
+// Returns whether it sweeps the option of this name.
 bool sweep_is_option(const struct sweep *sweep, const char *name);
 
-// The value in a frame of `count`.
+// Returns the value in a frame of `count`.
 double sweep_value(const struct sweep *sweep, int frame, int count);
 
 // The words that give an option its value in a frame, in `text`; NULL: it is a light's.

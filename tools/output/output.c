@@ -131,7 +131,7 @@ bool output_format(const char *path, lam_pixel_format *format, lam_error *error)
     return false;
 }
 
-// Whether a format is written, from 8 bits a number.
+// Returns whether a format is written, from 8 bits a number.
 static bool holds_bytes(int format)
 {
     char path[32];

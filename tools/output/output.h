@@ -7,15 +7,16 @@
 #include "output_folder.h"
 #include "output_name.h"
 
-// True if --output names the picture itself: it is neither NULL (not given) nor a folder ("thumbs/").
+// Returns true if --output names the picture itself: it is neither NULL (not given) nor a folder ("thumbs/").
 bool output_is_named(const char *output);
 
-// The path of a picture, from malloc: `output` if it names a file; else the model's name with `ending` in that folder or
-// the current one: "dir/koala.obj" gives "koala.png" for ".png" and "koala-terms.png" for "-terms.png", "-" gives
-// "model.png". NULL: out of memory.
+// Returns the path of a picture, from malloc: `output` if it names a file; else the model's name with `ending` in that
+// folder or the current one: "dir/koala.obj" gives "koala.png" for ".png" and "koala-terms.png" for "-terms.png", "-"
+// gives "model.png". Returns NULL if memory runs out.
 char *output_path(const char *output, const char *model, const char *ending);
 
-// The path of a model's picture, from malloc: the name that a pattern gives, else as output_path. NULL: out of memory.
+// Returns the path of a model's picture, from malloc: the name that a pattern gives, else as output_path. Returns NULL
+// if memory runs out.
 char *output_path_of(const char *output, const struct output_words *words);
 
 // Where the name of a picture comes from: the model's name, alone or in a folder of the user's; a name that the user
@@ -28,10 +29,12 @@ enum output_given output_given(const char *output);
 // folder may be missing (-o pictures/), if it can be made.
 bool output_check(const char *path, const char *model, enum output_given given, lam_error *error);
 
-// True if the picture is written directly to `path` as a PNG: "-", or a pipe or device without a picture's extension.
+// Returns true if the picture is written directly to `path` as a PNG: "-", or a pipe or device without a picture's
+// extension.
 bool output_is_stream(const char *path);
 
-// The ending of the format that is written to `path`, as "jpg": "png" of a stream and of a name without an ending.
+// Returns the ending of the format that is written to `path`, as "jpg": "png" of a stream and of a name without an
+// ending.
 const char *output_ending(const char *path);
 
 // The pixels of that format; bytes for a stream. Error: LAM_UNSUPPORTED.
@@ -42,7 +45,8 @@ bool output_format(const char *path, lam_pixel_format *format, lam_error *error)
 // itself.
 bool output_check_bytes(const char *path, const char *noun, const char *others, lam_error *error);
 
-// True if the name ends like a file of a model format. Scene files (.json) do not count: most JSON files are not one.
+// Returns true if the name ends like a file of a model format. Scene files (.json) do not count: most JSON files are
+// not one.
 bool is_model_name(const char *name);
 
 // Writes a picture to a file, whose missing folder is made, or to a stream. `size` receives the bytes written, 0 for a
@@ -58,6 +62,6 @@ void output_show_with(output_show_fn *show);
 // The same for encoded bytes; `durable` as in lam_save_params.
 bool output_save_bytes(const lam_bytes *bytes, const char *path, bool durable, uint64_t *size, lam_error *error);
 
-// The size of the file at `path` in bytes; 0 if it is not a file.
+// Returns the size of the file at `path` in bytes; 0 if it is not a file.
 uint64_t output_size(const char *path);
 #endif

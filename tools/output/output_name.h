@@ -19,20 +19,21 @@ enum { OUTPUT_FRAME_OPEN = -1 };
 // The words that a command knows besides {stem}, {ext} and {dir}, as bits.
 enum { NAME_VIEW = 1, NAME_SIZE = 2, NAME_FRAME = 4 };
 
-// True if a name has a pattern's brace. "{{" and "}}" write braces.
+// Returns true if a name has a pattern's brace. "{{" and "}}" write braces.
 bool output_name_is_pattern(const char *name);
 
-// True if the pattern has the word, given without braces.
+// Returns true if the pattern has the word, given without braces.
 bool output_name_has(const char *pattern, const char *word);
 
 // Checks a pattern: words in braces that are known, no brace left open. `known`: NAME_… bits. Error: LAM_BAD_ARGUMENT.
 bool output_name_check(const char *pattern, unsigned known, lam_error *error);
 
-// The name that a checked pattern gives, from malloc. {dir} never leads out of the folder before it: "." and ".." are
-// left out of it, and so is a leading '/'. If it is empty, the '/' after it is removed too. NULL: out of memory.
+// Returns the name that a checked pattern gives, from malloc. {dir} never leads out of the folder before it: "." and
+// ".." are left out of it, and so is a leading '/'. If it is empty, the '/' after it is removed too. Returns NULL if
+// memory runs out.
 char *output_name_expand(const char *pattern, const struct output_words *words);
 
-// The file name of a model without its extension: `*length` bytes from the result on; "model" if there is none.
+// Returns the file name of a model without its extension: `*length` bytes from the result on; "model" if there is none.
 const char *output_stem(const char *model, int *length);
 
 #endif

@@ -23,7 +23,7 @@ bool terminal_shows(void) { return terminal.kind != TERM_OFF; }
 
 static bool show(const lam_bytes *png, const lam_image *image, lam_error *error);
 
-// The name of a --term word.
+// Returns the name of a --term word.
 static const char *word_of(enum term_kind kind)
 {
     const struct word *word = option_find("term")->words;
@@ -110,7 +110,7 @@ static double scale_of(const lam_image *image, bool *tall)
     return *tall ? down : across;
 }
 
-// The picture's size in the terminal: its own if it fits, with a line left for the prompt.
+// Returns the picture's size in the terminal: its own if it fits, with a line left for the prompt.
 static struct chafa_size fit(const lam_image *image)
 {
     const struct terminal *t = &terminal;

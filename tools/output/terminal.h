@@ -20,7 +20,7 @@ struct terminal {
 // LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (no libchafa).
 bool terminal_start(const struct options *options, bool alone, lam_error *error);
 
-// Whether pictures go to the terminal.
+// Returns whether pictures go to the terminal.
 bool terminal_shows(void);
 
 // Complains that a picture cannot go to standard output, a terminal that is to show none. False.

@@ -68,7 +68,7 @@ static bool write_all(int file, const char *text, size_t size)
     return true;
 }
 
-// The answer "ESC [ ? numbers c" in the bytes read; NULL: it has not arrived yet.
+// Returns the answer "ESC [ ? numbers c" in the bytes read, or NULL if it has not arrived yet.
 static const char *find_attributes(const char *text)
 {
     for (const char *at = strstr(text, "\033[?"); at; at = strstr(at + 1, "\033[?"))

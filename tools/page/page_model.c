@@ -28,7 +28,7 @@ static bool add(struct page_model *model, const char *path, char *inside, lam_er
     return true;
 }
 
-// Whether ".." leads a name out of the folder that it begins in.
+// Returns whether ".." leads a name out of the folder that it begins in.
 static bool climbs_out(const char *name)
 {
     int depth = 0;
@@ -49,7 +49,7 @@ static bool is_file(const char *path)
     return stat(path, &about) == 0 && S_ISREG(about.st_mode);
 }
 
-// Whether a file lies in the folder or below it, wherever links lead. `folder`: a real path.
+// Returns whether a file lies in the folder or below it, wherever links lead. `folder`: a real path.
 static bool is_below(const char *folder, const char *path)
 {
     char *real = realpath(path, NULL);
@@ -167,7 +167,8 @@ const char *page_model_lacks(const struct page_model *model, const lam_file_info
 
 // --- words
 
-// Whether an option belongs to the picture, and has a control in the page. A look is in the options that it sets.
+// Returns whether an option belongs to the picture, and has a control in the page. A look is in the options that it
+// sets.
 bool page_model_has_option(const struct option *option)
 {
     static const char *const without[] = {"output", "save-scene", "durable", "compress", "quality", "look"};

@@ -17,8 +17,8 @@ struct page_model {
     char *environment; // the value of --environment with paths in the page; NULL: it names no file
 };
 
-// Lists the files of a loaded model, and of --environment. False: LAM_UNSUPPORTED (one that lies outside of the model's
-// folder), LAM_LIMIT.
+// Lists the files of a loaded model, and of --environment. Fails with LAM_UNSUPPORTED (one that lies outside of the
+// model's folder), LAM_LIMIT.
 bool page_model_list(const struct job *job, struct page_model *model, lam_error *error);
 
 // Adds the files of --environment alone.
@@ -28,12 +28,13 @@ void page_model_free(struct page_model *model);
 // Why the page cannot read some of them, as a sentence for each kind, from 0; NULL: nothing more.
 const char *page_model_lacks(const struct page_model *model, const lam_file_info *info, int index);
 
-// Whether an option belongs to the picture, and has a control in the page. A look is in the options that it sets.
+// Returns whether an option belongs to the picture, and has a control in the page. A look is in the options that it
+// sets.
 bool page_model_has_option(const struct option *option);
 
-// Prints the words of the picture's command line as a list in JSON, in which no '<' is left: the model, and an option with its value in
-// one word. `given`: the options of the command line. Options of the machine (threads, device, limits) and of files to write are left out.
-// False: LAM_LIMIT.
+// Prints the words of the picture's command line as a list in JSON, in which no '<' is left: the model, and an option
+// with its value in one word. `given`: the options of the command line. Options of the machine (threads, device,
+// limits) and of files to write are left out. Fails with LAM_LIMIT.
 bool page_model_words(FILE *out, const struct job *job, const struct options *given, const struct page_model *model,
                       lam_error *error);
 

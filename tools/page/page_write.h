@@ -7,7 +7,7 @@
 // The limit for the bytes of a model and of all files that it reads.
 enum { PAGE_FILES_MAX = 100000000 };
 
-// Whether the job's output is a page.
+// Returns whether the job's output is a page.
 bool page_wanted(const struct job *job);
 
 // job_run for a page: draws the picture, which finds whatever is wrong with the model or the options, and writes the

@@ -12,7 +12,7 @@
 #include "plan.h"
 #include "sandbox_start.h"
 
-// The model's format; "shape" for a built-in shape.
+// Returns the model's format; "shape" for a built-in shape.
 static const char *format_of(const lam_scene *scene)
 {
     const char *format = lam_scene_format(scene);

@@ -12,8 +12,8 @@ void report_line(const struct job *job);
 // Prints the files read and the time of each step on standard error.
 void report_table(const struct job *job);
 
-// The stream of the JSON report: standard output, or standard error if the picture goes to standard output (then
-// nothing else is written there). NULL: no report.
+// Returns the stream of the JSON report: standard output, or standard error if the picture goes to standard output
+// (then nothing else is written there). Returns NULL if there is no report.
 FILE *report_stream(const struct options *options);
 
 // Reports a failure without a job (a wrong command line, no device), in JSON as well if that is enabled; returns the

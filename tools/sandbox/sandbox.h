@@ -44,7 +44,7 @@ struct sandbox_state {
     const char *reason;    // why one of them is missing; NULL: both are active
 };
 
-// The protections that the kernel offers. Changes nothing.
+// Returns the protections that the kernel offers. Changes nothing.
 struct sandbox_state sandbox_offered(void);
 
 // Enters the sandbox: this thread and threads that it starts later, and the filter for all threads; call it before
@@ -67,8 +67,8 @@ enum sandbox_filter {
         4, // whose flags no filter sees: for kernels whose Landlock does not keep files from being emptied
 };
 
-// sandbox_filter.c: installs a seccomp filter for all threads, in addition to filters in force. False: the kernel
-// refuses; errno says why.
+// sandbox_filter.c: installs a seccomp filter for all threads, in addition to filters in force. Returns false if the
+// kernel refuses; errno says why.
 bool sandbox_filter_install(unsigned kind);
 
 #endif

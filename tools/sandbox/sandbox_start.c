@@ -24,7 +24,7 @@ const char *sandbox_advice(const lam_error *error)
                : "";
 }
 
-// The folder of a path: the text up to its last '/', included; "." if there is none. False: out of memory.
+// The folder of a path: the text up to its last '/', included; "." if there is none. Returns false if memory runs out.
 static bool add_folder_of(struct sandbox_paths *paths, const char *path, int access)
 {
     const char *slash = strrchr(path, '/');

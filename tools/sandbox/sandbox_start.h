@@ -26,15 +26,15 @@ void sandbox_add_options(struct sandbox_paths *paths, const struct options *opti
 // The part of it that concerns this process: an older picture is read, a pipe is opened. paths->may_write decides on the rest.
 void sandbox_add_older(struct sandbox_paths *paths, const char *path);
 
-// Whether sandbox_start would enter a sandbox.
+// Returns whether sandbox_start would enter a sandbox.
 bool sandbox_is_wanted(const struct options *options);
 
 // Starts the writer, unless it runs already or nothing may be written. Then enters the sandbox of the options, with the
 // given paths, the options' paths and the system's libraries and fonts. Frees `paths` in any case. Call it before
-// threads start. False: LAM_UNSUPPORTED where --sandbox require cannot be had, LAM_LIMIT.
+// threads start. Fails with LAM_UNSUPPORTED where --sandbox require cannot be had, LAM_LIMIT.
 bool sandbox_start(const struct options *options, struct sandbox_paths *paths, lam_error *error);
 
-// The protections in force in this process; none before sandbox_start.
+// Returns the protections in force in this process; none before sandbox_start.
 const struct sandbox_state *sandbox_active(void);
 
 // The addition to the error about a file that the sandbox may have blocked; "": none.

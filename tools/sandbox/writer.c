@@ -45,7 +45,7 @@ struct request {
     uint64_t size;      // of the contents
 };
 
-// False: the other side has ended, or errno.
+// Returns false if the other side has ended, or errno.
 static bool receive(int from, void *bytes, size_t size)
 {
     for (char *at = bytes; size;) {
@@ -152,7 +152,7 @@ static bool act(const struct request *request, const char *path, const lam_bytes
     return ok;
 }
 
-// Answers one request. False: the other side has ended, or asks for something else than requests.
+// Answers one request. Returns false if the other side has ended, or asks for something else than requests.
 static bool answer(int connection)
 {
     struct request request;

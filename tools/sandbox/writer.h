@@ -23,7 +23,7 @@ typedef enum writer_right writer_rule(void *user, const char *path);
 // Starts the writer, which can serve `count` threads at once. Call it before threads start. Error: LAM_LIMIT.
 bool writer_start(writer_rule *rule, void *user, int count, lam_error *error);
 
-// Whether this process, or the one that made it, has started one.
+// Returns whether this process, or the one that made it, has started one.
 bool writer_is_there(void);
 
 // Its number, which is part of the names of its unfinished files; this process's if there is no writer.

@@ -79,8 +79,8 @@ static void blend(uint8_t *pixel, uint32_t color, double cover)
     }
 }
 
-// The coverage of a pixel by a line of this half width. The edge is a ramp one pixel wide, which is exact for edges
-// along the axes and close for others.
+// Returns the coverage of a pixel by a line of this half width. The edge is a ramp one pixel wide, which is exact for
+// edges along the axes and close for others.
 static double cover_at(struct point a, struct point b, double half, double x, double y)
 {
     double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
@@ -213,7 +213,7 @@ bool draw_dot(struct drawing *d, struct point middle, double radius, uint32_t co
     return true;
 }
 
-// The bytes of the UTF-8 letter at the beginning of a text; 0: not a letter, or one that XML cannot contain.
+// Returns the bytes of the UTF-8 letter at the beginning of a text; 0: not a letter, or one that XML cannot contain.
 static int letter_bytes(const char *text)
 {
     const unsigned char *at = (const unsigned char *)text;
@@ -258,7 +258,7 @@ static const struct {
     {0xF900, 0xFAFF, true},  {0xFE10, 0xFE6F, true}, {0xFF00, 0xFFEF, true}, {0x20000, 0x3FFFF, true},
 };
 
-// The number of a letter of UTF-8.
+// Returns the number of a letter of UTF-8.
 static uint32_t letter_number(const char *text, int bytes)
 {
     uint32_t number = (unsigned char)*text & (bytes == 1 ? 0x7Fu : 0xFFu >> (bytes + 1));

@@ -33,10 +33,11 @@ bool drawing_open(struct drawing *drawing, int width, int height, bool svg, bool
                   lam_error *error);
 void drawing_free(struct drawing *drawing);
 
-// Sets the title and description of an SVG for screen readers; a PNG contains only pixels. False: out of memory.
+// Sets the title and description of an SVG for screen readers; a PNG contains only pixels. Returns false if memory runs
+// out.
 bool drawing_describe(struct drawing *drawing, const char *title, const char *description, lam_error *error);
 
-// Colours are 0xrrggbb, sRGB. Widths and sizes are in pixels. False: out of memory.
+// Colours are 0xrrggbb, sRGB. Widths and sizes are in pixels. Returns false if memory runs out.
 void draw_box(struct drawing *drawing, struct point corner, double width, double height, uint32_t color);
 bool draw_line(struct drawing *drawing, const struct point *points, int count, double width, uint32_t color,
                double dash,
@@ -48,19 +49,20 @@ void draw_text(struct drawing *drawing, struct point baseline, double size, enum
 bool draw_text_upwards(struct drawing *drawing, struct point baseline, double size, uint32_t color, const char *text,
                        lam_error *error);
 
-// The width of a text: exact for PNG, an estimate for SVG, whose viewer selects the font.
+// Returns the width of a text: exact for PNG, an estimate for SVG, whose viewer selects the font.
 double text_width(const struct drawing *drawing, double size, const char *text);
 
-// Lays a picture (LAM_RGBA8) onto the page, clipped at its edges; in an SVG it is a PNG with the label as its title. False: out of
-// memory.
+// Lays a picture (LAM_RGBA8) onto the page, clipped at its edges; in an SVG it is a PNG with the label as its title.
+// Returns false if memory runs out.
 bool draw_image(struct drawing *drawing, const lam_image *image, int left, int top, const char *label,
                 lam_error *error);
 
-// True if the path names an SVG.
+// Returns true if the path names an SVG.
 bool drawing_is_svg(const char *path);
 
-// Whether a PNG's page can show a text that the user gave: letter by letter, from the left, with the default font (or one that the
-// user names: `has_font`). Error: LAM_UNSUPPORTED, which names the letter and the way out, an SVG.
+// Returns whether a PNG's page can show a text that the user gave: letter by letter, from the left, with the default
+// font (or one that the user names: `has_font`). Error: LAM_UNSUPPORTED, which names the letter and the way out, an
+// SVG.
 bool drawing_check_text(const char *option, const char *text, bool has_font, lam_error *error);
 
 // Writes the page: a file completely or not at all, "-" or a pipe directly.

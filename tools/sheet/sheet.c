@@ -153,7 +153,7 @@ static bool add_words(struct sheet *sheet, const char *dashed, const struct opti
     return true;
 }
 
-// True if values that contain commas are separated by commas: in "point,spot:cutoff=9" a type follows a comma.
+// Returns true if values that contain commas are separated by commas: in "point,spot:cutoff=9" a type follows a comma.
 static bool lacks_semicolons(const struct option *option, const char *values)
 {
     if (strcmp(option->name, "light") != 0 || strchr(values, ';'))

@@ -33,7 +33,7 @@ struct sheet {
     struct cell cells[CELLS_MAX];
 };
 
-// True if --across may vary the option.
+// Returns true if --across may vary the option.
 bool sheet_varies(const struct option *option);
 
 // Selects the sheet of the options. `store` receives the words of each --across; the caller frees them after the sheet.

@@ -11,7 +11,7 @@ struct sheet_model {
     bool materials, lights; // of its own
 };
 
-// True if the model must be read to know which defaults apply.
+// Returns true if the model must be read to know which defaults apply.
 bool sheet_defaults_need_model(const struct sheet *sheet, const struct options *options);
 
 // The words of the defaults that apply, in `words`; returns how many. They replace options that are not given.

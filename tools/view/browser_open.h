@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-// Whether a program runs that opens it: there is a display, and xdg-open. Before the sandbox.
+// Returns whether a program runs that opens it: there is a display, and xdg-open. Before the sandbox.
 bool browser_open(const char *address);
 
 #endif

@@ -13,11 +13,11 @@ enum view_bytes {
 enum MHD_Result view_answer(const struct view *view, struct MHD_Connection *connection, int status, const char *type,
                             const void *bytes, size_t size, enum view_bytes whose);
 
-// A sentence.
+// Returns a sentence.
 enum MHD_Result view_answer_text(const struct view *view, struct MHD_Connection *connection, int status,
                                  const char *sentence);
 
-// The contents of a file, whose handle it takes over.
+// Returns the contents of a file, whose handle it takes over.
 enum MHD_Result view_answer_file(const struct view *view, struct MHD_Connection *connection, int file);
 
 // Answers a connection with the result of its task.

@@ -307,7 +307,7 @@ static void work(struct drawer *d, const struct view_request *request, const cha
 
 // --- requests
 
-// False: the server has closed its end.
+// Returns false if the server has closed its end.
 static bool read_all(int from, void *bytes, size_t size)
 {
     for (size_t at = 0; at < size;) {

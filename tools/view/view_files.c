@@ -52,7 +52,7 @@ void view_files_free(struct view_files *files)
     *files = (struct view_files){.folder = -1};
 }
 
-// Whether a list of endings separated by spaces has one.
+// Returns whether a list of endings separated by spaces has one.
 static bool has_ending(const char *endings, const char *ending)
 {
     for (size_t length; *endings; endings += length, endings += strspn(endings, " ")) {
@@ -63,7 +63,8 @@ static bool has_ending(const char *endings, const char *ending)
     return false;
 }
 
-// Whether a name has the extension of a model, or of files that models name: material libraries, buffers, pictures.
+// Returns whether a name has the extension of a model, or of files that models name: material libraries, buffers,
+// pictures.
 static bool is_served(const char *path)
 {
     const char *name = strrchr(path, '/'), *dot = name ? strrchr(name, '.') : NULL;
@@ -108,7 +109,7 @@ static bool is_regular(int file)
     return fstat(file, &about) == 0 && S_ISREG(about.st_mode);
 }
 
-// The file of --environment of a path in the page; NULL: it is none.
+// Returns the file of --environment of a path in the page, or NULL if it is none.
 static const char *environment_of(const struct view_files *files, const char *path)
 {
     static const char top[] = "/.environment/";

@@ -19,14 +19,15 @@ struct view_files {
 bool view_files_start(struct view_files *files, const char *operand, bool is_folder, lam_error *error);
 void view_files_free(struct view_files *files);
 
-// The handle of a regular file, from open(). −1: there is none that may be served: another kind of file, a hidden one (its name or a
-// folder's begins with a dot), one outside of the folder, wherever links and ".." lead.
+// Returns the handle of a regular file, from open(). Returns −1 if there is none that may be served: another kind of
+// file, a hidden one (its name or a folder's begins with a dot), one outside of the folder, wherever links and ".."
+// lead.
 int view_files_open(const struct view_files *files, const char *path);
 
 // The same for a folder; "/" is the top. A handle for its attributes alone (O_PATH).
 int view_files_open_folder(const struct view_files *files, const char *path);
 
-// The path on this machine, from malloc. NULL: out of memory.
+// Returns the path on this machine, from malloc. Returns NULL if memory runs out.
 char *view_files_path(const struct view_files *files, const char *path);
 
 #endif

@@ -22,8 +22,8 @@ void view_peers_close(struct view_peers *peers)
     *peers = (struct view_peers){{-1, -1}};
 }
 
-// Reads a line of a table, "SL: LOCAL:PORT REMOTE:PORT STATE TX:RX TIMER:WHEN RETRANSMITS UID …", numbers but UID in hexadecimal digits.
-// True: it is that connection, seen from its other end.
+// Reads a line of a table, "SL: LOCAL:PORT REMOTE:PORT STATE TX:RX TIMER:WHEN RETRANSMITS UID …", numbers but UID in
+// hexadecimal digits. Returns true if it is that connection, seen from its other end.
 static bool is_other_end(const char *line, int other_port, int port, unsigned *state, unsigned *user)
 {
     char local[33], remote[33];

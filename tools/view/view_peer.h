@@ -13,8 +13,9 @@ struct view_peers {
 void view_peers_open(struct view_peers *peers); // before the sandbox
 void view_peers_close(struct view_peers *peers);
 
-// Whether the other end of a connection from 127.0.0.1:`other_port` to 127.0.0.1:`port` belongs to this process's user, or to root,
-// whose relays bring connections from outside of virtual machines and containers. True where the kernel does not list it.
+// Returns whether the other end of a connection from 127.0.0.1:`other_port` to 127.0.0.1:`port` belongs to this
+// process's user, or to root, whose relays bring connections from outside of virtual machines and containers. True
+// where the kernel does not list it.
 bool view_peers_are_own(const struct view_peers *peers, int other_port, int port);
 
 #endif

@@ -62,8 +62,8 @@ static bool is_own_host(const struct view *view, const char *host)
     return false;
 }
 
-// Whether the request is for this server and the page that sent it is one of ours, by the browser's headers. Each may occur once: of two
-// a relay in between could have checked the other.
+// Returns whether the request is for this server and the page that sent it is one of ours, by the browser's headers.
+// Each may occur once: of two a relay in between could have checked the other.
 static bool is_from_here(const struct view_connection *c)
 {
     const struct header host = header(c, "Host"), origin = header(c, "Origin"), site = header(c, "Sec-Fetch-Site");
@@ -208,7 +208,7 @@ static enum MHD_Result answer_page(struct view_connection *c)
     return view_answer(c->view, c->connection, 200, "text/html; charset=utf-8", page->text, page->size, VIEW_BORROWED);
 }
 
-// A path of the page: the address after a prefix.
+// Returns a path of the page: the address after a prefix.
 static const char *path_after(const char *address, const char *word)
 {
     size_t length = strlen(word);

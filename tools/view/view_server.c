@@ -45,7 +45,7 @@ static bool make_token(char token[VIEW_TOKEN_SIZE], lam_error *error)
     return true;
 }
 
-// A socket of this machine alone that listens. −1 on failure.
+// Returns a socket of this machine alone that listens. −1 on failure.
 static int listen_here(struct view *view, lam_error *error)
 {
     struct sockaddr_in address = {.sin_family = AF_INET,

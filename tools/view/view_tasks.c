@@ -100,7 +100,7 @@ void view_tasks_drop(struct view_tasks *tasks, struct view_task *task)
         cancel(tasks, task);
 }
 
-// The process for a task: one that has its model already, else a new one, else one that waits. NULL: all work.
+// Returns the process for a task: one that has its model already, else a new one, else one that waits. NULL: all work.
 static struct view_process *find_process(struct view_tasks *tasks, const struct view_task *task)
 {
     struct view_process *free_one = NULL, *waiting = NULL;

@@ -37,7 +37,8 @@ struct view_tasks {
 void view_tasks_start(struct view_tasks *tasks, const struct view_files *files, const struct options *options,
                       void (*done)(void *user, struct view_result *result));
 
-// Adds a task; `words` and `client` are copied. Its end calls `done` with `user`, never from within this call. NULL: out of memory.
+// Adds a task; `words` and `client` are copied. Its end calls `done` with `user`, never from within this call. Returns
+// NULL if memory runs out.
 struct view_task *view_tasks_add(struct view_tasks *tasks, const struct view_request *request, const char *words,
                                  const char *client, void *user);
 

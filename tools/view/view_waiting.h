@@ -14,7 +14,7 @@ void view_waiting_notify(void *user, struct MHD_Connection *connection, void **k
 // Of MHD_OPTION_URI_LOG_CALLBACK: notes the address as it was sent, in which the library has not yet decoded "%00". Returns NULL.
 void *view_waiting_address(void *user, const char *address, struct MHD_Connection *connection);
 
-// A connection's request has arrived. Returns the data of the connection; NULL: there was no memory for it.
+// A connection's request has arrived. Returns the data of the connection, or NULL if there was no memory for it.
 const struct view_socket *view_waiting_end(struct view *view, struct MHD_Connection *connection);
 
 // A connection has been answered and may send another request.

@@ -13,7 +13,8 @@
 #include "look_option.h"
 #include "page_model.h"
 
-// A path of the page on this machine, from malloc, if its file is served. NULL: LAM_CANNOT_READ, LAM_LIMIT.
+// Returns a path of the page on this machine, from malloc, if its file is served. Fails with LAM_CANNOT_READ,
+// LAM_LIMIT.
 static char *machine_path(const struct view_files *files, const char *path, lam_error *error)
 {
     int file = view_files_open(files, path);

@@ -20,8 +20,8 @@ struct call_control {
 // Starts a call. `control` may be NULL.
 void call_start(struct call_control *call, const lam_control *control);
 
-// False when the call must end: cancelled, over its time, or with a control that this version does not know. Cheap enough for every few thousand items (about 25 ns);
-// any thread. `call` may be NULL.
+// Returns false when the call must end: cancelled, over its time, or with a control that this version does not know.
+// Cheap enough for every few thousand items (about 25 ns); any thread. `call` may be NULL.
 bool call_should_continue(struct call_control *call);
 
 // Fills the error with the reason why call_should_continue returned false, and returns false.
@@ -40,7 +40,7 @@ bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error
 void call_add_input(struct call_control *call, uint64_t bytes);
 uint64_t call_input_bytes(const struct call_control *call);
 
-// The limits of lam_control, or their defaults. `call` may be NULL. UINT64_MAX: none.
+// Returns the limits of lam_control, or their defaults. `call` may be NULL. UINT64_MAX: none.
 uint64_t call_triangle_limit(const struct call_control *call);
 uint64_t call_expansion_limit(const struct call_control *call);
 uint64_t call_pixel_limit(const struct call_control *call);
@@ -48,19 +48,19 @@ uint64_t call_file_limit(const struct call_control *call);
 unsigned call_json_depth_limit(const struct call_control *call);
 uint64_t call_layer_limit(const struct call_control *call);
 
-// Whether a model, or a drawn scene, may have this many triangles; false: LAM_LIMIT. `items` is their name:
+// Returns whether a model, or a drawn scene, may have this many triangles; false: LAM_LIMIT. `items` is their name:
 // "triangles", "lines".
 bool call_check_triangles(const struct call_control *call, const char *name, uint64_t count, const char *items,
                           lam_error *error);
 
-// Whether a model may have this many objects; false: LAM_LIMIT.
+// Returns whether a model may have this many objects; false: LAM_LIMIT.
 bool call_check_objects(const struct call_control *call, const char *name, uint64_t count, lam_error *error);
 
-// Whether the unpacked parts of a compressed file may have this many bytes: as many as reading it may use memory;
-// false: LAM_LIMIT.
+// Returns whether the unpacked parts of a compressed file may have this many bytes: as many as reading it may use
+// memory; false: LAM_LIMIT.
 bool call_check_expanded(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
 
-// Whether a file of this size may be read; false: LAM_LIMIT.
+// Returns whether a file of this size may be read; false: LAM_LIMIT.
 bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
 
 // Calls the progress callback; from the calling thread only. Reported shares never decrease.

@@ -31,12 +31,12 @@ bool file_read(const char *path, struct pool *pool, struct call_control *call, s
 bool file_read_named(const char *path, size_t folder, const char *shown, bool fresh, struct pool *pool,
                      struct call_control *call, struct file_bytes *out, lam_error *error);
 
-// Whether a path that another library opens leads to a regular file; false: LAM_CANNOT_READ.
+// Returns whether a path that another library opens leads to a regular file; false: LAM_CANNOT_READ.
 bool file_check_regular(const char *path, lam_error *error);
 
-// The path after every link and ".." is followed, from malloc, if it lies in the folder ("": the current one) or below, or is the
-// same. NULL: it does not (*outside is then true), or cannot be followed (errno). *length: of the folder's part, with its '/'; 0 if
-// the two are the same.
+// The path after every link and ".." is followed, from malloc, if it lies in the folder ("": the current one) or below,
+// or is the same. Returns NULL if it does not (*outside is then true), or cannot be followed (errno). *length: of the
+// folder's part, with its '/'; 0 if the two are the same.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
 // A large file that is read in parts, from any thread.
@@ -45,7 +45,8 @@ struct file_parts {
     int file;
     size_t size;
 };
-// Opens a file of at least FILE_LARGE bytes and reads its first FILE_HEAD. False: the file is smaller, or cannot be read.
+// Opens a file of at least FILE_LARGE bytes and reads its first FILE_HEAD. Returns false if the file is smaller, or
+// cannot be read.
 bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], struct file_parts *out);
 bool file_read_part(const struct file_parts *parts, size_t offset, void *to, size_t bytes);
 void file_close_parts(struct file_parts *parts);
@@ -72,7 +73,7 @@ enum file_way { FILE_UNNAMED = 0, FILE_NAMED = 1, FILE_DURABLE = 2 }; // the las
 bool file_write_by(unsigned way, const char *path, const void *data, size_t size, struct call_control *call,
                    lam_error *error);
 
-// The last component of a path, and that component's ending after its last '.' ("" if none).
+// Returns the last component of a path, and that component's ending after its last '.' ("" if none).
 const char *path_name(const char *path);
 const char *path_ending(const char *path);
 

@@ -33,7 +33,7 @@ static bool fail_writing(lam_error *error, const char *path, const char *action)
 
 // --- signals
 
-// True if a signal that arrives now ends or stops nothing: it is ignored, or ignored by default.
+// Returns true if a signal that arrives now ends or stops nothing: it is ignored, or ignored by default.
 static bool is_ignored(int number, const struct sigaction *action)
 {
     if (action->sa_handler == SIG_IGN)
@@ -43,7 +43,7 @@ static bool is_ignored(int number, const struct sigaction *action)
             number == SIGTTIN || number == SIGTTOU);
 }
 
-// Lets the caller's handlers run for the signals that wait. False: one waits that ends the process.
+// Lets the caller's handlers run for the signals that wait. Returns false if one waits that ends the process.
 static bool deliver_handled(const sigset_t *before)
 {
     sigset_t pending;
@@ -124,15 +124,15 @@ static bool fill(int file, const struct writing *w, const sigset_t *before)
     return copy < 0 || close(copy) == 0;
 }
 
-// The folder of a path, from malloc.
+// Returns the folder of a path, from malloc.
 static char *folder_of(const char *path)
 {
     const char *name = path_name(path);
     return name == path ? strdup(".") : strndup(path, (size_t)(name - path));
 }
 
-// A name beside the target that is not in use, so far, from malloc. It is short, and hidden. It contains the host
-// because several may write to one folder, and a process's number is not unique: in containers it is often 1.
+// Returns a name beside the target that is not in use, so far, from malloc. It is short, and hidden. It contains the
+// host because several may write to one folder, and a process's number is not unique: in containers it is often 1.
 static char *name_beside(const char *target)
 {
     char *name, host[65] = "";

@@ -87,7 +87,7 @@ LANE_FN struct two_parts scaled_log2(struct binary_parts b, num exponent)
     return (struct two_parts){exponent_head * log_head, exponent_tail * log_head + exponent * log_tail};
 }
 
-// The smallest base that does not count as 0. With exponent 0 that is any base, since 0⁰ = 1.
+// Returns the smallest base that does not count as 0. With exponent 0 that is any base, since 0⁰ = 1.
 LANE_FN num min_base(num exponent) { return pick(exponent > 0.0f, num_of(SMALLEST_NORMAL), num_of(-__builtin_inff())); }
 
 // base^exponent for a base in 0…1 (more counts as 1) and any finite exponent ≥ 0. 0⁰ = 1. Otherwise 0 if the base is 0,

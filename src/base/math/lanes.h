@@ -312,7 +312,7 @@ LANE_FN inum floor_of(num x)
 #endif
 }
 
-// The lanes that are below 0, as bits.
+// Returns the lanes that are below 0, as bits.
 LANE_FN unsigned negative_bits(inum x)
 {
 #if LANES == 16 && defined(__AVX512DQ__)
@@ -352,7 +352,7 @@ LANE_FN num lanes_at(num x, inum at)
 #endif
 }
 
-// The minimum of all lanes, without NaN.
+// Returns the minimum of all lanes, without NaN.
 LANE_FN float min_lane(num x)
 {
 #if (LANES == 16 && defined(__AVX512DQ__)) || (LANES == 8 && defined(__AVX__))

@@ -4,8 +4,8 @@
 #include <stdint.h>
 #include <string.h>
 
-// The fifth root by Newton's method. The first guess, from the exponent divided by five, is within 6 %. Five steps,
-// each of which squares the error, reduce it below a double's precision.
+// Returns the fifth root by Newton's method. The first guess, from the exponent divided by five, is within 6 %. Five
+// steps, each of which squares the error, reduce it below a double's precision.
 static double fifth_root(double x)
 {
     uint64_t bits;

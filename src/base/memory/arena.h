@@ -40,7 +40,8 @@ char *arena_vformat(struct arena *arena, const char *format, va_list arguments);
 // refunded with them. False: out of memory; the caller still owns them.
 bool arena_adopt(struct arena *arena, void *pages, size_t held, size_t charged);
 
-// For tests: from now on the allocation number `countdown` (0: the next) of this thread fails, once. −1: none.
+// For tests: from now on the allocation number `countdown` (0: the next) of this thread fails, once. Returns −1 if
+// there is none.
 void arena_fail_after(long countdown);
 
 #endif

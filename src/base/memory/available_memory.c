@@ -32,7 +32,7 @@ uint64_t lam_memory_available(void) { return UINT64_MAX; }
 
 enum { PATH_BYTES = 4096 };
 
-// The first bytes of a file as text; false: it cannot be read.
+// The first bytes of a file as text, or false if it cannot be read.
 static bool read_head(const char *path, char *text, size_t size)
 {
     int file = open(path, O_RDONLY | O_CLOEXEC);
@@ -48,7 +48,7 @@ static bool read_head(const char *path, char *text, size_t size)
 
 static uint64_t smaller(uint64_t a, uint64_t b) { return a < b ? a : b; }
 
-// The smallest limit of a group and those above it: `path` is the group's, below `mount`. "max" is no number.
+// Returns the smallest limit of a group and those above it: `path` is the group's, below `mount`. "max" is no number.
 static uint64_t limit_of_group(const char *root, const char *mount, const char *path, const char *file)
 {
     char name[PATH_BYTES + 200], text[64];
@@ -67,7 +67,7 @@ static uint64_t limit_of_group(const char *root, const char *mount, const char *
     }
 }
 
-// Whether a comma-separated list of controllers names memory's.
+// Returns whether a comma-separated list of controllers names memory's.
 static bool names_memory(const char *list, size_t length)
 {
     static const char word[] = "memory";

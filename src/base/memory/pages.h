@@ -11,7 +11,7 @@ enum { PAGES_WHEN_TOUCHED = 0 };
 enum { PAGES_WHEN_TOUCHED = 1 };
 #endif
 
-// Fresh zeroed memory, page-aligned. `held` receives the size to free. NULL: out of memory.
+// Fresh zeroed memory, page-aligned. `held` receives the size to free. Returns NULL if memory runs out.
 void *pages_get(size_t bytes, size_t *held);
 // The same in small pages, for blocks that are hardly touched.
 void *pages_get_sparse(size_t bytes, size_t *held);

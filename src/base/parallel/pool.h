@@ -6,8 +6,8 @@
 
 struct pool;
 
-// Makes a pool of `threads` threads, the caller included (0: one for each processor this process may use). Fewer
-// start where the system refuses more; the caller always works. NULL: out of memory.
+// Makes a pool of `threads` threads, the caller included (0: one for each processor this process may use). Fewer start
+// where the system refuses more; the caller always works. Returns NULL if memory runs out.
 struct pool *pool_make(int threads);
 void pool_free(struct pool *pool);
 int pool_threads(const struct pool *pool); // NULL: 1

@@ -13,10 +13,10 @@ enum cpu_feature {
     CPU_WASM_SIMD = 32, // SIMD128
 };
 
-// The features of this machine. The operating system saves the registers of each.
+// Returns the features of this machine. The operating system saves the registers of each.
 unsigned cpu_features(void);
 
-// Whether the machine has all of `features`; 0 names none.
+// Returns whether the machine has all of `features`; 0 names none.
 static inline bool cpu_has(unsigned features) { return (features & ~cpu_features()) == 0; }
 
 // Chooses from versions of one type for 1, 8 and 16 lanes the widest that the machine has and that has at most `lanes`.

@@ -4,16 +4,17 @@
 
 #include <stdbool.h>
 
-// A library by its file name ("libfreetype.so.6"); NULL: not installed, and *reason (may be NULL) is the loader's
-// sentence. `resident`: it stays loaded until the process ends, as drivers that start threads need.
+// Returns a library by its file name ("libfreetype.so.6"); NULL: not installed, and *reason (may be NULL) is the
+// loader's sentence. `resident`: it stays loaded until the process ends, as drivers that start threads need.
 void *library_open(const char *name, bool resident, const char **reason);
-// A shared object installed with this library or program, "lambent-draco.so", from beside them: in a folder lambent of
-// the folder of libraries, or in their build folder. It stays loaded until the process ends. NULL: it is missing, or a
-// library that it needs.
+// Returns a shared object installed with this library or program, "lambent-draco.so", from beside them: in a folder
+// lambent of the folder of libraries, or in their build folder. It stays loaded until the process ends. Returns NULL if
+// it is missing, or a library that it needs.
 void *library_open_own(const char *name);
 void library_close(void *library); // NULL is fine
 
-// Stores the address of a function at `function`, a pointer to a function pointer. False: the library has none.
+// Stores the address of a function at `function`, a pointer to a function pointer. Returns false if the library has
+// none.
 bool library_find(void *library, const char *name, void *function);
 
 #endif

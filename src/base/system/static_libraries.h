@@ -2,9 +2,9 @@
 #ifndef STATIC_LIBRARIES_H
 #define STATIC_LIBRARIES_H
 
-// A library by its file name; NULL: the program does not contain it.
+// Returns a library by its file name, or NULL if the program does not contain it.
 const void *static_library(const char *name);
-// The address of a function of it; NULL: it has none.
+// Returns the address of a function of it, or NULL if it has none.
 void *static_function(const void *library, const char *name);
 
 #endif

@@ -129,7 +129,7 @@ static struct wide multiply(uint64_t a, uint64_t b)
     return (struct wide){(uint64_t)(product >> 64), (uint64_t)product};
 }
 
-// The bits (without sign) nearest to digits · 10^power. False: the last bit is not certain.
+// The bits (without sign) nearest to digits · 10^power. Returns false if the last bit is not certain.
 static bool round_product(uint64_t digits, int64_t power, const struct format *format, uint64_t *bits)
 {
     const uint64_t infinity = (uint64_t)format->infinite << format->mantissa_bits;
@@ -282,7 +282,7 @@ static int64_t big_digits(const struct decimal *d, struct big *a)
     return power;
 }
 
-// The bits nearest to the number, by long division.
+// Returns the bits nearest to the number, by long division.
 static uint64_t round_exactly(const struct decimal *d, const struct format *format)
 {
     struct big over = {{0}, 0}, under = {{1}, 1};
@@ -408,8 +408,8 @@ static float float_of(uint64_t bits, bool negative)
     return x;
 }
 
-// The bits, without the sign, of a number to which the quick ways of number_double and number_float do not apply. `after`: as
-// scan returned it for `d`; NULL: only "inf" and "nan" remain.
+// Returns the bits, without the sign, of a number to which the quick ways of number_double and number_float do not
+// apply. `after`: as scan returned it for `d`; NULL: only "inf" and "nan" remain.
 static const uint8_t *finish(const uint8_t *at, const uint8_t *end, const uint8_t *after, const struct format *format,
                              struct decimal *d, uint64_t *bits)
 {

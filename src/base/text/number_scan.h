@@ -18,7 +18,7 @@ static inline uint64_t number_load8(const uint8_t *at)
     return eight;
 }
 
-// How many of eight bytes are digits before the first that is not: 0 … 8. A byte below '0' borrows and one
+// Returns how many of eight bytes are digits before the first that is not: 0 … 8. A byte below '0' borrows and one
 // above '9' carries, which affects later bytes only.
 static inline unsigned number_digit_count(uint64_t eight)
 {
@@ -26,7 +26,7 @@ static inline unsigned number_digit_count(uint64_t eight)
     return other ? (unsigned)__builtin_ctzll(other) / 8 : 8;
 }
 
-// The value of the first `count` of eight bytes, all digits.
+// Returns the value of the first `count` of eight bytes, all digits.
 static inline uint64_t number_digits_value(uint64_t eight, unsigned count)
 {
     // Shifted to the end, so that zeros lead; in two steps, since a shift by 64 is undefined.
@@ -61,8 +61,8 @@ static const uint64_t number_integer_powers[20] = {
     10000000000000000000u,
 };
 
-// Whether a double with an error of at most 4 units in its last place rounds to the right float: true unless it lies
-// near the midpoint of two floats. For |x| from 2^-126 to 2^127 only.
+// Returns whether a double with an error of at most 4 units in its last place rounds to the right float: true unless it
+// lies near the midpoint of two floats. For |x| from 2^-126 to 2^127 only.
 static inline bool number_rounds_surely(double x)
 {
     uint64_t bits;

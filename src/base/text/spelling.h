@@ -13,10 +13,11 @@ struct spelling {
 struct spelling spelling_of(const char *word);
 void spelling_try(struct spelling *spelling, const char *candidate);
 
-// The word of `words` with the smallest edit distance to `word`, at most a third of its length; NULL: none is that near.
+// Returns the word of `words` with the smallest edit distance to `word`, at most a third of its length, or NULL if none
+// is that near.
 const char *nearest_word(const char *word, const char *const *words, int count);
 
-// The word of the interface among `words` that a typed one means; NULL: none is near.
+// Returns the word of the interface among `words` that a typed one means, or NULL if none is near.
 const char *meant_word(const char *word, const char *const *words, int count);
 
 #endif

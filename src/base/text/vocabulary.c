@@ -111,7 +111,7 @@ static const struct {
     {"teapot", "utah"},
 };
 
-// Writes a word in small letters, '_' and ' ' as '-'. False: it is too long.
+// Writes a word in small letters, '_' and ' ' as '-'. Returns false if it is too long.
 static bool simplify(const char *word, char out[LENGTH_MAX + 1])
 {
     size_t length = strnlen(word, LENGTH_MAX + 1);

@@ -48,10 +48,10 @@ struct block_lists {
     struct list_block *duplicates;
 };
 
-// An empty block in front of `previous`; NULL: out of memory.
+// Returns an empty block in front of `previous`, or NULL if memory runs out.
 struct list_block *list_block_new(struct block_lists *lists, struct list_block *previous);
 
-// The block of a list that takes one more entry, with `capacity` entries per block; NULL: out of memory.
+// Returns the block of a list that takes one more entry, with `capacity` entries per block, or NULL if memory runs out.
 static inline struct list_block *list_block_with_space(struct block_lists *lists, struct list_block **list,
                                                        uint32_t capacity)
 {

@@ -28,7 +28,7 @@ struct corner_fan_scratch {
 };
 void corner_fan_scratch_start(struct corner_fan_scratch *scratch, struct call_control *call);
 void corner_fan_scratch_free(struct corner_fan_scratch *scratch);
-// Makes space for `count` corners. False when memory has run out.
+// Makes space for `count` corners. Returns false if memory runs out.
 bool corner_fan_scratch_reserve(struct corner_fan_scratch *scratch, uint32_t count);
 
 // Computes the fans of the `count` corners in scratch->numbers, ascending, all at one position, by the rule in
@@ -40,10 +40,10 @@ uint32_t corner_fan_normals(const lam_mesh *mesh, double min_cosine, struct corn
 // Sorts corners, quickly if they are nearly in order.
 void sort_corners(uint32_t *corners, uint32_t count);
 
-// The least cosine between two faces' normals that corner_fan_normals joins, from the crease angle.
+// Returns the least cosine between two faces' normals that corner_fan_normals joins, from the crease angle.
 double min_crease_cosine(double crease_angle_rad);
 
-// The vertex of a corner.
+// Returns the vertex of a corner.
 static inline uint32_t corner_vertex(const lam_mesh *mesh, size_t corner)
 {
     return mesh->indices ? mesh->indices[corner] : (uint32_t)corner;

@@ -30,7 +30,7 @@ static inline bool corner_fan_batch_add(struct corner_fan_batch *batch, const ui
     return p + 1 == FAN_POSITIONS;
 }
 
-// Moves the positions with that many corners into batch->block. False: there are none.
+// Moves the positions with that many corners into batch->block. Returns false if there are none.
 bool corner_fan_batch_take(struct corner_fan_batch *batch, uint32_t count);
 
 #endif

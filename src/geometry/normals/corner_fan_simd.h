@@ -49,7 +49,7 @@ struct corner_fan_simd {
                        uint32_t first, const uint64_t *done);
 };
 
-// The widest that the processor has, of at most `lanes` lanes.
+// Returns the widest that the processor has, of at most `lanes` lanes.
 const struct corner_fan_simd *corner_fan_simd_for(int lanes);
 
 #endif

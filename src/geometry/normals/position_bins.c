@@ -24,7 +24,8 @@ static inline bool put(const struct position_bins *bins, struct block_lists *lis
 
 #define PENDING ((uint32_t)1 << 31) // the result of a batch's lookup of that number; positions are fewer
 
-// The number of a position from the corner that represents it: its rank among the corners of the set's triangles.
+// Returns the number of a position from the corner that represents it: its rank among the corners of the set's
+// triangles.
 static inline uint32_t position_of_corner(const struct position_search *s, uint32_t corner)
 {
     return corner == NONE ? NONE : 3 * triangles_before(s, corner / 3) + corner % 3;

@@ -12,10 +12,10 @@ struct position_bins {
     size_t count;
 };
 
-// Puts the corners into bins. False: it ended early (search->loop), or the probe limit is reached.
+// Puts the corners into bins. Returns false if it ended early (search->loop), or the probe limit is reached.
 bool position_bins_fill(struct position_bins *bins, struct position_search *search);
 
-// How many corners a bin has.
+// Returns how many corners a bin has.
 size_t position_bin_corners(const struct position_bins *bins, size_t bin);
 
 // Sorts the corners of a bin by position; the corners of the bin's position i are sorted[starts[i]] to sorted[starts[i

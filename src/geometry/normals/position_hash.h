@@ -24,8 +24,8 @@ struct position_hash {
 // Chooses the number of parts for about this many vertices.
 void position_hash_plan(struct position_hash *table, size_t vertices);
 
-// The bytes of the table for this many vertices in all parts together. `strict` doubles the bits of the filter, so that
-// it lets fewer other positions pass.
+// Returns the bytes of the table for this many vertices in all parts together. `strict` doubles the bits of the filter,
+// so that it lets fewer other positions pass.
 size_t position_hash_size(struct position_hash *table, size_t vertices, bool strict);
 void position_hash_place(struct position_hash *table, void *memory);
 
@@ -39,7 +39,7 @@ static inline uint32_t position_hash_part(const struct position_hash *table, uin
     return (uint32_t)((uint64_t)hash << table->part_bits >> 32);
 }
 
-// The line in which the search for a hash starts, one of its part's.
+// Returns the line in which the search for a hash starts, one of its part's.
 static inline size_t position_hash_start(const struct position_hash *table, uint32_t hash)
 {
     return (size_t)(hash * ((uint64_t)table->part_lines << table->part_bits) >> 32);
@@ -53,11 +53,12 @@ static inline void copy_bits(uint32_t to[3], const uint32_t from[3])
     to[2] = from[2];
 }
 
-// The vertex that represents a position; NONE: it is not in the table. Adds the probes after the first line.
+// Returns the vertex that represents a position; NONE: it is not in the table. Adds the probes after the first line.
 uint32_t position_hash_find(const struct position_hash *table, const uint32_t bits[3], uint32_t hash, size_t *probes);
 
 // Fills a part from its bin in each of `threads` lists, and empties the bins. With `duplicates`, each vertex whose
-// position another one represents goes to that list of `mine`. False: the probe limit is reached, or memory has run out.
+// position another one represents goes to that list of `mine`. Returns false if the probe limit is reached, or memory
+// has run out.
 bool position_hash_fill(struct position_hash *table, uint32_t part, struct block_lists *lists, int threads,
                         struct block_lists *mine, bool duplicates);
 

@@ -33,7 +33,7 @@ static inline int same_position(const uint32_t a[3], const uint32_t b[3])
     return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
 }
 
-// A hash of a position's bits. Round numbers have only upper bits set, so these are folded down first.
+// Returns a hash of a position's bits. Round numbers have only upper bits set, so these are folded down first.
 static inline uint32_t hash_position(const uint32_t bits[3])
 {
     uint32_t h = (bits[0] ^ bits[0] >> 16) * 0x9e3779b1u;
@@ -54,7 +54,7 @@ struct position_simd {
                      uint32_t *corners, uint32_t *positions);
 };
 
-// The widest that the processor has, of at most `lanes` lanes.
+// Returns the widest that the processor has, of at most `lanes` lanes.
 const struct position_simd *position_simd_for(int lanes);
 
 #endif

@@ -29,7 +29,8 @@ static inline bool rank_bitset_has(const struct rank_bitset *set, size_t number)
     return set->bits[number / 64] >> number % 64 & 1;
 }
 
-// The number of bits set, summed in pairs, in fours, in bytes (the baseline processor has no instruction for it).
+// Returns the number of bits set, summed in pairs, in fours, in bytes (the baseline processor has no instruction for
+// it).
 static inline uint32_t count_bits(uint64_t x)
 {
     x -= x >> 1 & UINT64_C(0x5555555555555555);
@@ -38,7 +39,7 @@ static inline uint32_t count_bits(uint64_t x)
     return (uint32_t)(x * UINT64_C(0x0101010101010101) >> 56);
 }
 
-// How many members are below a number: a member's index among all of them.
+// Returns how many members are below a number: a member's index among all of them.
 static inline uint32_t rank_bitset_rank(const struct rank_bitset *set, size_t number)
 {
     return set->ranks[number / 64] + count_bits(set->bits[number / 64] & (((uint64_t)1 << number % 64) - 1));

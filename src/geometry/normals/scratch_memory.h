@@ -11,10 +11,11 @@ struct scratch_memory {
     size_t borrowed; // bytes at its end, after `capacity`
 };
 
-// Memory from the scratch memory while it lasts, else from the arena; NULL: out of memory. Any thread.
+// Memory from the scratch memory while it lasts, else from the arena, or NULL if memory runs out. Any thread.
 void *scratch_take(struct scratch_memory *scratch, struct arena *arena, size_t count, size_t size);
 
-// Takes the end of the scratch memory until scratch_return; NULL: it is smaller. Only while no other thread takes any.
+// Takes the end of the scratch memory until scratch_return, or NULL if it is smaller. Only while no other thread takes
+// any.
 void *scratch_borrow(struct scratch_memory *scratch, size_t bytes);
 void scratch_return(struct scratch_memory *scratch);
 

@@ -53,7 +53,7 @@ static size_t triangle_words(const struct position_search *s)
     return rank_bitset_words(s->first + (size_t)s->mesh->triangle_count) - first_word(s);
 }
 
-// The bits of the mesh's triangles in a word of the set.
+// Returns the bits of the mesh's triangles in a word of the set.
 static uint64_t triangle_word(const struct position_search *s, size_t word)
 {
     size_t from = 64 * word, last = s->first + (size_t)s->mesh->triangle_count;

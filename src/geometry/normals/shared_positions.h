@@ -46,7 +46,7 @@ struct position_search {
     size_t positions;
 };
 
-// Memory from the scratch memory or an arena; NULL: out of memory.
+// Memory from the scratch memory or an arena, or NULL if memory runs out.
 static inline void *search_alloc(struct position_search *s, struct arena *arena, size_t count, size_t size)
 {
     return scratch_take(&s->scratch, arena, count, size);
@@ -65,10 +65,10 @@ static inline size_t piece_end(size_t index, size_t total, size_t piece)
     return (index + 1) * piece < total ? (index + 1) * piece : total;
 }
 
-// The vertices of the set's triangles, of a mesh with indices. False: out of memory.
+// The vertices of the set's triangles, of a mesh with indices. Returns false if memory runs out.
 bool find_wanted(struct position_search *s);
 
-// Numbers the wanted vertices in `position_of`. False: out of memory.
+// Numbers the wanted vertices in `position_of`. Returns false if memory runs out.
 bool number_wanted(struct position_search *s);
 
 // Starts the lists and fills the table and, of a mesh with indices, `position_of`.
@@ -78,7 +78,7 @@ void position_search_free(struct position_search *s);
 // Where the probe limit is reached: finds the positions by sorting all vertices, in a time that no file can stretch.
 bool find_positions_by_sorting(struct position_search *s, lam_error *error);
 
-// How many of the mesh's triangles before one, or in all, are in the set.
+// Returns how many of the mesh's triangles before one, or in all, are in the set.
 static inline uint32_t triangles_before(const struct position_search *s, size_t triangle)
 {
     size_t number = s->first + triangle;

@@ -193,7 +193,7 @@ static bool start_workers(struct fan_loop *l)
     return true;
 }
 
-// The whole lines of 64 bytes between two addresses.
+// Returns the whole lines of 64 bytes between two addresses.
 static struct scratch_memory lines_between(void *from, void *to)
 {
     uintptr_t first = ((uintptr_t)from + 63) / 64 * 64, end = (uintptr_t)to / 64 * 64;

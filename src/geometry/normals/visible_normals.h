@@ -23,7 +23,7 @@ struct visible_normals {
     uint32_t *first_corners; // of the mesh, for each normal; the same capacity; NULL: not wanted
 };
 
-// The element of a corner of a triangle that is in the set.
+// Returns the element of a corner of a triangle that is in the set.
 static inline uint32_t visible_element(const struct visible_normals *visible, size_t triangle, uint32_t k)
 {
     return visible->elements[3 * (size_t)rank_bitset_rank(&visible->triangles, triangle) + k];

@@ -41,7 +41,7 @@ static lam_vec3 field_tangent(lam_vec3 n)
     return v3_dot(around, around) < 1e-8 ? v3(1, 0, 0) : v3_unit(around);
 }
 
-// Adds a corner to a group of this orientation, TRIANGLE_PRESERVING or 0. False: the group ends here.
+// Adds a corner to a group of this orientation, TRIANGLE_PRESERVING or 0. Returns false if the group ends here.
 static bool join_group(struct tangent_maker *m, uint32_t corner, uint32_t group, unsigned preserving)
 {
     uint8_t *flags = &m->flags[corner / 3];

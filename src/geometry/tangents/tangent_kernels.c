@@ -146,10 +146,10 @@ LANE_FN dnum inverse_length(struct dvector v)
     return dpick(square > none, one / dsquare_root(dpick(square > none, square, one)), none);
 }
 
-// The part of v perpendicular to n, which is unit.
+// Returns the part of v perpendicular to n, which is unit.
 LANE_FN struct dvector in_plane(struct dvector v, struct dvector n) { return dsubtract(v, dscale(n, ddot(n, v))); }
 
-// The angle between two vectors perpendicular to n; a right one where either is zero.
+// Returns the angle between two vectors perpendicular to n; a right one where either is zero.
 LANE_FN dnum angle_between(struct dvector a, struct dvector b, struct dvector n)
 {
     struct dvector cross = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

@@ -53,7 +53,7 @@ static void *apng_start(const struct animation_settings *settings, lam_error *er
     return apng;
 }
 
-// The smallest box outside which two pictures are equal; one pixel if they are equal.
+// Returns the smallest box outside which two pictures are equal; one pixel if they are equal.
 static struct box changed_box(const lam_image *a, const lam_image *b)
 {
     const size_t row = 4 * (size_t)a->width;
@@ -209,7 +209,7 @@ static uint32_t u32_of(const uint8_t *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-// The most bytes that put_frame appends for a frame: its chunks, each with a number, one that is open, and the
+// Returns the most bytes that put_frame appends for a frame: its chunks, each with a number, one that is open, and the
 // animation's.
 static size_t frame_bytes(const struct apng_frame *frame)
 {

@@ -33,7 +33,7 @@ void adler_zeros(struct adler_part *part, uint64_t count);
 void adler_row(struct adler_part *part, const uint32_t *row, int width, int bytes_per_pixel);
 void adler_join(struct adler_part *part, const struct adler_part *next);
 
-// The checksum as zlib stores it (RFC 1950).
+// Returns the checksum as zlib stores it (RFC 1950).
 uint32_t adler_value(const struct adler_part *part);
 
 #endif

@@ -54,14 +54,14 @@ void deflate_start(struct deflate *deflate, uint8_t filter, bool matches)
         memset(deflate->last_positions, 0xFF, sizeof *deflate->last_positions << DEFLATE_HASH_BITS); // nowhere
 }
 
-// A token whose quarters after the first `used` (1 … 4) are empty, and the others zero.
+// Returns a token whose quarters after the first `used` (1 … 4) are empty, and the others zero.
 static inline uint64_t unused_after(int used)
 {
     const uint64_t all = (uint64_t)DEFLATE_NOTHING * 0x0001000100010001u;
     return used == 4 ? 0 : all << 16 * used;
 }
 
-// A distance's symbol and extra bits (RFC 1951, 3.2.5): from 5 on, two symbols for each power of two.
+// Returns a distance's symbol and extra bits (RFC 1951, 3.2.5): from 5 on, two symbols for each power of two.
 static inline uint64_t distance_of(uint32_t distance)
 {
     uint32_t before = distance - 1;
@@ -94,7 +94,7 @@ static struct token *put_match(struct token *token, size_t left, uint64_t distan
     return token;
 }
 
-// Whether the CHUNK pixels from row[x] on all equal row[x - 1].
+// Returns whether the CHUNK pixels from row[x] on all equal row[x - 1].
 static inline bool chunk_repeats(const uint32_t *row, int x)
 {
     const u32x4 pixel = (u32x4){0} + row[x - 1];
@@ -172,7 +172,7 @@ static inline __attribute__((always_inline)) void find_runs(struct deflate *defl
     deflate->end = token;
 }
 
-// A pixel's four bytes, 16 bits apart.
+// Returns a pixel's four bytes, 16 bits apart.
 static inline uint64_t spread(uint32_t pixel)
 {
     uint64_t x = (pixel | (uint64_t)pixel << 16) & 0x0000FFFF0000FFFFu;
@@ -186,7 +186,7 @@ static inline uint64_t two_pixels(const uint32_t *at)
     return pair;
 }
 
-// The number of equal pixels from `a` and from `b` on, at most `max`. Reads up to two more: rows are padded.
+// Returns the number of equal pixels from `a` and from `b` on, at most `max`. Reads up to two more: rows are padded.
 static inline int equal_pixels(const uint32_t *a, const uint32_t *b, int max)
 {
     int count = 0;

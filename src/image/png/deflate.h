@@ -68,7 +68,7 @@ void deflate_row(struct deflate *deflate, int first, int end);
 // block, which ends on a byte boundary (zlib's sync flush). Returns the number of bytes.
 size_t deflate_write(const struct deflate *deflate, uint8_t *out);
 
-// The maximum number of bytes that deflate_write touches.
+// Returns the maximum number of bytes that deflate_write touches.
 size_t deflate_capacity(int width, int rows, int bytes_per_pixel);
 
 #endif

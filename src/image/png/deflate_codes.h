@@ -61,7 +61,7 @@ struct codes {
     uint64_t bits; // of the whole block
 };
 
-// The symbol of a match of 3 … 258 bytes, and the number of its extra bits.
+// Returns the symbol of a match of 3 … 258 bytes, and the number of its extra bits.
 unsigned length_symbol(unsigned length, unsigned *extra);
 
 // Number of extra bits of a distance symbol.

@@ -25,7 +25,7 @@ static void filter_span(const struct png_encoding *encoding, enum png_filter fil
                    span.end - span.first, encoding->bytes_per_pixel, out);
 }
 
-// The filter with the lowest cost over some of the strip's rows; of equal ones that with the highest number.
+// Returns the filter with the lowest cost over some of the strip's rows; of equal ones that with the highest number.
 static enum png_filter choose_filter(const struct png_encoding *encoding, struct deflate *scratch, int top, int rows)
 {
     uint64_t cost[PNG_FILTER_PAETH + 1] = {0};
@@ -43,7 +43,7 @@ static enum png_filter choose_filter(const struct png_encoding *encoding, struct
     return best;
 }
 
-// Whether the tried rows of a strip of a coloured picture are grey.
+// Returns whether the tried rows of a strip of a coloured picture are grey.
 static bool is_grey(const struct png_encoding *encoding, int top, int rows)
 {
     uint32_t differ = 0;

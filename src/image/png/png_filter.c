@@ -18,7 +18,7 @@ INLINE u8x16 below(u8x16 a, u8x16 b) { return (u8x16)(a < b); }
 // |a − b|, given a < b as a mask.
 INLINE u8x16 distance(u8x16 a, u8x16 b, u8x16 a_below) { return ((a - b) ^ a_below) - a_below; }
 
-// The mean, rounded down, without a ninth bit.
+// Returns the mean, rounded down, without a ninth bit.
 INLINE u8x16 average(u8x16 a, u8x16 b)
 {
     u16x8 half = (u16x8)((a ^ b) & 0xFE) >> 1; // no bit crosses from byte to byte: the lowest is cleared

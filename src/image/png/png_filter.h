@@ -26,14 +26,14 @@ struct png_span {
     int first, end;
 };
 
-// The span of a row of `width` pixels. Whole blocks are examined, so some pixels at its ends may be zero too.
+// Returns the span of a row of `width` pixels. Whole blocks are examined, so some pixels at its ends may be zero too.
 struct png_span png_span_of(const uint8_t *row, int width);
 
-// The span of a row after filtering, from its own and the row above's: a filter also changes the pixel that follows a
-// span.
+// Returns the span of a row after filtering, from its own and the row above's: a filter also changes the pixel that
+// follows a span.
 struct png_span png_span_filtered(struct png_span row, struct png_span above, int width);
 
-// An estimate of how badly a filtered row compresses: Σ |byte|, with bytes as −128…127.
+// Returns an estimate of how badly a filtered row compresses: Σ |byte|, with bytes as −128…127.
 uint64_t png_filter_cost(const uint32_t *filtered, int width);
 
 #endif

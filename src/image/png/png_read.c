@@ -57,7 +57,7 @@ static void widen(lam_image *image)
     }
 }
 
-// Whether pixels can have an alpha below 1.
+// Returns whether pixels can have an alpha below 1.
 static bool has_alpha(spng_ctx *spng, const struct spng_ihdr *header)
 {
     struct spng_trns transparent;
@@ -66,7 +66,7 @@ static bool has_alpha(spng_ctx *spng, const struct spng_ihdr *header)
            spng_get_trns(spng, &transparent) != SPNG_ECHUNKAVAIL;
 }
 
-// The channels of a picture that png_read_whole reads; 0: it does not.
+// Returns the channels of a picture that png_read_whole reads; 0: it does not.
 static int whole_channels(const struct spng_ihdr *header, bool alpha)
 {
     if (header->bit_depth != 8 || header->interlace_method != SPNG_INTERLACE_NONE)

@@ -38,7 +38,7 @@ static bool open_inflater(struct inflater *d)
 
 // --- the chunks
 
-// Whether a whole chunk of a type lies at a place, and its length.
+// Returns whether a whole chunk of a type lies at a place, and its length.
 static bool chunk_at(const struct picture_file *file, size_t at, const char *type, uint32_t *length)
 {
     const uint8_t *chunk = (const uint8_t *)file->bytes + at;
@@ -54,7 +54,7 @@ static bool is_intact(const struct inflater *d, const struct picture_file *file,
     return d->crc(0, chunk + 4, (size_t)length + 4) == png_u32_at(chunk + 8 + length);
 }
 
-// The first chunk of pixels; 0: none.
+// Returns the first chunk of pixels, or 0 if there is none.
 static size_t find_pixels(const struct picture_file *file)
 {
     uint32_t length;
@@ -174,7 +174,7 @@ static inline __attribute__((always_inline)) void unfilter(uint8_t *row, const u
         unfilter(row, above, from, width, size, 4, channels);                                                          \
         break;
 
-// A row of the file: its filter, then its pixels. False: an unknown filter.
+// A row of the file: its filter, then its pixels. Returns false if the filter is unknown.
 static bool unfilter_row(uint8_t *row, const uint8_t *above, const uint8_t *from, size_t width, size_t size,
                          int channels)
 {

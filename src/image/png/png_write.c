@@ -62,7 +62,7 @@ static size_t put_chunk(const struct crc_tables *crc, const char *type, const vo
 typedef uint32_t u32x4 __attribute__((vector_size(16)));
 typedef u32x4 u32x4_memory __attribute__((aligned(1), may_alias));
 
-// The channels that some pixels need.
+// Returns the channels that some pixels need.
 static int channels_of(const uint8_t *pixels, size_t count)
 {
     u32x4 differ = {0}, all = ~differ;

@@ -21,7 +21,7 @@
 
 #include <string.h>
 
-// A binary file, or a JSON object with the key "asset".
+// Returns a binary file, or a JSON object with the key "asset".
 static int gltf_probe(const uint8_t *bytes, size_t size)
 {
     static const char key[] = "\"asset\"";

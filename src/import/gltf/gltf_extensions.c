@@ -85,7 +85,7 @@ bool gltf_check_asset(struct gltf *gltf)
     return true;
 }
 
-// A list of texts; NULL if it is missing or, with *ok false, wrong.
+// Returns a list of texts; NULL if it is missing or, with *ok false, wrong.
 static const json_t *take_names(struct gltf *gltf, const char *key, bool *ok)
 {
     const json_t *list = json_object_get(gltf->root, key);

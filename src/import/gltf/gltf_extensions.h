@@ -4,8 +4,8 @@
 
 #include "gltf.h"
 
-// Checks "asset" (section 3.2), and the extensions that the file requires (section 3.12). False: the file needs a later
-// version, or an extension that is not known here (unless the load is lenient): LAM_UNSUPPORTED.
+// Checks "asset" (section 3.2), and the extensions that the file requires (section 3.12). Returns false if the file
+// needs a later version, or an extension that is not known here (unless the load is lenient): LAM_UNSUPPORTED.
 bool gltf_check_asset(struct gltf *gltf);
 bool gltf_check_extensions(struct gltf *gltf);
 

@@ -9,7 +9,7 @@
 
 #define NEW(gltf, count, type) ((type *)arena_alloc_zeroed(&(gltf)->scene->arena, (size_t)(count) * sizeof(type)))
 
-// A copy of a text; *out NULL if there is none. False: out of memory.
+// A copy of a text; *out NULL if there is none. Returns false if memory runs out.
 static bool take(struct gltf *gltf, const json_t *object, const char *key, const char **out)
 {
     const char *text = json_string_value(json_object_get(object, key));
@@ -29,7 +29,7 @@ static bool take_names(struct gltf *gltf, const json_t *list, const char *const 
     return names;
 }
 
-// The last key of the sampler that a channel names: the format demands that its accessor states it.
+// Returns the last key of the sampler that a channel names: the format demands that its accessor states it.
 static double last_key(const struct gltf *gltf, const json_t *sampler)
 {
     const json_t *accessors = json_object_get(gltf->root, "accessors"), *input = json_object_get(sampler, "input");

@@ -4,18 +4,18 @@
 
 #include "gltf.h"
 
-// Parses the text into gltf->root and checks that the file's lists are lists of objects. False: it is wrong.
+// Parses the text into gltf->root and checks that the file's lists are lists of objects. Returns false if it is wrong.
 bool gltf_json_parse(struct gltf *gltf, const uint8_t *text, size_t size);
 void gltf_json_free(struct gltf *gltf);
 
-// A list of the file ("accessors"): its length, and one of its elements.
+// Returns a list of the file ("accessors"): its length, and one of its elements.
 size_t gltf_list_size(const struct gltf *gltf, const char *list);
 const json_t *gltf_list_item(const struct gltf *gltf, const char *list, int index);
 
-// The extension of an object; NULL: it has none of this name.
+// Returns the extension of an object, or NULL if it has none of this name.
 const json_t *gltf_extension(const json_t *object, const char *name);
 
-// A whole number in [min, max]. *out stays as it is where the key is missing. False: it is wrong.
+// A whole number in [min, max]. *out stays as it is where the key is missing. Returns false if it is wrong.
 bool gltf_take_whole(struct gltf *gltf, const struct place *place, const json_t *object, const char *key, double min,
                      double max, size_t *out);
 // An index into a list of the file; −1 where the key is missing.
@@ -36,17 +36,19 @@ bool gltf_take_factors(struct gltf *gltf, const struct place *place, const json_
 // The weights of morph targets; *out NULL: there are none.
 bool gltf_take_weights(struct gltf *gltf, const struct place *place, const json_t *object, double **out, size_t *count);
 
-// The key's value, which is an object (or a list, only of objects); NULL if it is missing or, with *ok false, wrong.
+// Returns the key's value, which is an object (or a list, only of objects); NULL if it is missing or, with *ok false,
+// wrong.
 const json_t *gltf_take_object(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                                bool *ok);
 const json_t *gltf_take_list(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                              bool *ok);
 
-// The name of an object, copied into the scene. NULL: it has none, or memory has run out (*ok becomes false).
+// Returns the name of an object, copied into the scene. Returns NULL if it has none, or memory has run out (*ok becomes
+// false).
 const char *gltf_name(struct gltf *gltf, const json_t *object, bool *ok);
 
-// The element of a list (NULL: an empty one) that the caller names: by its name, else by its number from 0. −1: an
-// error that lists them; `what` is the word for one.
+// Returns the element of a list (NULL: an empty one) that the caller names: by its name, else by its number from 0.
+// Returns −1 with an error that lists them; `what` is the word for one.
 int gltf_find_named(struct gltf *gltf, const json_t *list, const char *wanted, const char *what);
 
 #endif

@@ -46,7 +46,7 @@ struct instances {
     size_t count;
 };
 
-// Whether all instances are within the call's limits, before the first one is made.
+// Returns whether all instances are within the call's limits, before the first one is made.
 static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, size_t count)
 {
     struct call_control *call = gltf->source->call;
@@ -69,7 +69,7 @@ static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, siz
     return true;
 }
 
-// False: the call must end. The clock is read once for this many objects.
+// Returns false if the call must end. The clock is read once for this many objects.
 static bool continues(struct gltf *gltf, size_t number)
 {
     struct call_control *call = gltf->source->call;

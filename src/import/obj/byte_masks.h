@@ -50,7 +50,7 @@ static inline struct byte_masks byte_masks_of(const uint8_t *at)
     return masks;
 }
 
-// The newline mask alone.
+// Returns the newline mask alone.
 static inline uint64_t byte_masks_newlines(const uint8_t *at)
 {
     const __m128i newline = _mm_set1_epi8('\n');

@@ -29,7 +29,8 @@ struct reader {
     size_t unknown_count, stray_count, wide_count;
 };
 
-// The line number of `at`, for warnings. Counts on from the previous call: many warnings take one pass over the file.
+// Returns the line number of `at`, for warnings. Counts on from the previous call: many warnings take one pass over the
+// file.
 static size_t line_of(struct reader *reader, const uint8_t *at)
 {
     if (at < reader->counted_to || !reader->counted_to) {
@@ -72,7 +73,7 @@ static float within(struct reader *reader, const uint8_t *at, float x, float low
     return to;
 }
 
-// A channel as linear light. Values from 1 on, where sRGB ends, are kept unchanged.
+// Returns a channel as linear light. Values from 1 on, where sRGB ends, are kept unchanged.
 static float linear(const struct reader *reader, float c)
 {
     return reader->raw || c >= 1 ? c : (float)srgb_linear((double)c);

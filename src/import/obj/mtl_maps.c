@@ -94,7 +94,8 @@ static bool take_word(struct options *o, const char *word)
     return true;
 }
 
-// Takes the channel of -imfchan; m, l and z are the matte (alpha), the luminance and the depth. False: it is none of them.
+// Takes the channel of -imfchan; m, l and z are the matte (alpha), the luminance and the depth. Returns false if it is
+// none of them.
 static bool take_channel(struct options *o, int *channel)
 {
     static const char letters[] = "rgbmlz";
@@ -181,7 +182,7 @@ static bool can_do_without(const lam_error *error)
 
 // --- materials
 
-// Whether the pictures of two maps are the same file's same channel.
+// Returns whether the pictures of two maps are the same file's same channel.
 static bool is_own_alpha(const lam_material *m)
 {
     return m->map_names[LAM_MAP_OPACITY] && m->map_names[LAM_MAP_DIFFUSE] &&

@@ -126,7 +126,8 @@ struct obj {
 
 // obj_scan.c. The begin of the next logical line, or `end`. A backslash before '\n' continues a line.
 const uint8_t *obj_next_line(const uint8_t *at, const uint8_t *end);
-// The next word of the statement, or its end ('\n' or `end`). Skips white space, line continuations and a comment.
+// Returns the next word of the statement, or its end ('\n' or `end`). Skips white space, line continuations and a
+// comment.
 const uint8_t *obj_next_word_slow(const uint8_t *at, const uint8_t *end);
 bool obj_split(struct obj *obj, size_t chunk_bytes, lam_error *error);
 bool obj_scan(struct obj *obj, lam_error *error); // pass one
@@ -199,10 +200,10 @@ static inline const uint8_t *obj_next_word(const uint8_t *at, const uint8_t *end
     return *at > '#' && *at != '\\' ? at : obj_next_word_slow(at, end);
 }
 
-// Whether `at` is the statement's end, after obj_next_word.
+// Returns whether `at` is the statement's end, after obj_next_word.
 static inline bool obj_at_line_end(const uint8_t *at, const uint8_t *end) { return *at == '\n' || at >= end; }
 
-// Whether a word ends at `at`.
+// Returns whether a word ends at `at`.
 static inline bool obj_at_word_end(const uint8_t *at)
 {
     return *at <= ' ' || (*at == '\\' && (at[1] == '\n' || (at[1] == '\r' && at[2] == '\n')));

@@ -218,7 +218,7 @@ static bool use_material(struct state *state, const uint8_t *at, lam_error *erro
 
 // --- the statements in order
 
-// The group of an "s" statement; 0: off.
+// Returns the group of an "s" statement; 0: off.
 static uint32_t read_smoothing(const struct obj *obj, const uint8_t *at)
 {
     const uint8_t *end = text_line_end(at, obj->end);

@@ -195,8 +195,8 @@ static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t
     return next;
 }
 
-// The index of a corner's texture coordinate or normal. If the elements of its kind are not kept (not `kept`), it is
-// skipped, and *unknown is set.
+// Returns the index of a corner's texture coordinate or normal. If the elements of its kind are not kept (not `kept`),
+// it is skipped, and *unknown is set.
 static inline const uint8_t *read_further_index(struct obj_reader *reader, const uint8_t *at, bool kept, uint64_t total,
                                                 uint64_t so_far, const char *what, bool *unknown, uint32_t *out)
 {

@@ -78,8 +78,8 @@ static inline uint64_t newlines_of(const struct constants *c, const uint8_t *blo
     return mask_bits(_mm512_cmpeq_epi8_mask(_mm512_loadu_epi8(block), c->newline));
 }
 
-// Reads three numbers of one to eight digits, separated by one space, each from 1 to the index limit. False: the line,
-// which ends at `line_end`, has another form.
+// Reads three numbers of one to eight digits, separated by one space, each from 1 to the index limit. Returns false if
+// the line, which ends at `line_end`, has another form.
 static inline bool read_triangle(const struct constants *c, const uint8_t *line, const uint8_t *line_end,
                                  uint32_t to[3])
 {

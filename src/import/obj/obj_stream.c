@@ -319,7 +319,7 @@ static bool reserve_arrays(struct stream *stream)
     return true;
 }
 
-// Whether all indices of the faces exist, and the counts are in range.
+// Returns whether all indices of the faces exist, and the counts are in range.
 static bool indices_valid(const struct stream *stream)
 {
     const struct obj_counts *total = &stream->total;
@@ -335,7 +335,7 @@ static bool indices_valid(const struct stream *stream)
            total->triangles <= call_triangle_limit(stream->obj->source->call);
 }
 
-// Trims the array to its elements and passes its ownership to the arena. NULL: out of memory.
+// Trims the array to its elements and passes its ownership to the arena. Returns NULL if memory runs out.
 static void *pass_to_arena(struct stream *stream, enum array kind, struct arena *arena)
 {
     size_t bytes = (size_t)count_of(&stream->total, kind) * array_kinds[kind].row;

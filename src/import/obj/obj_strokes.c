@@ -25,7 +25,7 @@ static const uint8_t *fail_word(const struct reading *r, const uint8_t *at, cons
     return NULL;
 }
 
-// An index from 1, or counted back from `so_far`. NULL: error.
+// Returns an index from 1, or counted back from `so_far`. NULL: error.
 static const uint8_t *read_index(const struct reading *r, const uint8_t *at, uint64_t total, uint64_t so_far,
                                  const char *name, uint32_t *out)
 {
@@ -51,7 +51,7 @@ static const uint8_t *read_index(const struct reading *r, const uint8_t *at, uin
     return next;
 }
 
-// The next vertex of a statement; *found false: there is no more.
+// Returns the next vertex of a statement; *found false: there is no more.
 static const uint8_t *read_vertex(const struct reading *r, const uint8_t *at, uint32_t *position, uint32_t *texcoord,
                                   bool *found)
 {

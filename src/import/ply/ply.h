@@ -56,7 +56,7 @@ size_t ply_type_size(enum ply_type type);
 const char *ply_type_name(enum ply_type type);
 static inline bool ply_type_is_integer(enum ply_type type) { return type < PLY_F32; }
 
-// Index of a property of that name, list or scalar; −1: none.
+// Index of a property of that name, list or scalar, or −1 if there is none.
 int ply_find(const struct ply_element *element, bool list, const char *name);
 
 // The type of x, y and z in a table. The declared types of an ASCII file say little about its decimals: positions are
@@ -109,7 +109,7 @@ bool ply_fail_too_many(const struct import_source *source, const struct ply_elem
 
 // Finds the scalar properties of these names (−1: none). Returns whether all exist.
 bool ply_find_all(const struct ply_table *table, const char *const *names, int count, int *properties);
-// Whether the properties are adjacent floats in the machine's byte order, so that memcpy can copy them.
+// Returns whether the properties are adjacent floats in the machine's byte order, so that memcpy can copy them.
 bool ply_contiguous(const struct ply_table *table, const int *properties, int count);
 // Finds red, green, blue and alpha by any of their usual names. Returns whether the first three exist.
 bool ply_find_colors(const struct ply_table *table, int properties[4]);

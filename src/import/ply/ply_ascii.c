@@ -23,7 +23,7 @@ static bool fail_number(const struct ply_reader *reader, size_t row, int propert
                      shown_name(reader->element->properties[property].name, shown[1]), expected);
 }
 
-// Reads a word that is an integer; NULL: it is none.
+// Reads a word that is an integer, or NULL if it is none.
 static const uint8_t *read_integer(const struct ply_reader *reader, const uint8_t *at, int64_t *value)
 {
     const uint8_t *next = number_int(at, reader->end, value);
@@ -91,7 +91,7 @@ static const uint8_t *read_item(const struct ply_reader *reader, size_t row, con
     return next;
 }
 
-// The first word that follows on the line; NULL: none.
+// Returns the first word that follows on the line, or NULL if there is none.
 static const uint8_t *rest_of_line(const uint8_t *at, const uint8_t *end)
 {
     while (at < end && text_white(*at) && *at != '\n' && *at != '\r')

@@ -79,7 +79,7 @@ static bool read_triangles(void *user, size_t index, lam_error *error)
     return true;
 }
 
-// Whether the remaining bytes are exactly rows with three items each and the elements after them.
+// Returns whether the remaining bytes are exactly rows with three items each and the elements after them.
 static bool may_be_triangles(const struct ply_reader *reader, const struct ply_header *header)
 {
     const struct ply_element *element = reader->element, *end = header->elements + header->element_count;

@@ -159,7 +159,7 @@ bool ply_tangents(const struct import_source *source, const struct ply_table *ta
     return !ply_find_all(table, names, 3, vectors.properties) || read_vectors(source, &vectors, 3, arena, out, error);
 }
 
-// The divisor that maps 8- and 16-bit integers to 0…1.
+// Returns the divisor that maps 8- and 16-bit integers to 0…1.
 static float divisor_of(enum ply_type type)
 {
     static const float divisors[PLY_TYPE_COUNT] = {

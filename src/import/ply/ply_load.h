@@ -38,7 +38,7 @@ static inline float ply_load_f32(const uint8_t *at, bool swapped)
     return value;
 }
 
-// A number of an integer type.
+// Returns a number of an integer type.
 static inline int64_t ply_load_integer(const uint8_t *at, enum ply_type type, bool swapped)
 {
     switch (type) {
@@ -57,7 +57,7 @@ static inline int64_t ply_load_integer(const uint8_t *at, enum ply_type type, bo
     }
 }
 
-// A number of any type; exact.
+// Returns a number of any type; exact.
 static inline double ply_load_double(const uint8_t *at, enum ply_type type, bool swapped)
 {
     if (type == PLY_F32)

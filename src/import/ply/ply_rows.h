@@ -28,7 +28,7 @@ struct ply_reader {
 // Allocates the arrays that the serial pass fills.
 bool ply_start_rows(struct ply_reader *reader, struct arena *scratch, lam_error *error);
 
-// The serial pass at the start of a row. False: the call must end.
+// The serial pass at the start of a row. Returns false if the call must end.
 bool ply_index_row(struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error);
 // The serial pass at a row's requested list.
 static inline void ply_count_items(struct ply_reader *reader, int64_t items)

@@ -78,7 +78,7 @@ static void read_faces(void *user, size_t index, int thread)
         set_unsupported(stream);
 }
 
-// Whether the header declares the usual layout and the file has its bytes.
+// Returns whether the header declares the usual layout and the file has its bytes.
 static bool has_usual_layout(const struct ply_header *header, size_t size, const struct call_control *call)
 {
     if (header->format != PLY_LITTLE || header->element_count != 2)

@@ -24,7 +24,7 @@ bool stl_load_stream(const struct import_source *source, const struct file_parts
 
 enum { STL_FACETS_MAX = 1431655765 }; // (2³² − 1) ÷ 3: corners have 32-bit indices
 
-// Whether a file may have this many facets; false: LAM_LIMIT.
+// Returns whether a file may have this many facets; false: LAM_LIMIT.
 static inline bool stl_check_count(const struct import_source *source, uint64_t facets, lam_error *error)
 {
     if (facets > STL_FACETS_MAX)

@@ -113,9 +113,9 @@ static bool color_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-// Whether facets have colours; sets dialect and fallback. With "COLOR=" in the header they have, unless all words are
-// zero: the header's colour then applies to the whole file (*uniform). Without "COLOR=" it has if some words have bit
-// 15 set and the others are zero or equal, a default; more varied words are not colours.
+// Returns whether facets have colours; sets dialect and fallback. With "COLOR=" in the header they have, unless all
+// words are zero: the header's colour then applies to the whole file (*uniform). Without "COLOR=" it has if some words
+// have bit 15 set and the others are zero or equal, a default; more varied words are not colours.
 static bool colors_of(struct reader *reader, const struct words *words, bool *uniform)
 {
     static const char key[] = "COLOR=";

@@ -45,7 +45,7 @@ static void read_facets(void *user, size_t index, int thread)
         __atomic_store_n(&stream->unsupported, 1, __ATOMIC_RELAXED);
 }
 
-// Whether the header contains "COLOR=": colours of Materialise Magics.
+// Returns whether the header contains "COLOR=": colours of Materialise Magics.
 static bool has_color(const uint8_t *header)
 {
     for (int at = 0; at + 6 <= STL_HEADER; at++)

@@ -122,7 +122,7 @@ struct threemf {
 
 // Room for `count` rows of `size` bytes each. False: out of memory, and the error says so.
 bool threemf_reserve(struct threemf *file, struct threemf_rows *rows, size_t size, size_t count);
-// A zeroed row at the end of a list. NULL: out of memory, and the error says so.
+// Returns a zeroed row at the end of a list. NULL: out of memory, and the error says so.
 void *threemf_add(struct threemf *file, struct threemf_rows *rows, size_t size);
 void threemf_rows_free(struct threemf *file, struct threemf_rows *rows);
 bool threemf_no_memory(struct threemf *file, size_t bytes);
@@ -141,9 +141,9 @@ bool threemf_package_read_whole(struct threemf *file, const char *name, const ui
 
 // --- the model
 
-// The part of this path, read when it is first asked for. NULL: the error says why not.
+// Returns the part of this path, read when it is first asked for. Returns NULL and sets the error.
 struct threemf_part *threemf_part_at(struct threemf *file, const char *path);
-// A resource of a part by its id; NULL: there is none.
+// Returns a resource of a part by its id, or NULL if there is none.
 struct threemf_resource *threemf_resource_at(const struct threemf_part *part, int32_t id);
 
 // threemf_properties.c: the colour of an element of a group, linear.

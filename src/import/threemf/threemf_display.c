@@ -22,7 +22,7 @@ bool begin_display(struct threemf_xml *xml, const char *const *attributes)
     return group != NULL;
 }
 
-// A number from 0 to 1 that may be missing. False: it is another one, and a warning says so.
+// A number from 0 to 1 that may be missing. Returns false if it is another one, and a warning says so.
 static bool take_share(struct threemf_xml *xml, const char *const *attributes, const char *name, float *out)
 {
     if (!threemf_attribute(attributes, name))

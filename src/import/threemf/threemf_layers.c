@@ -218,7 +218,7 @@ static bool mix_texture(struct threemf *file, const struct mixed_layer *layers, 
     return *out && scene_adopt_texture(file->scene, *out, file->error);
 }
 
-// Whether a product is what the layers are: one texture, and no layer is mixed with those below it.
+// Returns whether a product is what the layers are: one texture, and no layer is mixed with those below it.
 static bool needs_no_mixing(const struct threemf_layers *layers)
 {
     bool mixes = layers->texture_count > 1;
@@ -227,7 +227,7 @@ static bool needs_no_mixing(const struct threemf_layers *layers)
     return !mixes;
 }
 
-// Collects the layers. False: they cannot be one texture.
+// Collects the layers. Returns false if they cannot be one texture.
 static bool collect_layers(struct model_reader *reader, const struct threemf_layers *layers, struct mixed_layer *out)
 {
     const lam_texture_map *first = NULL;
@@ -247,7 +247,7 @@ static bool collect_layers(struct model_reader *reader, const struct threemf_lay
     return !layers->varies;
 }
 
-// A material with the mixed texture, and otherwise that of a base material in the first layer.
+// Returns a material with the mixed texture, and otherwise that of a base material in the first layer.
 static int add_mixed_material(struct threemf *file, const lam_texture_map *like, lam_texture *texture, int base)
 {
     lam_material material = base >= 0 ? *lam_scene_material(file->scene, base) : lam_material_default();

@@ -102,7 +102,8 @@ static int by_number(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-// Lists the triangles as (material + 1) · 2³² + number, in the order of their materials. NULL: out of memory.
+// Lists the triangles as (material + 1) · 2³² + number, in the order of their materials. Returns NULL if memory runs
+// out.
 static uint64_t *order_triangles(const struct mesh_maker *maker, size_t count, size_t *materials)
 {
     uint64_t *order = arena_array(maker->scratch, count, sizeof *order);

@@ -143,7 +143,7 @@ static bool begin_triangle(struct threemf_xml *xml, const char *const *attribute
     return take_property(xml, attributes, property);
 }
 
-// Copies rows into an arena; NULL: there are none, or memory is out.
+// Copies rows into an arena, or NULL if there are none, or memory is out.
 static void *keep_rows(struct model_reader *reader, struct arena *arena, const struct threemf_rows *rows, size_t size,
                        bool *ok)
 {

@@ -65,15 +65,15 @@ struct model_reader {
 
 static inline struct model_reader *reader_of(struct threemf_xml *xml) { return xml->user; }
 
-// Adds a resource with the id of these attributes. NULL: the error says why not.
+// Adds a resource with the id of these attributes. Returns NULL and sets the error.
 struct threemf_resource *model_add_resource(struct threemf_xml *xml, const char *const *attributes,
                                             enum resource_kind kind);
 
-// A resource by its number; the group that is open.
+// Returns a resource by its number; the group that is open.
 struct threemf_resource *model_resource(struct threemf_part *part, int32_t index);
 struct threemf_resource *model_group(struct model_reader *reader);
 bool model_add_color(struct threemf *file, struct threemf_part *part, const float color[4]);
-// Reads the next whole number below `limit` of a list in an attribute. False: there is none.
+// Reads the next whole number below `limit` of a list in an attribute. Returns false if there is none.
 bool model_next_number(const char **at, uint32_t limit, uint32_t *out);
 bool model_at_end(const char *at); // only spaces are left
 

@@ -57,7 +57,7 @@ static uint64_t entries_of(const uint8_t *bytes, size_t size, size_t end)
     return large > count ? large : count;
 }
 
-// The largest number of entries that any closing record claims; libzip may believe any. False: there is none.
+// The largest number of entries that any closing record claims; libzip may believe any. Returns false if there is none.
 static bool claimed_entries(const uint8_t *bytes, size_t size, uint64_t *out)
 {
     bool found = false;
@@ -164,7 +164,8 @@ static bool fail_part(struct threemf *file, const char *name, const char *why)
                 shown_name(name, shown), why);
 }
 
-// The index of a part. Names differ in capitals between programs, but a list of many entries is searched by the hash of its names alone.
+// Returns the index of a part. Names differ in capitals between programs, but a list of many entries is searched by the
+// hash of its names alone.
 static zip_int64_t locate(const struct zip_library *zip, const char *name)
 {
     enum { FEW = 1000 };

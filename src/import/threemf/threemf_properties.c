@@ -125,7 +125,7 @@ static lam_wrap wrap_of(const char *const *attributes, const char *name)
                                                 : LAM_WRAP_CLAMP;
 }
 
-// Whether a load continues without a picture that could not be read.
+// Returns whether a load continues without a picture that could not be read.
 static bool can_do_without(const lam_error *error)
 {
     return error->code == LAM_CANNOT_READ || error->code == LAM_UNSUPPORTED || error->code == LAM_BAD_ARGUMENT;
@@ -179,7 +179,7 @@ bool begin_texture(struct threemf_xml *xml, const char *const *attributes)
     return true;
 }
 
-// A white material with the texture. The default, without it, if its picture could not be read.
+// Returns a white material with the texture. The default, without it, if its picture could not be read.
 static int add_textured_material(struct threemf *file, const lam_texture_map *map)
 {
     lam_material material = lam_material_default();

@@ -151,7 +151,7 @@ static bool declare(struct threemf_xml *xml, const char *prefix, const char *uri
     return true;
 }
 
-// The name space of an element's or attribute's name. False: its prefix is not declared.
+// The name space of an element's or attribute's name. Returns false if its prefix is not declared.
 static bool find_space(const struct xml_parser *parser, const char *name, enum threemf_namespace *out)
 {
     const char *colon = strchr(name, ':');
@@ -199,7 +199,7 @@ static bool take_spaces(struct threemf_xml *xml, const char *name, const char *c
 
 // --- elements
 
-// The part of a name after its prefix.
+// Returns the part of a name after its prefix.
 static const char *local_name(const char *name)
 {
     const char *colon = strchr(name, ':');

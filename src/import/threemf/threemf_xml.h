@@ -52,7 +52,7 @@ size_t threemf_xml_line(const struct threemf_xml *xml);
 // "FILE: PART:LINE: sentence". Returns false.
 bool threemf_xml_fail(struct threemf_xml *xml, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// The value of an attribute without a prefix; NULL: the element has none of this name.
+// Returns the value of an attribute without a prefix, or NULL if the element has none of this name.
 const char *threemf_attribute(const char *const *attributes, const char *name);
 // The same of an attribute of a name space, while its element begins.
 const char *threemf_attribute_of(const struct threemf_xml *xml, const char *const *attributes,

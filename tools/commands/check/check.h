@@ -34,7 +34,7 @@ struct check_submission {
 };
 void check_free_submissions(struct check_submission *submissions, int count);
 
-// The length of a path without its extension: "a/phong" of "a/phong.frag" and "a/phong.frag.glsl".
+// Returns the length of a path without its extension: "a/phong" of "a/phong.frag" and "a/phong.frag.glsl".
 size_t check_stem_length(const char *path);
 bool check_same_stem(const char *a, const char *b);
 bool check_is_vertex(const char *path);   // by its ending: .vert, .vs, .vsh or .vertex, each also followed by .glsl
@@ -47,9 +47,8 @@ int check_pair(int count, char **files, const char *vertex, struct check_submiss
 // Finds the submissions of a class, in alphabetical order. Returns their count; −1: see `error`.
 int check_find(const char *folder, struct check_submission **submissions, lam_error *error);
 
-// The path of a sheet, from malloc: `output`, or if that is a folder, as it is for a class, the submission's name in it
-// with '-' for '/'.
-// NULL: out of memory.
+// Returns the path of a sheet, from malloc: `output`, or if that is a folder, as it is for a class, the submission's
+// name in it with '-' for '/'. Returns NULL if memory runs out.
 char *check_sheet_path(const char *output, const struct check_submission *submissions, int index, bool in_class);
 
 // Reads a text file, or standard input for "-", into memory from malloc. NULL: see `error`.
@@ -66,10 +65,12 @@ struct check_result {
     int code;                // the exit code for this shader alone
 };
 
-// A scene's result in one or two words: same, differs, or black (equal to a black reference, which earns no points).
+// Returns a scene's result in one or two words: same, differs, or black (equal to a black reference, which earns no
+// points).
 const char *check_scene_word(const lam_check_scene *scene);
 
-// A scene's part of the points: its weight or 0; −1: it does not count, since the exercise asks for none of its terms.
+// Returns a scene's part of the points: its weight or 0, or −1 if it does not count, since the exercise asks for none
+// of its terms.
 double check_scene_points(const lam_check_scene *scene);
 
 struct check_points {
@@ -106,7 +107,7 @@ int check_csv_row(FILE *file, const struct check_result *result);
 int check_moodle_head(FILE *file);
 int check_moodle_row(FILE *file, const struct check_result *result);
 
-// The result of one submission as a file of JSON. Likewise.
+// Returns the result of one submission as a file of JSON. Likewise.
 int check_gradescope(FILE *file, const struct check_result *result);
 int check_submitty(FILE *file, const struct check_result *result);
 

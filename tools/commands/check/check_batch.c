@@ -211,7 +211,7 @@ static void print_result(struct work *w, const struct check_result *result)
 
 // --- the threads
 
-// The next submission to check; −1: none. Waits where many results wait for one that is slow.
+// Returns the next submission to check, or −1 if there is none. Waits where many results wait for one that is slow.
 static int take_next(struct work *w)
 {
     pthread_mutex_lock(&w->lock);

@@ -56,7 +56,7 @@ static void free_paths(char **paths, int count)
 
 static int by_name(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
 
-// The paths of a folder's entries in alphabetical order, without hidden ones. −1: see `error`.
+// Returns the paths of a folder's entries in alphabetical order, without hidden ones. −1: see `error`.
 static int list_folder(const char *folder, char ***paths, lam_error *error)
 {
     DIR *open = opendir(folder);
@@ -88,7 +88,7 @@ static int list_folder(const char *folder, char ***paths, lam_error *error)
     return count;
 }
 
-// A path below the class's folder, without the ending of a shader.
+// Returns a path below the class's folder, without the ending of a shader.
 static char *name_of(const char *top, const char *path, bool is_file)
 {
     const char *name = path + strlen(top);
@@ -97,7 +97,7 @@ static char *name_of(const char *top, const char *path, bool is_file)
     return strndup(name, is_file ? check_stem_length(name) : strlen(name));
 }
 
-// The vertex shader for a fragment shader, from the same folder. NULL: none.
+// Returns the vertex shader for a fragment shader, from the same folder. Returns NULL if there is none.
 static const char *vertex_for(const char *fragment, char **fragments, int fragment_count, char **vertices,
                               int vertex_count)
 {

@@ -42,7 +42,7 @@ bool diff_draw(void *user, size_t model, struct job *job, struct progress *progr
 // How a model has changed, by its record.
 enum change diff_change_of(const json_t *record);
 
-// diff_page.c: the page in one file, from malloc. NULL: out of memory.
+// diff_page.c: the page in one file, from malloc. Returns NULL if memory runs out.
 char *diff_page(const struct model_diff *diff, json_t *const *records);
 
 #endif

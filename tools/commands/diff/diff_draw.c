@@ -35,7 +35,7 @@ static bool box_of(const lam_scene *a, const lam_scene *b, struct box *box)
     return true;
 }
 
-// A scene that is a box and nothing else: the camera is fitted to it.
+// Returns a scene that is a box and nothing else: the camera is fitted to it.
 static lam_scene *scene_of_box(const struct box *box, lam_up up, lam_error *error)
 {
     float positions[24];

@@ -17,7 +17,7 @@
 
 // --- the pairs
 
-// A model's name below its folder.
+// Returns a model's name below its folder.
 static const char *name_of(const struct batch_model *model)
 {
     size_t root = model->root ? strlen(model->root) : 0;

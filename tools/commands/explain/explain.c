@@ -54,7 +54,7 @@ static int report_job_failure(const struct job *job, lam_error *error)
 
 // --- the figure
 
-// The target of the figure; NULL without an error: there is none. `*failed`: memory was out.
+// Returns the target of the figure; NULL without an error: there is none. `*failed`: memory was out.
 static char *figure_path(const struct options *o, const char *model, bool *failed)
 {
     *failed = false;

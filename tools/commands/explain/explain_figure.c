@@ -91,7 +91,7 @@ static bool is_short(const struct diagram *g, int arrow)
     return length_of(minus(g->tips[arrow], g->from)) < 9 * g->unit;
 }
 
-// The distance of a point from the arrow's line.
+// Returns the distance of a point from the arrow's line.
 static double distance_of(struct point p, const struct diagram *g, int arrow)
 {
     struct point way = minus(g->tips[arrow], g->from), to = minus(p, g->from);
@@ -174,7 +174,8 @@ static bool draw_diagram(const struct diagram *g, struct drawing *d, lam_error *
     return spot;
 }
 
-// The tips of all arrows of this length in the picture, from the point that is lit. False: one lies outside of it.
+// The tips of all arrows of this length in the picture, from the point that is lit. Returns false if one lies outside
+// of it.
 static bool find_tips(const struct explain_figure *f, const struct subject *s, double length, double margin,
                       struct point tips[ARROWS])
 {

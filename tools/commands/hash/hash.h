@@ -23,10 +23,12 @@ struct hash_run {
 
 // hash_sheet.c
 
-// The path of the sheet beside a file of hashes, from malloc: "pictures-changes.png". NULL: out of memory.
+// Returns the path of the sheet beside a file of hashes, from malloc: "pictures-changes.png". Returns NULL if memory
+// runs out.
 char *hash_sheet_path(const char *file);
 
-// The file of a kept picture (--pictures), from malloc: "DIR/models/koala.obj.png". NULL: out of memory.
+// Returns the file of a kept picture (--pictures), from malloc: "DIR/models/koala.obj.png". Returns NULL if memory runs
+// out.
 char *hash_picture_path(const char *folder, const char *name);
 
 // Keeps, while the sheet has rows for it, the new picture of a model, and the old one that was kept before, for the sheet. `found` gets both.

@@ -43,7 +43,7 @@ const struct hash_entry *hash_file_find(const struct hash_file *file, const char
 
 // --- reading
 
-// Replaces the escapes of a name in place. False: an unknown one.
+// Replaces the escapes of a name in place. Returns false if an escape is unknown.
 static bool unescape(char *name)
 {
     char *to = name;

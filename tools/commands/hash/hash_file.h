@@ -26,20 +26,20 @@ struct hash_file {
 bool hash_file_read(struct hash_file *file, const char *path, lam_error *error);
 void hash_file_free(struct hash_file *file);
 
-// The entry of a name; NULL: there is none.
+// Returns the entry of a name, or NULL if there is none.
 const struct hash_entry *hash_file_find(const struct hash_file *file, const char *name);
 
 // Sorts the entries by their names, each of which is there once.
 void hash_file_sort(struct hash_file *file);
 
-// The text of the file, from malloc. NULL: out of memory.
+// Returns the text of the file, from malloc. Returns NULL if memory runs out.
 char *hash_file_text(const struct hash_file *file);
 
-// The name of a model as it stands in the file `path`, from malloc: relative to that file's folder, also if either is reached by a link.
-// The name of a built-in shape stays. NULL: out of memory.
+// Returns the name of a model as it stands in the file `path`, from malloc: relative to that file's folder, also if
+// either is reached by a link. The name of a built-in shape stays. Returns NULL if memory runs out.
 char *hash_file_name(const char *path, const char *model);
 
-// The model that a name of the file `path` stands for, from malloc. NULL: out of memory.
+// Returns the model that a name of the file `path` stands for, from malloc. Returns NULL if memory runs out.
 char *hash_file_model(const char *path, const char *name);
 
 #endif

@@ -18,7 +18,7 @@ struct info_textures {
 };
 bool info_textures_list(const lam_scene *scene, struct info_textures *textures, lam_error *error);
 int info_texture_find(const struct info_textures *textures, const lam_texture *texture); // its index; −1: none
-// As the model names it, or relative to the model's folder. NULL: it is in the model.
+// As the model names it, or relative to the model's folder. Returns NULL if it is in the model.
 const char *info_texture_file(const struct info_texture *texture, const char *model);
 const char *info_texture_format(const struct info_texture *texture); // "png"; NULL: unknown
 const char *info_color_space(const struct info_texture *texture);    // "srgb", "linear"; NULL: it is not read
@@ -66,7 +66,7 @@ int info_changed_field(const lam_field *field, const lam_material *material, dou
 const char *info_alpha_mode(const lam_material *material); // "opaque", "mask" or "blend"
 const char *info_support(lam_extension_support support);   // in words
 
-// A light's colour, its largest channel 1, and that channel: the intensity.
+// Returns a light's colour, its largest channel 1, and that channel: the intensity.
 lam_rgb info_light_color(const lam_light *light, double *intensity);
 
 void info_text(const struct info *info);

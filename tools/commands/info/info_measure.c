@@ -27,7 +27,7 @@ static uint64_t mix(uint64_t x)
     return x ^ x >> 32;
 }
 
-// A number for a position, the same for vertices that coincide.
+// Returns a number for a position, the same for vertices that coincide.
 static uint64_t position_hash(const lam_mesh *mesh, uint32_t vertex)
 {
     uint64_t hash = 1;
@@ -40,8 +40,8 @@ static uint64_t position_hash(const lam_mesh *mesh, uint32_t vertex)
     return hash;
 }
 
-// A number for an edge, whose negative means the other direction. The numbers of a closed surface have the sum 0; any
-// other surface has it with a probability of 2⁻⁶⁴.
+// Returns a number for an edge, whose negative means the other direction. The numbers of a closed surface have the sum
+// 0; any other surface has it with a probability of 2⁻⁶⁴.
 static uint64_t edge_hash(uint64_t from, uint64_t to)
 {
     return from < to ? mix(from + mix(to)) : from > to ? 0 - mix(to + mix(from)) : 0;

@@ -6,7 +6,7 @@
 
 enum { ROWS = 8, NAME_BYTES = 40, LINE_BYTES = 120 };
 
-// A text from a file: control characters shown as '?', cut after `bytes`. NULL: "".
+// Returns a text from a file: control characters shown as '?', cut after `bytes`. NULL: "".
 static char *plain(const char *name, size_t bytes, char *out)
 {
     char *to = out;
@@ -25,7 +25,7 @@ static char *plain(const char *name, size_t bytes, char *out)
     return out;
 }
 
-// A name from a file, in quotes. "": unnamed.
+// Returns a name from a file, in quotes. "": unnamed.
 static const char *shown(const char *name, char out[NAME_BYTES + 12])
 {
     if (!name)

@@ -50,8 +50,8 @@ static bool is_below(const struct job_roots *roots, const char *real)
     return false;
 }
 
-// The real path of a path, or of the nearest folder above it that exists. NULL: there is none, or more is missing than
-// folders to create: "..", or a link without a target.
+// Returns the real path of a path, or of the nearest folder above it that exists. Returns NULL if there is none, or
+// more is missing than folders to create: "..", or a link without a target.
 static char *resolve(const char *path, bool *exists)
 {
     char *real = realpath(path, NULL), *copy = real ? NULL : strdup(path);

@@ -13,7 +13,7 @@ enum { WORDS_MAX = 1000 };
 
 // --- from JSON to words
 
-// Appends a word from malloc, which it takes over; NULL: out of memory.
+// Appends a word from malloc, which it takes over, or NULL if memory runs out.
 static bool append(char ***words, int *count, char *word, lam_error *error)
 {
     char **more = word && *count < WORDS_MAX ? realloc(*words, ((size_t)*count + 2) * sizeof *more) : NULL;
@@ -28,7 +28,7 @@ static bool append(char ***words, int *count, char *word, lam_error *error)
     return true;
 }
 
-// A string or a number as it is typed. False: it is neither.
+// A string or a number as it is typed. Returns false if it is neither.
 static bool typed(const json_t *value, char number[32], const char **text)
 {
     *text = json_is_string(value) ? json_string_value(value) : number;

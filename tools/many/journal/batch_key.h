@@ -5,12 +5,12 @@
 
 #include "options.h"
 
-// The options that determine a picture, one `name=value` per line, given or by default, without side and size; files
-// that they name appear with their hash. From malloc; NULL: see `error` (LAM_CANNOT_READ: such a file).
+// Returns the options that determine a picture, one `name=value` per line, given or by default, without side and size;
+// files that they name appear with their hash. From malloc; NULL: see `error` (LAM_CANNOT_READ: such a file).
 char *batch_options_text(const struct options *options, lam_error *error);
 
-// The options of the command line that change the picture, as they are typed: "--size 256 --light 'eye=1/2/3'". Relative paths stay as
-// they are. From malloc; NULL: out of memory.
+// Returns the options of the command line that change the picture, as they are typed: "--size 256 --light 'eye=1/2/3'".
+// Relative paths stay as they are. From malloc, or NULL if memory runs out.
 char *batch_options_given(const struct options *options);
 
 // The options of both texts that differ first, as "--size 512 … --size 256": for a sentence. The texts differ.

@@ -78,8 +78,8 @@ char *journal_path(const char *text)
     return out;
 }
 
-// A picture is found by its path, and by its path below the folder of the pictures: that may be absolute in one run and relative
-// in the next. `folder`: the text that both begin with; NULL: the whole path is meant.
+// A picture is found by its path, and by its path below the folder of the pictures: that may be absolute in one run and
+// relative in the next. `folder`: the text that both begin with, or NULL if the whole path is meant.
 static uint64_t hash_of(const char *folder, const char *output)
 {
     struct xxh64 hash;
@@ -146,7 +146,7 @@ char *journal_read(const char *path, size_t *size)
     return text;
 }
 
-// The options of the run whose line this is; NULL: it is no such line.
+// Returns the options of the run whose line this is, or NULL if it is no such line.
 static const char *options_of(const json_t *line) { return json_string_value(json_object_get(line, "options")); }
 
 // A line that is not JSON is a torn one, or of a run that went on after one: nobody counts on it.

@@ -46,10 +46,10 @@ bool journal_sum_add(struct journal_sum *sum, const char *path, lam_error *error
 // Adds the journals in a folder: the shards', in alphabetical order; if there are none, lambent.jsonl.
 bool journal_sum_add_folder(struct journal_sum *sum, const char *folder, lam_error *error);
 
-// The record of an entry; the caller calls json_decref. NULL: out of memory.
+// Returns the record of an entry; the caller calls json_decref. Returns NULL if memory runs out.
 json_t *journal_sum_record(const struct journal_sum *sum, size_t entry);
 
-// True if there is a journal for each shard, all have ended, and no picture is in two of them.
+// Returns true if there is a journal for each shard, all have ended, and no picture is in two of them.
 bool journal_sum_is_whole(const struct journal_sum *sum);
 bool journal_sum_has_shard(const struct journal_sum *sum, int number);
 

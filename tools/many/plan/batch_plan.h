@@ -29,7 +29,7 @@ struct batch_plan {
 // A plan without models. Checks the options that belong together. Error: LAM_BAD_ARGUMENT.
 bool batch_plan_start(struct batch_plan *plan, const struct options *options, lam_error *error);
 
-// Adds a model; `root` may be NULL. Both are copied. False: LAM_LIMIT.
+// Adds a model; `root` may be NULL. Both are copied. Fails with LAM_LIMIT.
 bool batch_plan_add(struct batch_plan *plan, const char *path, const char *root, lam_error *error);
 
 // Takes the last model away.
@@ -39,10 +39,11 @@ void batch_plan_drop_last(struct batch_plan *plan);
 // shard. Error: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED.
 bool batch_plan_check(struct batch_plan *plan, lam_error *error);
 
-// The path of a picture, from malloc. NULL: out of memory.
+// Returns the path of a picture, from malloc. Returns NULL if memory runs out.
 char *batch_plan_output(const struct batch_plan *plan, size_t model, int view);
 
-// The folder that all pictures lie below, with its '/' ("": the current one), from malloc. NULL: out of memory.
+// Returns the folder that all pictures lie below, with its '/' ("": the current one), from malloc. Returns NULL if
+// memory runs out.
 char *batch_plan_folder(const struct batch_plan *plan);
 
 void batch_plan_free(struct batch_plan *plan);

@@ -17,7 +17,7 @@ enum { SHARDS_MAX = 1000000 };
 
 // --- numbers
 
-// A number without a sign; false: the text is something else, or the number is above `max`.
+// A number without a sign, or false if the text is something else, or the number is above `max`.
 static bool parse_number(const char *text, size_t length, long max, long *number)
 {
     *number = 0;
@@ -139,7 +139,7 @@ bool batch_shard_of(const char *text, struct batch_shard *shard, lam_error *erro
 
 // --- names
 
-// The part of a path below a folder; the whole path if it is elsewhere.
+// Returns the part of a path below a folder; the whole path if it is elsewhere.
 static const char *below(const char *path, const char *root)
 {
     size_t length = root ? strlen(root) : 0;
@@ -181,7 +181,7 @@ int batch_shard_of_name(const char *name, int count)
     return (int)(xxh64_end(&hash) % (uint64_t)count) + 1;
 }
 
-// The position of a path's extension: ".jsonl"; its end if there is none.
+// Returns the position of a path's extension: ".jsonl"; its end if there is none.
 static const char *ending_of(const char *path)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');

@@ -13,15 +13,15 @@ struct batch_shard {
 // LAM_BAD_ARGUMENT: no such shard, or the environment does not say which.
 bool batch_shard_of(const char *text, struct batch_shard *shard, lam_error *error);
 
-// The name that a model's shard follows from, from malloc: its path below `root`, or as it is given (NULL), without ".", "..",
-// doubled slashes and a leading one. NULL: out of memory.
+// Returns the name that a model's shard follows from, from malloc: its path below `root`, or as it is given (NULL),
+// without ".", "..", doubled slashes and a leading one. Returns NULL if memory runs out.
 char *batch_shard_name(const char *path, const char *root);
 
-// The shard that a name belongs to, from 1: XXH64 of its bytes, modulo `count`, plus 1.
+// Returns the shard that a name belongs to, from 1: XXH64 of its bytes, modulo `count`, plus 1.
 int batch_shard_of_name(const char *name, int count);
 
-// The path of a file that each shard has for itself, from malloc: "lambent-017-of-300.jsonl" for "lambent.jsonl". NULL: out of
-// memory.
+// Returns the path of a file that each shard has for itself, from malloc: "lambent-017-of-300.jsonl" for
+// "lambent.jsonl". Returns NULL if memory runs out.
 char *batch_shard_path(const char *path, const struct batch_shard *shard);
 
 // The other way: the number of shards that a file name speaks of ("lambent-017-of-300.jsonl"); 0: none.

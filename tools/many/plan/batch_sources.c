@@ -25,8 +25,8 @@ static bool is_below(const char *real, const char *folder)
     return below;
 }
 
-// Whether a link leads to a file that is neither below the folder that was given nor below one of --allow-path. A
-// broken link does not.
+// Returns whether a link leads to a file that is neither below the folder that was given nor below one of --allow-path.
+// A broken link does not.
 static bool leads_out(const struct batch_plan *plan, const char *path, const char *root)
 {
     const struct texts *allowed = &plan->options->limits.allow_paths;

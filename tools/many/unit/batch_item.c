@@ -47,7 +47,7 @@ static bool sees_nothing(const struct job *job)
     return job->written && !frame->pixels_covered && !frame->edges_drawn;
 }
 
-// True if a sentence begins with the name, in which it shows control characters as '?'.
+// Returns true if a sentence begins with the name, in which it shows control characters as '?'.
 static bool names(const char *sentence, const char *name)
 {
     for (; *name; name++, sentence++) {
@@ -86,7 +86,7 @@ struct files {
     bool changed;       // since the model was read: their hashes say nothing about the picture
 };
 
-// Whether a file may have changed after `start`, a time of the clock that file systems use.
+// Returns whether a file may have changed after `start`, a time of the clock that file systems use.
 static bool changed_since(const char *path, const struct timespec *start)
 {
     struct stat about;

@@ -54,7 +54,7 @@ struct batch_result {
 void batch_draw(const struct batch_item *item, const struct batch_artist *artist, struct batch_result *result);
 void batch_result_free(struct batch_result *result);
 
-// The record of a picture that failed without a report of its own.
+// Returns the record of a picture that failed without a report of its own.
 json_t *batch_record_failed(const struct batch_item *item, int view, const char *name, int exit, const char *text);
 
 #endif

@@ -64,7 +64,7 @@ struct batch {
     bool failed; // the journal cannot be written: nothing more is begun
 };
 
-// The pictures' states of a model of the batch's plan.
+// Returns the pictures' states of a model of the batch's plan.
 static inline struct batch_picture *batch_pictures_of(const struct batch *b, size_t model)
 {
     return b->pictures + model * (size_t)b->plan->view_count;

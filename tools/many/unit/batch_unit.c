@@ -66,15 +66,15 @@ static const char *text_of(const json_t *record, const char *key)
     return text ? text : "";
 }
 
-// Whether the picture exists, with the journal's hash.
+// Returns whether the picture exists, with the journal's hash.
 static bool is_untouched(const json_t *record, const char *output)
 {
     uint64_t hash, recorded;
     return xxh64_parse(text_of(record, "hash"), &recorded) && xxh64_file(output, &hash) && hash == recorded;
 }
 
-// The path of one of the record's files, from malloc: beside the model that is drawn now, if it lay beside the record's model. The
-// record may be of a run in another folder. NULL: out of memory.
+// Returns the path of one of the record's files, from malloc: beside the model that is drawn now, if it lay beside the
+// record's model. The record may be of a run in another folder. Returns NULL if memory runs out.
 static char *path_now(const char *recorded, const char *recorded_model, const char *model)
 {
     char *path = journal_path(recorded), *then = journal_path(recorded_model), *now = NULL;
@@ -92,7 +92,7 @@ static char *path_now(const char *recorded, const char *recorded_model, const ch
     return now;
 }
 
-// Whether the files that the model was made of, and the options, give the record's key.
+// Returns whether the files that the model was made of, and the options, give the record's key.
 static bool has_same_key(const json_t *record, const struct batch_unit *u, int view)
 {
     const json_t *files = json_object_get(record, "files"), *file;
@@ -175,7 +175,7 @@ bool batch_unit_look(struct batch_unit *u, const struct batch *b)
 
 // --- drawing
 
-// The open pictures of a unit, as an item; `which` receives their numbers.
+// Returns the open pictures of a unit, as an item; `which` receives their numbers.
 static struct batch_item item_of(const struct batch_unit *u, const struct batch *b, const struct options *o,
                                  struct job_view *views, char **outputs, int *attempts, int *which)
 {

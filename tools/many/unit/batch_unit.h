@@ -19,7 +19,7 @@ struct batch_unit {
     bool interrupted;
 };
 
-// Makes the unit of a task with the states of its pictures. False: LAM_LIMIT.
+// Makes the unit of a task with the states of its pictures. Fails with LAM_LIMIT.
 bool batch_unit_start(struct batch_unit *unit, const struct batch *batch, const struct batch_task *task,
                       lam_error *error);
 void batch_unit_free(struct batch_unit *unit);

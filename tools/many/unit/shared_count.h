@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <sys/mman.h>
 
-// Zero, in memory that this process shares with those that it starts. NULL: out of memory.
+// Zero, in memory that this process shares with those that it starts. Returns NULL if memory runs out.
 static inline atomic_int *shared_count_make(void)
 {
     void *memory = mmap(NULL, sizeof(atomic_int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);

@@ -74,8 +74,8 @@ static bool take_type(struct gltf *gltf, const struct place *place, const json_t
     return json_unexpected(&gltf->json, KEY_OF(place, "type"), value, "SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4");
 }
 
-// A run of `count` elements of `element` bytes in the bufferView that `object` names. NULL: an error. A view is
-// needed.
+// Returns a run of `count` elements of `element` bytes in the bufferView that `object` names. Returns NULL on error. A
+// view is needed.
 static const uint8_t *take_run(struct gltf *gltf, const struct place *place, const json_t *object, size_t count,
                                size_t element, bool strided, size_t *stride, int *buffer)
 {

@@ -6,10 +6,10 @@
 
 bool gltf_accessors_start(struct gltf *gltf);
 
-// The accessor of a number that was checked, its extent within its buffer checked too. NULL: an error.
+// Returns the accessor of a number that was checked, its extent within its buffer checked too. Returns NULL on error.
 struct gltf_accessor *gltf_accessor_at(struct gltf *gltf, int index);
 
-// The accessor that a key of `object` names. *out: NULL where the key is missing. False: an error.
+// The accessor that a key of `object` names. *out: NULL where the key is missing. Returns false on error.
 bool gltf_take_accessor(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                         struct gltf_accessor **out);
 
@@ -19,7 +19,7 @@ static inline size_t gltf_component_size(int component)
     return component <= GLTF_U8 ? 1 : component <= GLTF_U16 ? 2 : 4;
 }
 
-// The accessor's type in words: "VEC3 of FLOAT", "VEC4 of normalized UNSIGNED_BYTE".
+// Returns the accessor's type in words: "VEC3 of FLOAT", "VEC4 of normalized UNSIGNED_BYTE".
 const char *gltf_accessor_words(const struct gltf_accessor *accessor, char out[64]);
 
 #endif

@@ -82,7 +82,7 @@ static uint32_t index_at(int component, const uint8_t *run, size_t i)
     return component == GLTF_U8 ? run[i] : component == GLTF_U16 ? load_16(run + 2 * i) : load_32(run + 4 * i);
 }
 
-// Calls put(user, element, values) with each element that replaces another. False: an index is out of range.
+// Calls put(user, element, values) with each element that replaces another. Returns false if an index is out of range.
 static bool each_sparse(struct gltf *gltf, const struct gltf_accessor *a,
                         void (*put)(void *user, size_t element, const uint8_t *value), void *user)
 {
@@ -175,7 +175,7 @@ static bool check_finite(struct gltf *gltf, const struct place *place, const str
     return true;
 }
 
-// Whether the elements lie one after the other, as arrays of 4-byte numbers do.
+// Returns whether the elements lie one after the other, as arrays of 4-byte numbers do.
 static bool in_place(const struct gltf_accessor *a, int component)
 {
     return a->data && a->component == component && a->stride == 4 * (size_t)a->width && !a->sparse_count &&

@@ -13,7 +13,8 @@ enum {
 };
 const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gltf_accessor *accessor, int flags);
 
-// The numbers of a SCALAR accessor of an unsigned type, which was checked; sets accessor->max_index. NULL: an error.
+// Returns the numbers of a SCALAR accessor of an unsigned type, which was checked; sets accessor->max_index. Returns
+// NULL on error.
 const uint32_t *gltf_indices(struct gltf *gltf, const struct place *place, struct gltf_accessor *accessor);
 
 // Colours of VEC3 or VEC4 as a mesh has them. `opaque`: an alpha is 1, whatever the file says.

@@ -17,7 +17,7 @@ static int hexadecimal(char c)
                                   : -1;
 }
 
-// The byte at a '%' of two hexadecimal digits, −1: there are none.
+// Returns the byte at a '%' of two hexadecimal digits, −1: there are none.
 static int escaped(const char *at)
 {
     int high = at[0] == '%' ? hexadecimal(at[1]) : -1, low = high < 0 ? -1 : hexadecimal(at[2]);

@@ -4,7 +4,7 @@
 
 #include "gltf.h"
 
-// Whether the bytes are in the text itself ("data:…").
+// Returns whether the bytes are in the text itself ("data:…").
 bool gltf_is_data_uri(const char *uri);
 
 // Reads the target of a URI: a file in the model's folder, or the bytes in a data URI. The caller releases it.

@@ -10,7 +10,8 @@
 void *page_library(const char *name);
 bool page_library_find(void *library, const char *name, void *function);
 
-// Whether the module is there. If not, the page learns that a file needs it, fetches it, and reads the file again.
+// Returns whether the module is there. If not, the page learns that a file needs it, fetches it, and reads the file
+// again.
 int web_decoders(void) IMPORT(web_decoders);
 // Stores mesh, vertices, triangles at `out`. This and the next: a result of draco_functions.
 int web_draco_decode(const uint8_t *bytes, size_t size, uint32_t out[3], char *reason) IMPORT(web_draco_decode);

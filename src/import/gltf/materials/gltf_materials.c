@@ -154,7 +154,7 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
                          gltf_take_map(gltf, in_pbr, pbr, "metallicRoughnessTexture", roughness, NULL));
 }
 
-// The number of the wanted variant; −1: none is wanted. False: the file has no such one.
+// The number of the wanted variant, or −1 if none is wanted. Returns false if the file has no such one.
 static bool find_variant(struct gltf *gltf)
 {
     const char *wanted = gltf->source->params->variant;
@@ -206,7 +206,7 @@ static bool take_variant(struct gltf *gltf, const struct place *place, const jso
     return ok;
 }
 
-// The material of primitives without one: the defaults of the specification.
+// Returns the material of primitives without one: the defaults of the specification.
 static int default_material(struct gltf *gltf)
 {
     if (gltf->default_material < 0) {

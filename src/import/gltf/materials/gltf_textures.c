@@ -100,8 +100,8 @@ static bool take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
 
 // --- pictures
 
-// The image of a texture: EXT_texture_webp's if WebP can be decoded here, otherwise its own, the fallback. −1: an
-// error.
+// Returns the image of a texture: EXT_texture_webp's if WebP can be decoded here, otherwise its own, the fallback.
+// Returns −1 on error.
 static int image_of(struct gltf *gltf, int texture)
 {
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "textures"), (size_t)texture);
@@ -123,7 +123,7 @@ static int image_of(struct gltf *gltf, int texture)
     return image;
 }
 
-// The model's name and a place in it. NULL: out of memory.
+// Returns the model's name and a place in it. Returns NULL if memory runs out.
 static const char *message_name(struct gltf *gltf, const char *place)
 {
     size_t length = strlen(gltf->source->name) + strlen(place) + 3;
@@ -193,7 +193,7 @@ static bool take_transform(struct gltf *gltf, const struct place *place, const j
     return true;
 }
 
-// The place of a file's set among the two that a material can have. −1: there is no room.
+// Returns the place of a file's set among the two that a material can have. Returns −1 if there is no room.
 static int place_set(struct gltf *gltf, int material, size_t set)
 {
     int *sets = gltf->texcoord_sets[material];
@@ -269,7 +269,7 @@ static void decode_picture(void *user, size_t index, int thread)
         texture_decode(picture->data, picture->size, picture->name, picture->values, decoding->call, &picture->error);
 }
 
-// Whether a load continues without a picture that could not be read.
+// Returns whether a load continues without a picture that could not be read.
 static bool can_do_without(const lam_error *error)
 {
     return error->code == LAM_CANNOT_READ || error->code == LAM_UNSUPPORTED || error->code == LAM_BAD_ARGUMENT;

@@ -22,7 +22,8 @@ bool gltf_take_map(struct gltf *gltf, const struct place *place, const json_t *o
 // left out, with a warning.
 bool gltf_textures_finish(struct gltf *gltf);
 
-// Which of the file's sets of texture coordinates is a material's first (0) or second (1) one; −1: none.
+// Returns which of the file's sets of texture coordinates is a material's first (0) or second (1) one, or −1 if there
+// is none.
 int gltf_texcoord_set(const struct gltf *gltf, int32_t material, int which);
 
 #endif

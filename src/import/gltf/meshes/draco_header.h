@@ -11,11 +11,11 @@ struct draco_claim {
     uint32_t points; // at least: one vertex may become several points
 };
 
-// False: the header of a mesh cannot be read, nor could the decoder read it.
+// Returns false if the header of a mesh cannot be read, nor could the decoder read it.
 bool draco_header_read(const uint8_t *bytes, size_t size, struct draco_claim *out);
 
-// The largest memory of the decoder for a claim: its tables of corners and edges, and the attributes in the form of the
-// file and of the mesh.
+// Returns the largest memory of the decoder for a claim: its tables of corners and edges, and the attributes in the
+// form of the file and of the mesh.
 uint64_t draco_claim_bytes(const struct draco_claim *claim);
 
 #endif

@@ -87,7 +87,7 @@ static bool take_sampler(struct gltf *gltf, const struct place *place, const jso
 
 // --- evaluation (appendix C)
 
-// The key at or before the time, and the fraction of the way to the next one.
+// Returns the key at or before the time, and the fraction of the way to the next one.
 static size_t find_key(const struct sampler *s, double time, double *fraction, double *length)
 {
     size_t low = 0, high = s->keys - 1;

@@ -179,7 +179,7 @@ static lam_vec3 vector_at(const float *values, size_t i, size_t width)
     return v3((double)at[0], (double)at[1], (double)at[2]);
 }
 
-// False: a number is out of range, and nothing is stored.
+// Returns false if a number is out of range, and nothing is stored.
 static bool store(float *out, lam_vec3 v)
 {
     const float x = (float)v.x, y = (float)v.y, z = (float)v.z;

@@ -143,7 +143,7 @@ static bool decode_indices(const struct decoding *d, const struct place *primiti
     return true;
 }
 
-// Whether the view was decoded for this primitive before, as for another pose of it.
+// Returns whether the view was decoded for this primitive before, as for another pose of it.
 static bool is_decoded(struct gltf *gltf, const json_t *primitive, int view)
 {
     const json_t *position = json_object_get(json_object_get(primitive, "attributes"), "POSITION");
@@ -152,7 +152,7 @@ static bool is_decoded(struct gltf *gltf, const json_t *primitive, int view)
            gltf->accessors[(size_t)number].draco_view == view + 1;
 }
 
-// Whether the primitive's accessors have bytes of their own.
+// Returns whether the primitive's accessors have bytes of their own.
 static bool has_plain_bytes(struct gltf *gltf, const json_t *primitive)
 {
     const json_t *position = json_object_get(json_object_get(primitive, "attributes"), "POSITION");

@@ -19,11 +19,11 @@ struct gltf_mesh {
 
 bool gltf_meshes_start(struct gltf *gltf);
 
-// A mesh of the file, made when first asked for: nodes that name the same mesh share it. NULL: an error.
+// Returns a mesh of the file, made when first asked for: nodes that name the same mesh share it. Returns NULL on error.
 const struct gltf_mesh *gltf_mesh_at(struct gltf *gltf, int index);
 
-// The mesh as one node shows it, by its skin (NULL: none) or with the node's own weights of morph targets (NULL: the
-// mesh's). Nobody shares it.
+// Returns the mesh as one node shows it, by its skin (NULL: none) or with the node's own weights of morph targets
+// (NULL: the mesh's). Nobody shares it.
 const struct gltf_mesh *gltf_mesh_deformed(struct gltf *gltf, int index, const struct gltf_node *node,
                                            const struct gltf_skin *skin);
 

@@ -9,7 +9,7 @@ struct gltf_skin {
     size_t count;
 };
 
-// The skin of a number that was checked, at the nodes' transforms. NULL: an error.
+// Returns the skin of a number that was checked, at the nodes' transforms. Returns NULL on error.
 const struct gltf_skin *gltf_skin_at(struct gltf *gltf, int index);
 
 #endif

@@ -1,4 +1,4 @@
-// lambent/animation.h: several pictures that follow one another in one file.
+// lambent/animation.h: writes animations: several pictures in one file.
 #ifndef LAMBENT_ANIMATION_H
 #define LAMBENT_ANIMATION_H
 
@@ -12,11 +12,11 @@ extern "C" {
 // thread at a time may use it.
 typedef struct lam_animation lam_animation;
 
-// How an animation is written. All zero: the defaults.
+// Parameters of an animation. All zero: the defaults.
 typedef struct lam_animation_params {
     double frames_per_second; // 0.1..240; 0: 24
     int loops;                // number of repetitions, 0..65535; 0: forever
-    // How each frame is encoded, as in lam_image_save; its `control` does not count. NULL: the defaults.
+    // How each frame is encoded, as in lam_image_save; its `control` is ignored. NULL: the defaults.
     const lam_save_params *frames;
     LAM_RESERVED(8);
 } lam_animation_params;

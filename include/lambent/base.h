@@ -1,24 +1,24 @@
 // lambent/base.h: errors, control of long calls, small vectors, and the rules of the whole interface.
 //
-// C11; includes cleanly in C++17. Every call may be made from any thread with 256 kB of stack. The library prints
+// C11; includes cleanly in C++17. You can make every call from any thread with 256 kB of stack. The library prints
 // nothing, never exits, and keeps no global state.
 //
-// Names: functions are lam_<thing>_<verb>, types lam_<thing>, constants LAM_<KIND>_<VALUE>. A unit is at the end of the
-// name: _rad, _deg, _ms, _s, _px, _bytes. Lengths without one are model units.
+// Names: functions are lam_<thing>_<verb>, types lam_<thing>, constants LAM_<KIND>_<VALUE>. Names end with their unit:
+// _rad, _deg, _ms, _s, _px, _bytes. Lengths without a unit are in model units.
 //
 // Errors: a call that can fail takes a `lam_error *` last, which may be NULL; it returns false, NULL or −1 on failure
 // and then fills the error.
 //
-// Defaults: a zeroed parameter struct asks for the default of every field, and a NULL one does too where the call says
-// so. Structs whose defaults are not zero (lam_material, lam_light, lam_object, lam_camera) have a function that
-// returns them, lam_<thing>_default.
+// Defaults: a zeroed parameter struct requests the default of every field. So does NULL, if the call documents it.
+// Structs whose defaults are not zero (lam_material, lam_light, lam_object, lam_camera) have a function that returns
+// them, lam_<thing>_default.
 //
-// Growth: a struct that may grow ends in LAM_RESERVED(n), n words of 8 bytes that must be zero. A later version puts
-// new fields in their place, a whole number of words at a time, and zero means the default or "absent" for each of
-// them. Hence the size of a struct, the stride of an array of them, and the offset of each field never change within
-// one soname: programs and libraries of different versions work together, in both directions. A call that takes a
-// struct of parameters with a reserved word that is not zero fails with LAM_BAD_ARGUMENT: the program was compiled
-// against a newer header and sets a field that this library does not know. Structs without LAM_RESERVED never change.
+// Growth: a struct that may grow ends in LAM_RESERVED(n), n words of 8 bytes that must be zero. A later version
+// replaces a whole number of these words by new fields, for each of which zero means the default or "absent". Therefore
+// the size of a struct, the stride of an array of them, and the offset of each field never change within one soname:
+// programs and libraries of different versions work together, in both directions. A call that takes a struct of
+// parameters with a reserved word that is not zero fails with LAM_BAD_ARGUMENT: the program was compiled against a
+// newer header and sets a field that this library does not know. Structs without LAM_RESERVED never change.
 #ifndef LAMBENT_BASE_H
 #define LAMBENT_BASE_H
 
@@ -30,7 +30,7 @@
 extern "C" {
 #endif
 
-// The version of these headers; lam_version() returns the library's.
+// The version of these headers; lam_version() returns the version of the library.
 #define LAM_VERSION_MAJOR 0
 #define LAM_VERSION_MINOR 1
 #define LAM_VERSION_PATCH 0
@@ -42,15 +42,15 @@ extern "C" {
 #define LAM_API
 #endif
 
-// The words of 8 bytes at the end of a struct that later versions turn into fields. Zero (see "Growth" above).
+// Words of 8 bytes at the end of a struct, which later versions replace by fields. Must be zero (see "Growth" above).
 #define LAM_RESERVED(words) uint64_t reserved[words]
 
-// The kind of a failure. The exit codes of the `lambent` program are numbers of their own.
+// The kind of a failure. The exit codes of the `lambent` program are different numbers.
 typedef enum lam_code {
     LAM_OK = 0, // no error
-    // An argument is out of its range or does not go with another one; the sentence names it.
+    // An argument is out of range or cannot be combined with another; the sentence names it.
     LAM_BAD_ARGUMENT,
-    // A file is missing, unreadable, cut short, or not of the format that it claims.
+    // A file is missing, unreadable, truncated, or invalid in its format.
     LAM_CANNOT_READ,
     LAM_UNSUPPORTED, // understood, but not supported by this build or machine
     // A limit was reached: a size, the memory limit, the time limit, or the machine's memory.
@@ -59,7 +59,8 @@ typedef enum lam_code {
     LAM_CANCELLED,    // the caller's cancel flag was raised
 } lam_code;
 
-// An error. It need not be initialised: a call that fails fills all of it, a call that succeeds leaves it alone.
+// An error. The caller need not initialise it: a failing call fills it completely, a successful call does not change
+// it.
 typedef struct lam_error {
     lam_code code; // the kind of failure
     // One sentence in UTF-8 without a line end: the file, the position in it (line or byte), what was found and what
@@ -76,9 +77,9 @@ typedef struct lam_cancel {
 LAM_API void lam_cancel_raise(lam_cancel *cancel);
 LAM_API void lam_cancel_clear(lam_cancel *cancel);
 
-// The limits of a call whose lam_control does not name others. Exceeding a limit fails with LAM_LIMIT; the sentence
-// contains both numbers. Limits "for each byte of files" count the model's file and all files that it names, each once.
-// They bound the expansion of small files, and do not apply to scenes that a program makes itself.
+// The default limits of a call. lam_control can set others. A call that exceeds a limit fails with LAM_LIMIT; the
+// sentence contains both numbers. Limits "for each byte of files" count the model's file and all files that it names,
+// each once. They limit the expansion of small files, and do not apply to scenes that a program builds itself.
 #define LAM_TRIANGLE_LIMIT   200000000u   // triangles
 #define LAM_PIXEL_LIMIT      400000000u   // pixels
 #define LAM_FILE_LIMIT_BYTES 32000000000u // bytes
@@ -97,8 +98,8 @@ LAM_API void lam_cancel_clear(lam_cancel *cancel);
 #define LAM_LAYER_BYTES 16384u
 
 // Control over one long call, such as loading or drawing. All zero: no limits of time and memory, the limits above,
-// no progress. Every long loop checks it, so that a call ends within milliseconds of the flag or the deadline; then it
-// has failed as a whole.
+// no progress. Every long loop checks it, so that a call fails within milliseconds after the flag is raised or the
+// deadline has passed.
 typedef struct lam_control {
     // The flag that stops the call with LAM_CANCELLED. NULL: the call cannot be cancelled.
     const lam_cancel *cancel;
@@ -107,35 +108,36 @@ typedef struct lam_control {
     double time_limit_s;
     // Bytes that the call may use at once; more is LAM_LIMIT. 0: no limit.
     uint64_t memory_limit_bytes;
-    // Called now and then, in the calling thread, with the fraction done, 0..1, and the name of the step ("read",
+    // Called repeatedly, in the calling thread, with the fraction done, 0..1, and the name of the step ("read",
     // "normals", "frame"). It must not call into the same device or scene. NULL: none.
     void (*progress)(void *user, double share, const char *step);
     void *user; // passed to `progress`
-    // Triangles that a model may have, and that a picture may draw (each object counts its mesh's). Lines and points
-    // count as one in a model, and as two in a picture. 0: LAM_TRIANGLE_LIMIT, less for small files.
+    // The largest number of triangles of a model or a picture (each object adds the triangles of its mesh). A line or
+    // point counts as one triangle in a model, and as two in a picture. 0: LAM_TRIANGLE_LIMIT, less for small files.
     uint64_t triangle_limit;
-    // Pixels of each picture read: textures, environments, single pictures. A side has at most 65535 in any case. 0:
-    // LAM_PIXEL_LIMIT.
+    // The largest number of pixels of each picture read: textures, environments, single pictures. A side is never
+    // longer than 65535 pixels. 0: LAM_PIXEL_LIMIT.
     uint64_t pixel_limit;
-    // Bytes of each file that is read. 0: LAM_FILE_LIMIT_BYTES.
+    // The largest size of each file read, in bytes. 0: LAM_FILE_LIMIT_BYTES.
     uint64_t file_limit_bytes;
     // How deep JSON (glTF, scene files) may nest, at most LAM_JSON_DEPTH_MAX. 0: LAM_JSON_DEPTH_LIMIT.
     uint64_t json_depth_limit;
     // Bytes of memory that reading may use for each byte of files, beyond LAM_EXPANSION_BASE_BYTES: textures, vertices,
     // and the memory of decoders. 0: LAM_EXPANSION_LIMIT.
     uint64_t expansion_limit;
-    // Objects that a model may have, instances included. 0: LAM_OBJECTS_BASE, and one for each byte of files.
+    // The largest number of objects of a model, instances included. 0: LAM_OBJECTS_BASE, and one for each byte of
+    // files.
     uint64_t object_limit;
-    // Layers that a picture may have over each of its pixels, on average (a picture below 256×256 pixels counts as one of
-    // that size). A layer is a translucent or masked surface over a pixel; 32 lights that light a point count as one,
-    // and so do 32 opaque surfaces. The CPU device counts them. 0: LAM_LAYERS_BASE, and more for large files.
+    // The largest number of layers per pixel of a picture, on average (a smaller picture counts as 256×256 pixels). A
+    // layer is a translucent or masked surface over a pixel; 32 lights that light a point count as one, and so do 32
+    // opaque surfaces. The CPU device counts them. 0: LAM_LAYERS_BASE, and more for large files.
     uint64_t layer_limit;
     LAM_RESERVED(1);
 } lam_control;
 
-// Returns the memory that this process may use, bytes: the smallest of the machine's, its control group's (cgroup v2
-// and v1, with the groups above it), RLIMIT_AS and RLIMIT_DATA. UINT64_MAX: unknown. Reads a few files of the system
-// each time.
+// Returns the memory that this process may use, bytes: the smallest of the machine's memory, the limits of its control
+// groups (cgroup v2 and v1, parents included), RLIMIT_AS and RLIMIT_DATA. UINT64_MAX: unknown. Reads a few files of the
+// system each time.
 LAM_API uint64_t lam_memory_available(void);
 
 // A position, direction or angle triple.
@@ -183,8 +185,8 @@ LAM_API const char *lam_build_info(void);
 // none begins there, or it is cut.
 LAM_API int lam_utf8_length(const void *bytes, size_t size);
 
-// Edit distance between two words: the number of letters inserted, deleted, replaced or swapped with their neighbour
-// (optimal string alignment). Words of more than 63 bytes count as 63 apart.
+// Returns the edit distance between two words: the number of letters inserted, deleted, replaced or swapped with their
+// neighbour (optimal string alignment). Words of more than 63 bytes count as 63 apart.
 LAM_API int lam_edit_distance(const char *a, const char *b);
 
 // Returns how far a typed word is from a word of this interface, for suggestions. 0: it means that word (they differ in

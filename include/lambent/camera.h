@@ -1,4 +1,4 @@
-// lambent/camera.h: the camera, and placing it so that a scene fills the picture.
+// lambent/camera.h: cameras, and functions that fit a camera to a scene.
 #ifndef LAMBENT_CAMERA_H
 #define LAMBENT_CAMERA_H
 
@@ -30,13 +30,14 @@ LAM_API lam_camera lam_camera_default(void);
 // Returns the matrix from world to eye space: the eye at the origin, x to the right, y up, looking along −z.
 LAM_API lam_mat4 lam_camera_view_matrix(const lam_camera *camera);
 
-// Where a point of eye space lies in a picture of width × height pixels: *x and *y in pixels from its upper left corner, outside
-// of it too. Both sides are above 0; the near and far planes do not count. False, with nothing changed: it lies beside or behind the eye of a perspective camera.
+// Projects a point of eye space into a picture of width × height pixels (both above 0): *x and *y in pixels from its
+// upper left corner, also for points outside the picture. Ignores the near and far planes. Returns false and changes
+// nothing if the point is beside or behind the eye of a perspective camera.
 LAM_API bool lam_camera_project(const lam_camera *camera, int width, int height, lam_vec3 eye_position, double *x,
                                 double *y);
 
-// The side that lam_camera_fit looks from. All zero: the three-quarter view of a catalogue, 30° to the right of the
-// front and 20° above, in perspective.
+// The direction from which lam_camera_fit views the scene. All zero: the three-quarter view of a catalogue, 30° to the
+// right of the front and 20° above, in perspective.
 typedef struct lam_view {
     // true: `azimuth_rad` and `elevation_rad` count; false: the three-quarter view.
     bool from_angles;
@@ -45,7 +46,7 @@ typedef struct lam_view {
     // Height above the horizon, radians, −π/2..π/2. π/2: from above.
     double elevation_rad;
     double fovy_rad;   // full vertical field of view, radians, in (0, π); 0: 30°
-    bool orthographic; // true: parallel projection, `fovy_rad` does not count
+    bool orthographic; // true: parallel projection; `fovy_rad` is ignored
     double zoom;       // > 0; 2 shows the model twice as large; 0: 1
     // Fraction of the tighter side of the picture that the projected vertices take, in (0, 1]. 0: 0.92.
     double fill;
@@ -77,24 +78,24 @@ LAM_API lam_side lam_side_find(const char *name);
 LAM_API lam_view lam_view_of_side(lam_side side);
 
 // Places a camera so that the scene's projected vertices (not their bounding box) fill a picture of width × height
-// pixels and are centred in it. A fit for one shape cuts off the model, or shrinks it, in a picture of another. The
-// scene's up axis turns the view. A side below 1 counts as 1. `view` NULL: the three-quarter view. A scene without
-// triangles gives the default camera. A view with a field that this version does not know gives a camera that every
-// call refuses (base.h, "Growth").
+// pixels and are centred in it. A camera fitted for one aspect ratio crops or shrinks the model in another. The view is
+// relative to the scene's up axis. A side below 1 counts as 1. `view` NULL: the three-quarter view. A scene without
+// triangles gives the default camera. If a view sets a field that this version does not know, the result is a camera
+// that every call rejects (base.h, "Growth").
 LAM_API lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view);
 
-// The same for a scene that turns about an axis through `centre` (lam_scene_rotate): one camera for all angles, so that
-// the scene does not jump in size or place. It is the camera of the scene as it is or, where that would cut the scene
-// at some angle, one that the scene fills as it turns. Give it the scene before it turns. An axis of length 0 means
-// rotations about any axis.
+// Fits one camera for all angles of a scene that rotates about an axis through `centre` (lam_scene_rotate), so that the
+// scene keeps its size and position. The result is the camera of the scene before the rotation, or, if this would crop
+// the scene at some angle, a camera that shows the scene at every angle. Pass the scene before the rotation. An axis of
+// length 0 means rotations about any axis.
 LAM_API lam_camera lam_camera_fit_turning(const lam_scene *scene, lam_vec3 centre, lam_vec3 axis, int width, int height,
                                           const lam_view *view);
 
-// A camera of the scene's file (lam_scene_camera_count). One without a far plane gets it behind the scene's bounds. False,
-// and the default camera: there is no such one.
+// A camera of the scene's file (lam_scene_camera_count). If it has no far plane, the far plane is placed behind the
+// scene's bounds. Returns false and the default camera if there is no such camera.
 LAM_API bool lam_scene_camera(const lam_scene *scene, int index, lam_camera *camera);
 
-// Reads a camera as people write it: pairs key=value, separated by commas, of
+// Parses a camera from text: pairs key=value, separated by commas, of
 //   eye=x/y/z     required: its position
 //   target=x/y/z  default: the middle of the scene's box
 //   up=x/y/z      default: the scene's up axis

@@ -1,8 +1,8 @@
 // lambent/caption.h: text in pictures, for captions and the axes of plots.
 //
-// FreeType draws it with a font of the system. The library is loaded when a font is opened, so that a program which
-// draws no text does not need it. Letters differ by a few shades between versions of FreeType and of the font: text is
-// the only part of a picture that is not the same bytes on every machine.
+// FreeType draws it with a system font. Opening a font loads FreeType, so that programs without text do not need it.
+// Letters differ by a few shades between versions of FreeType and of the font: text is the only part of a picture that
+// is not bit-identical on every machine.
 #ifndef LAMBENT_CAPTION_H
 #define LAMBENT_CAPTION_H
 

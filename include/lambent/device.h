@@ -14,7 +14,7 @@ extern "C" {
 // changes. A device keeps its memory from frame to frame: drawing the same kind of frame again allocates nothing.
 typedef struct lam_device lam_device;
 
-// Instruction sets of the CPU device. Each gives the same bytes.
+// Instruction sets of the CPU device. All give the same bytes.
 typedef enum lam_isa {
     LAM_ISA_AUTO = 0, // the widest that the processor and this build have
     LAM_ISA_SCALAR,   // C without vectors
@@ -90,10 +90,10 @@ typedef enum lam_flat_normal {
 
 // The content of a frame: the picture, a part of its light, or a number of its surfaces.
 //
-// Light is drawn as the picture is: over the background, and sRGB-encoded in 8 bits (lam_output_is_light). Numbers are
-// neither. A float picture stores the number itself, an 8-bit one the code given here. Without a triangle, 8 bits store
-// the background, as in the picture, and floats 0 with alpha 0. Numbers are not averaged: they come from the triangle
-// at the covered sample nearest to the pixel's centre.
+// Light outputs are drawn like the picture: over the background, and sRGB-encoded in 8 bits (lam_output_is_light).
+// Numbers are neither blended nor encoded. A float picture stores the number itself, an 8-bit one the code given here.
+// Without a triangle, 8 bits store the background, as in the picture, and floats 0 with alpha 0. Numbers are not
+// averaged: they come from the triangle at the covered sample nearest to the pixel's centre.
 typedef enum lam_output {
     LAM_OUTPUT_PICTURE = 0, // the whole sum
     // Terms of the sum. The five add up to the picture over no background (unlit, the colour is the diffuse term). With
@@ -106,8 +106,8 @@ typedef enum lam_output {
     // The ambient, diffuse and specular terms of one light. The contributions of all lights, the scene's ambient light,
     // emission and reflection add up to the picture. Black where a surface is not lit.
     LAM_OUTPUT_LIGHT,
-    // Normals as the lighting uses them, in eye space: x right, y up, z to the viewer; turned where seen from behind.
-    // 8 bits: (x + 1)/2.
+    // Normals as used by the lighting, in eye space: x right, y up, z to the viewer; reversed on back faces. 8 bits: (x
+    // + 1)/2.
     LAM_OUTPUT_NORMALS,
     // Tangents: the file's, or the direction field, perpendicular to the normal. Coded as normals.
     LAM_OUTPUT_TANGENTS,
@@ -125,11 +125,11 @@ typedef enum lam_output {
     LAM_OUTPUT_IDS,
     // Fraction of the pixel's samples that are covered. Alpha is 1 everywhere, without triangles too.
     LAM_OUTPUT_COVERAGE,
-    // Triangles that cover a sample before the depth test, without culled ones: the mean over the pixel's samples.
-    // Alpha is 1 everywhere, without triangles too. 8 bits: c/(c + 3).
+    // The number of triangles that cover a sample before the depth test, without culled triangles: the mean over the
+    // pixel's samples. Alpha is 1 everywhere, without triangles too. 8 bits: c/(c + 3).
     LAM_OUTPUT_OVERDRAW,
-    // How far each channel of the picture leaves 0…1, negative below. 8 bits: red if a channel is above, blue if one is
-    // below, otherwise the picture in dark grey.
+    // The distance of each channel of the picture from the range 0…1, negative below. 8 bits: red if a channel is
+    // above, blue if one is below, otherwise the picture in dark grey.
     LAM_OUTPUT_CLIPPED,
     // The material at the point, whatever the shading method: the base colour of a physical material or the diffuse
     // colour of a classic one, times maps and vertex colours. A classic reflection model does not turn physical materials into
@@ -141,14 +141,14 @@ typedef enum lam_output {
     // Level of detail of the diffuse map, else of the first map that the material has; 0: no map. Below 0 the map is
     // magnified; without a footprint it is -50. 8 bits: level / 10.
     LAM_OUTPUT_LOD,
-    // The share of the light from all around that reaches the point (lam_occlusion, lam_cavity), 0 … 1, on ridges more.
+    // The fraction of surrounding light that reaches the point (lam_occlusion, lam_cavity), 0 … 1, above 1 on ridges.
     LAM_OUTPUT_AMBIENT_OCCLUSION,
     LAM_OUTPUT_COUNT,
 } lam_output;
 
-// Tone curves: how light of any strength becomes a colour of the screen. Each takes linear light after exposure, with
-// the primaries of sRGB, and returns linear light from 0 to 1, which is then encoded (docs/lighting/tone.md has
-// formulas, sources and plots). They apply to pictures of 8 bits; float pictures store the light itself.
+// Tone curves map light of any strength to the range of a display. Each accepts linear light after exposure, with the
+// primaries of sRGB, and returns linear light from 0 to 1, which is then encoded (docs/lighting/tone.md has formulas,
+// sources and plots). They apply to pictures of 8 bits; float pictures store the light itself.
 typedef enum lam_tone {
     // KHRONOS_NEUTRAL where the frame shows a physical material, else NONE.
     LAM_TONE_AUTO = 0,
@@ -157,8 +157,8 @@ typedef enum lam_tone {
     // Hill's fit of the ACES reference and output transform for sRGB screens.
     LAM_TONE_ACES,
     LAM_TONE_AGX, // Sobotka's AgX, its default contrast by Wrensch's polynomial
-    // Colours up to 0.8 stay as they are but for a slight offset; brighter ones are compressed and lose saturation
-    // (Khronos PBR Neutral).
+    // Keeps colours up to 0.8, apart from a small offset; compresses and desaturates brighter colours (Khronos PBR
+    // Neutral).
     LAM_TONE_KHRONOS_NEUTRAL,
     LAM_TONE_COUNT
 } lam_tone;
@@ -167,7 +167,7 @@ typedef enum lam_tone {
 // range.
 LAM_API const char *lam_tone_name(lam_tone tone);
 
-// Applies a tone curve to a colour, each channel at least 0. AUTO and NONE: each channel is cut off at 1.
+// Applies a tone curve to a colour, each channel at least 0. AUTO and NONE clip each channel at 1.
 LAM_API lam_rgb lam_tone_apply(lam_tone tone, lam_rgb color);
 
 // Returns the name of an output: "picture", "ambient", "n.l". Returns a static string, or NULL if the index is out of
@@ -181,16 +181,16 @@ LAM_API bool lam_output_is_light(lam_output output);
 // thin wires would break into dashes, 8 up to 512², and 4 above.
 LAM_API int lam_default_samples(int width, int height);
 
-// Ambient occlusion: how much of the light from all around reaches a point past the surfaces near it
-// (docs/lighting/occlusion.md). It dims ambient, hemisphere and environment light and the share lam_light.occluded of other
-// lights, under Phong shading. Translucent surfaces have none.
+// Ambient occlusion: the fraction of surrounding light that nearby surfaces do not block (docs/lighting/occlusion.md).
+// It dims ambient, hemisphere and environment light and the share lam_light.occluded of other lights, under Phong
+// shading. Translucent surfaces are not occluded.
 typedef enum lam_occlusion {
     // SCREEN under Phong shading where a light of the frame has a share `occluded`, or an environment lights the frame;
     // else OFF.
     LAM_OCCLUSION_AUTO = 0,
     LAM_OCCLUSION_OFF,
     // From the distances of the visible surfaces around each pixel (Jimenez et al., "Practical Real-Time Strategies for
-    // Accurate Indirect Occlusion", 2016). Surfaces that the picture does not show occlude nothing.
+    // Accurate Indirect Occlusion", 2016). Hidden surfaces occlude nothing.
     LAM_OCCLUSION_SCREEN,
     // By occlusion_samples rays from each lit point: the integral that SCREEN estimates, over all surfaces of the scene. The
     // CPU device alone; others refuse it (LAM_UNSUPPORTED).
@@ -203,19 +203,19 @@ typedef enum lam_occlusion {
 // measure as valleys become darker (docs/lighting/occlusion.md).
 typedef enum lam_cavity {
     LAM_CAVITY_AUTO = 0, // ON where LAM_OCCLUSION_AUTO is SCREEN, else OFF
-    LAM_CAVITY_OFF,      // neither darker valleys nor lighter ridges
+    LAM_CAVITY_OFF,      // valleys and ridges unchanged
     LAM_CAVITY_ON,       // both
     LAM_CAVITY_COUNT
 } lam_cavity;
 
 // The ground: a plane at the scene's lowest point, across its up axis (lam_scene_set_up), on which the scene's lights cast
-// shadows as if lam_draw_params.shadows were set (docs/lighting/ground.md). It is whole up to 3 radii of the scene's sphere
-// around its middle, and fades out up to 6. Seen from below there is none. It casts no shadows itself, and the camera's fit
-// and everything else that goes by the scene's size leave it out. It needs Phong shading.
+// shadows as if lam_draw_params.shadows were set (docs/lighting/ground.md). It is opaque up to 3 radii of the scene's
+// sphere from the middle, and fades out up to 6 radii. It is invisible from below. It casts no shadows, and fitting the
+// camera and measuring the scene ignore it. It needs Phong shading.
 typedef enum lam_ground {
     LAM_GROUND_NONE = 0, // no ground
-    // It is black, and its alpha is the share of light that the scene blocks from a white, matt ground: shadows and
-    // occlusion for any background. Pictures of the numbers of surfaces, except ambient occlusion, leave it out.
+    // A shadow catcher: black, with the fraction of light that the scene blocks from a white, matt ground as alpha. It
+    // works over any background. Pictures of surface numbers, except ambient occlusion, omit it.
     LAM_GROUND_SHADOW,
     // Squares, whose side is the largest of 1, 2 and 5 times a power of ten that is at most half of the radius. They begin at
     // multiples of it in world space.
@@ -237,11 +237,11 @@ typedef enum lam_edges {
     LAM_EDGES_ALL = 7, // all of them
 } lam_edges;
 
-// How the parts of edges that lie behind surfaces are drawn.
+// How edges behind surfaces are drawn.
 typedef enum lam_hidden_lines {
     LAM_HIDDEN_LINES_REMOVE = 0, // left out
     LAM_HIDDEN_LINES_DASH,       // dashed
-    LAM_HIDDEN_LINES_SHOW,       // as if the surfaces were not there
+    LAM_HIDDEN_LINES_SHOW,       // as if no surface hid them
     LAM_HIDDEN_LINES_COUNT
 } lam_hidden_lines;
 
@@ -262,15 +262,15 @@ typedef struct lam_draw_params {
     lam_flat_normal flat_normal; // the normal of LAM_SHADING_FLAT
     // Shininess is Phong's α: Blinn–Phong takes 4α, so that both highlights look alike.
     bool match_highlights;
-    // GGX without the light that microfacets send to one another before it leaves, for comparison with renderers that
-    // leave it out: rough metals are darker then.
+    // Omits multiple scattering between microfacets (GGX), for comparison with renderers without it. Rough metals are
+    // then darker.
     bool single_scattering;
-    // As OpenGL 1 did: vertex colours are clamped to 0…1 before they are interpolated, shininess is at most 128, and
+    // Lighting as in OpenGL 1: vertex colours are clamped to 0…1 before interpolation, shininess is at most 128, and
     // attenuation and cone dim each light's ambient too.
     bool gl1;
-    // In frames of more than 16 lights, each part of the picture leaves out the weakest lights, as long as all of them
-    // together would change an encoded channel by less than this fraction of its range; at most 1. 0: ½/255, so that no
-    // byte differs by more than 1. Below 0: every light is evaluated everywhere, as the OpenGL device always does.
+    // In frames with more than 16 lights, each part of the picture skips its weakest lights, as long as they would
+    // together change an encoded channel by less than this fraction of its range; at most 1. 0: ½/255, so that no byte
+    // differs by more than 1. Below 0: every light is evaluated everywhere, as the OpenGL device always does.
     float light_cutoff;
     // Where a texture is seen at a slant: the most probes along the longer axis of a pixel's footprint, 1..16. 0: 1.
     int anisotropy;
@@ -283,29 +283,32 @@ typedef struct lam_draw_params {
     // device alone; others refuse it (LAM_UNSUPPORTED).
     int reference;
     // The width of lines, and the diameter of points, in pixels, up to 1000. 0: 1.5, and for points at least 3, more the fewer
-    // there are and the larger the picture is, 8 or more for fewer than 100. Points below 4 pixels are squares. They lie nearer to the eye by their own width, as it is seen there, so that lines on a surface are not lost in it.
+    // there are and the larger the picture is, 8 or more for fewer than 100. Points below 4 pixels are squares. They
+    // are drawn nearer to the eye by their own width, so that lines on a surface remain visible.
     float line_width, point_size;
-    // Triangles between a point and a light take the light's diffuse and specular terms away, of every light that casts
-    // shadows (lam_light.no_shadows): docs/lighting/shadows.md.
+    // Triangles between a point and a light block the diffuse and specular terms of every light that casts shadows
+    // (lam_light.no_shadows): docs/lighting/shadows.md.
     bool shadows;
-    // Shadow rays start on the flat triangles themselves. By default they start where the vertices' normals say that the
-    // curved surface lies, or the terminator of a coarse smooth mesh would show its triangles.
+    // Shadow rays start on the flat triangles. By default they start on the curved surface defined by the vertex
+    // normals; otherwise the terminator of a coarse smooth mesh shows its triangles.
     bool flat_terminator;
     // Shadow rays to a light with a radius from each point in its penumbra, 1..256; 0: 112. Above 48, points in full light or
     // full shadow get 48 rays.
     int shadow_samples;
     lam_occlusion occlusion; // LAM_BAD_ARGUMENT: SCREEN or RAYS without Phong shading
-    // How far away surfaces occlude, as a share of half the diagonal of the scene's box, above 0 … 10. 0: 0.1.
+    // The largest distance at which surfaces occlude, relative to half the diagonal of the scene's box, above 0 … 10.
+    // 0: 0.1.
     float occlusion_radius;
     // With LAM_OCCLUSION_RAYS: rays from each lit point, 1..1024; 0: 64.
     int occlusion_samples;
     lam_ground ground; // CPU device alone; others refuse it (LAM_UNSUPPORTED)
-    // Linear; of COLOR, and of the bright squares of CHECKER, whose others have 0.45 of it. CHECKER: all zero is 0.6.
+    // The linear colour of COLOR, and of the bright squares of CHECKER; the dark squares have 0.45 of it. With CHECKER,
+    // all zero means 0.6.
     lam_rgb ground_color;
     // Lines over the picture (only LAM_OUTPUT_PICTURE): the edges of all faces (of the file's polygons if the mesh
     // knows them, lam_mesh.inner_edges), and feature edges, LAM_EDGES_…. Their coverage of each pixel is computed from
     // the distance to its centre, whatever `samples` is; light, exposure and tone do not change their colours. A
-    // surface hides the edges behind it where its opacity is at least ½ and no light goes through it (docs/edges.md).
+    // surface hides the edges behind it if its opacity is at least ½ and it does not transmit light (docs/edges.md).
     bool wireframe;
     // Surfaces hide lines, but are not drawn: the picture contains only lines and points.
     bool no_surfaces;
@@ -325,7 +328,7 @@ typedef struct lam_frame_report {
     double frame_ms;     // flattening the scene: lights and matrices
     double vertices_ms;  // positions to clip space
     double triangles_ms; // rejecting, clipping, binning
-    // Making the normals that meshes lack (lam_load_params.normals_when_drawn).
+    // Computing missing normals (lam_load_params.normals_when_drawn).
     double normals_ms;
     // LAM_OCCLUSION_SCREEN, after the distances were found (rays are part of lighting_ms).
     double occlusion_ms;
@@ -347,7 +350,8 @@ typedef struct lam_frame_report {
     uint64_t memory_bytes;     // held by the device after the frame
     // LAM_OUTPUT_DEPTH: the distances, in model units, that 8 bits show white and black. Else 0.
     double depth_near, depth_far;
-    // Building the bounding volume hierarchy, in milliseconds; 0: it was not needed, or the last frame's still held.
+    // Time for building the bounding volume hierarchy, in milliseconds; 0 if it was not needed, or reused from the last
+    // frame.
     double hierarchy_ms;
     uint64_t rays; // from lit points: to lights, and of ambient occlusion
     bool ground;   // the camera sees a ground
@@ -360,29 +364,29 @@ typedef struct lam_frame_report {
     LAM_RESERVED(5);
 } lam_frame_report;
 
-// Draws the scene as the camera sees it into `image`, which the caller made with the size and pixel format
-// wanted. `params` and `control` may be NULL. On failure the image's contents are undefined. Errors:
-// LAM_BAD_ARGUMENT, LAM_LIMIT (memory, time, more than 65536 translucent triangles over one pixel),
-// LAM_CANCELLED, LAM_UNSUPPORTED (OpenGL).
+// Draws the scene from the camera into `image`, which the caller created with the desired size and pixel format.
+// `params` and `control` may be NULL. On failure the image's contents are undefined. Errors: LAM_BAD_ARGUMENT,
+// LAM_LIMIT (memory, time, more than 65536 translucent triangles over one pixel), LAM_CANCELLED, LAM_UNSUPPORTED
+// (OpenGL).
 LAM_API bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                       const lam_draw_params *params, lam_image *image, const lam_control *control, lam_error *error);
 
 // Finds the exposure, in stops, at which 95 % of the covered pixels of a frame are at most as bright as 0.8 (Rec. 709
-// luminance), rounded to thirds of a stop; 0 without light. It draws the frame, with params->exposure taken as 0, at
-// most 512 pixels wide and high. Errors as lam_draw.
+// luminance), rounded to thirds of a stop; 0 without light. It draws the frame with an exposure of 0, at most 512
+// pixels wide and high. Errors as lam_draw.
 LAM_API bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                               const lam_draw_params *params, int width, int height, const lam_control *control,
                               double *stops, lam_error *error);
 
-// lam_camera_fit for a picture with a ground (params->ground): if the view has no fill, the scene takes 0.8 of the picture,
-// and the rest is for its shadow. `axis` not NULL: the scene turns about an axis through `centre`, as in
-// lam_camera_fit_turning; give it the scene before it turns. Without a ground it is the camera of those functions. `params` NULL:
-// no ground.
+// Works like lam_camera_fit for a picture with a ground (params->ground): if the view sets no fill, the scene fills 0.8
+// of the picture, and the rest leaves space for its shadow. `axis` not NULL: the scene turns about an axis through
+// `centre`, as in lam_camera_fit_turning; give it the scene before it turns. Without a ground it is the camera of those
+// functions. `params` NULL: no ground.
 LAM_API lam_camera lam_camera_fit_ground(const lam_scene *scene, const lam_draw_params *params, int width, int height,
                                          const lam_view *view, lam_vec3 centre, const lam_vec3 *axis);
 
-// The lights of a frame: the scene's, then the rig's. Returns their number and copies the first `capacity` of them to
-// `lights`, which may be NULL. Names live as long as the scene is unchanged.
+// Lists the lights of a frame: first the lights of the scene, then of the rig. Returns their number and copies the
+// first `capacity` of them to `lights`, which may be NULL. Names are valid while the scene is unchanged.
 LAM_API int lam_draw_lights(const lam_scene *scene, lam_rig rig, lam_light *lights, int capacity);
 
 // The report of the device's last frame; all zero before the first.

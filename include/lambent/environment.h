@@ -1,4 +1,4 @@
-// lambent/environment.h: surroundings that shiny surfaces mirror: cube maps, from files or built in.
+// lambent/environment.h: cube maps of surroundings, which shiny surfaces reflect: from files or built in.
 #ifndef LAMBENT_ENVIRONMENT_H
 #define LAMBENT_ENVIRONMENT_H
 
@@ -10,7 +10,7 @@ extern "C" {
 
 struct lam_image;
 
-// A cube map: six square faces of linear light, sampled with a direction. It never changes, so any number of scenes and
+// A cube map: six square faces of linear light, sampled with a direction. It is immutable, so any number of scenes and
 // threads may share it.
 typedef struct lam_environment lam_environment;
 
@@ -34,7 +34,7 @@ typedef enum lam_cube_face {
 LAM_API lam_environment *lam_environment_make(const struct lam_image *const faces[LAM_FACE_COUNT], lam_color_mode color,
                                               lam_error *error);
 
-// The same from one picture, whose shape says how it is laid out:
+// Makes an environment from one picture, whose aspect ratio determines its layout:
 //   4:3  a cross lying down    . +Y  .  .      3:4  a cross standing   . +Y  .
 //                             -X +Z +X -Z                              -X +Z +X
 //                              . -Y  .  .                               . -Y  .
@@ -45,9 +45,9 @@ LAM_API lam_environment *lam_environment_make(const struct lam_image *const face
 LAM_API lam_environment *lam_environment_from_image(const struct lam_image *image, lam_color_mode color,
                                                     lam_error *error);
 
-// The same from files of any format that lam_image_load_linear reads: six faces, or one picture. `control` may be NULL;
-// its memory limit counts each file while it is read, the pictures (16 bytes a pixel) and the faces (12). Errors: the
-// above and lam_image_load's, LAM_UNSUPPORTED (a picture's size); every sentence names the file.
+// Makes an environment from files of any format that lam_image_load_linear reads: six faces, or one picture. `control`
+// may be NULL; its memory limit counts each file while it is read, the pictures (16 bytes a pixel) and the faces (12).
+// Errors: the above and lam_image_load's, LAM_UNSUPPORTED (a picture's size); every sentence names the file.
 LAM_API lam_environment *lam_environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
                                                     const lam_control *control, lam_error *error);
 LAM_API lam_environment *lam_environment_load(const char *path, lam_color_mode color, const lam_control *control,
@@ -67,9 +67,10 @@ LAM_API void lam_environment_free(lam_environment *environment);
 // Pixels on a side of each face.
 LAM_API int lam_environment_size(const lam_environment *environment);
 
-// The linear light from a direction in the environment's own axes, of any length; (0, 0, 0) gives black. Bilinear, and
-// without a seam where faces meet. Drawing adds this times the reflectivity of a classic material; a physical one is lit by
-// means of it, which the first frame that needs them makes and the environment keeps (docs/lighting/environment.md).
+// The linear light from a direction in the environment's own axes, of any length; (0, 0, 0) gives black. The lookup is
+// bilinear and seamless across faces. Drawing adds this times the reflectivity of a classic material; physical
+// materials are lit by prefiltered means of it, which the first frame that needs them computes and the environment
+// stores (docs/lighting/environment.md).
 LAM_API lam_rgb lam_environment_sample(const lam_environment *environment, lam_vec3 direction);
 
 // The light of an environment on physical materials as the texture `environment_light` of exported shaders

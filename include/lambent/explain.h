@@ -1,7 +1,7 @@
-// lambent/explain.h: how one pixel of a picture came about: every number from the triangles to the bytes.
+// lambent/explain.h: explains one pixel of a picture: every number from the triangles to the bytes.
 //
 // Vectors are in eye space unless a name says otherwise (docs/lighting.md, "Vectors"). Vectors and numbers are the
-// floats that the picture was made with; angles are computed from them. Names belong to the scene.
+// floats from which the picture was computed; angles are computed from them. Names belong to the scene.
 #ifndef LAMBENT_EXPLAIN_H
 #define LAMBENT_EXPLAIN_H
 
@@ -19,7 +19,7 @@ typedef struct lam_explained_light_layers {
     float S;            // of the base: π D V max(n·l, 0)
     float base_diffuse; // max(n·l, 0) (1 − max F) matt
     lam_rgb base;       // F S, F the mix of dielectric and metal
-    float sheen_left;   // the light that the sheen leaves to the base; 1: no sheen
+    float sheen_left;   // the fraction of light that passes the sheen to the base; 1: no sheen
     lam_rgb sheen;      // sheen_color π D V n·l of its fibres
     float coat;         // share S of the coat; 0: no coat
     LAM_RESERVED(4);
@@ -59,12 +59,12 @@ typedef struct lam_explained_light {
     lam_rgb specular_term; // spot · attenuation · S · ks ⊙ Ls
     // With gl1: spot · attenuation · ka ⊙ La. Otherwise 0, and La is part of the point's ambient light.
     lam_rgb ambient_term;
-    // The light's terms are not in the sum: they are too weak in this part of the picture
+    // The sum omits the light's terms, because they are too weak in this part of the picture
     // (lam_draw_params.light_cutoff).
     bool skipped;
     // With lam_draw_params.shadows: whether triangles may shadow the point from this light.
     bool casts_shadows;
-    // The share of the light that passes them, a factor of diffuse_term and specular_term; 1 without shadows.
+    // The fraction of the light that is not blocked, a factor of diffuse_term and specular_term; 1 without shadows.
     lam_rgb passed;
     // The object whose triangle is the nearest in the way to the light's middle; −1: nothing is.
     int shadow_object;
@@ -120,8 +120,8 @@ typedef struct lam_explained_point {
     int corner; // 0…2; −1: the fragment
     // The same position in the mesh's space, in the world's and in eye space.
     lam_vec3 mesh_position, world_position, position;
-    // Unit: the normal, the direction to the eye, and the tangent, which is zero where the reflection model has no use
-    // for it.
+    // Unit vectors: the normal, the direction to the eye, and the tangent, which is zero if the reflection model does
+    // not use it.
     lam_vec3 n, v, t;
     lam_rgb color;         // vertex colour; 1 if the mesh has no colours
     lam_rgb ambient_light; // La_global + Σ La
@@ -207,7 +207,7 @@ typedef struct lam_explained_place {
     LAM_RESERVED(1);
 } lam_explained_place;
 
-// The matrices of an object, as its vertex shader is given them. Rows first: m[row][column].
+// The matrices of an object, as passed to its vertex shader. Rows first: m[row][column].
 typedef struct lam_explained_matrices {
     lam_mat4 model_view; // the mesh's own space to eye space
     lam_mat4 projection; // eye space to clip space
@@ -311,8 +311,8 @@ typedef struct lam_explanation {
 } lam_explanation;
 
 // Draws the part of the picture around pixel (x, y), counted from the upper left corner, and records every number of
-// that pixel. The code that draws pictures runs; the arguments are lam_draw's, with the picture's size and format in
-// place of the picture. The device's next picture is not affected. The caller frees the result. Returns NULL on
+// that pixel. It runs the same code as lam_draw, and takes the same arguments, with the picture's size and format
+// instead of the picture. The device's next picture is not affected. The caller frees the result. Returns NULL on
 // failure: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (not the CPU device), LAM_LIMIT, LAM_CANCELLED.
 LAM_API lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                                      const lam_draw_params *params, int width, int height, lam_pixel_format format,

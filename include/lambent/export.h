@@ -1,4 +1,4 @@
-// lambent/export.h: scenes as model files.
+// lambent/export.h: exports scenes as model files.
 #ifndef LAMBENT_EXPORT_H
 #define LAMBENT_EXPORT_H
 
@@ -9,33 +9,32 @@
 extern "C" {
 #endif
 
-// The files that a scene became, in memory, and what the format could not hold.
+// An exported scene: its files, in memory, and a list of the data that the format does not support.
 typedef struct lam_export lam_export;
 
-// How a scene is exported. All zero is the default.
+// Parameters of an export. All zero is the default.
 typedef struct lam_export_params {
     // The name of the model's file, without a folder. Files beside it are named after it: "part.obj" comes with "part.mtl" and
     // "part-0.png". NULL: "model" and the format's ending.
     const char *name;
-    // A camera that comes before those of the scene, for formats with cameras. NULL: none.
+    // A camera to store before the cameras of the scene, for formats with cameras. NULL: none.
     const lam_camera *camera;
-    // A picture of the scene that the file contains for those who list files: GLB alone, asset.thumbnail of the draft of glTF 2.1
-    // (8 bits). NULL: none.
+    // A preview picture to store in the file (8 bits; only GLB: asset.thumbnail of the draft of glTF 2.1). NULL: none.
     const lam_image *thumbnail;
     LAM_RESERVED(5);
 } lam_export_params;
 
 // Makes the files of a model from a scene: its meshes, objects and materials with their textures, and its lights and
-// cameras, as far as the format holds them. The up axis becomes the format's: coordinates are turned. `format` is one
-// of lam_export_format. `params` may be NULL. The caller frees the result with lam_export_free. Returns NULL on
-// failure: LAM_BAD_ARGUMENT (nothing that the format can hold; a thumbnail in a format without one), LAM_UNSUPPORTED
-// (no such format, or a library that writes it is not installed), LAM_LIMIT.
+// cameras, as far as the format supports them. Coordinates are rotated to the up axis of the format. `format` is one of
+// lam_export_format. `params` may be NULL. The caller frees the result with lam_export_free. Returns NULL on failure:
+// LAM_BAD_ARGUMENT (the scene contains nothing that the format supports; a thumbnail in a format without thumbnails),
+// LAM_UNSUPPORTED (no such format, or a library that writes it is not installed), LAM_LIMIT.
 LAM_API lam_export *lam_scene_export(const lam_scene *scene, const char *format, const lam_export_params *params,
                                      lam_error *error);
 LAM_API void lam_export_free(lam_export *result); // NULL is fine
 
-// The files, from 0: first the model, then those beside it. The name, valid until the result is freed (NULL out of range), and the
-// contents, which stay the result's.
+// Returns the files, from 0: first the model, then the files beside it. The name (NULL if the index is out of range)
+// and the contents are valid until the result is freed.
 LAM_API const char *lam_export_file_name(const lam_export *result, int index);
 LAM_API lam_bytes lam_export_file(const lam_export *result, int index);
 

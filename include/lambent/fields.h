@@ -1,5 +1,5 @@
 // lambent/fields.h: the fields of lam_material and lam_light as tables: keys, ranges, defaults and meanings. Scene
-// files, options, reports and shaders are made from them.
+// files, options, reports and shaders use these tables.
 #ifndef LAMBENT_FIELDS_H
 #define LAMBENT_FIELDS_H
 
@@ -35,7 +35,7 @@ typedef struct lam_field {
     // The range of each number, INFINITY if it is unbounded, and the default. Angles in degrees.
     double min, max, standard[4];
     size_t offset; // in lam_material or lam_light
-    // Bits 1 << lam_light_type: the lights that have it. 0: a material's.
+    // Bits 1 << lam_light_type: the light types with this field. 0: a field of materials.
     unsigned light_types;
     LAM_RESERVED(8);
 } lam_field;
@@ -43,18 +43,18 @@ typedef struct lam_field {
 // The most rows of either table.
 enum { LAM_FIELDS_MAX = 40 };
 
-// Returns a row of a table, or NULL past the end. Of lights a key may have several rows, with different defaults for
-// different types.
+// Returns a row of a table, or NULL past the end. For lights, a key may occur in several rows, with different defaults
+// for different types.
 LAM_API const lam_field *lam_material_field(int index);
 LAM_API const lam_field *lam_light_field(int index);
 
 // Reads the numbers of a field (angles in radians, a flag as 0 or 1) and returns how many there are: 1, 3 or 4.
 LAM_API int lam_field_get(const lam_field *field, const void *object, double numbers[4]);
-// The numbers as scene files, options and reports have them: as lam_field_get, but angles in degrees, the shortest
-// decimal that gives the same angle.
+// Reads the numbers as scene files, options and reports contain them: like lam_field_get, but with angles in degrees,
+// as the shortest decimal that gives the same angle.
 LAM_API int lam_field_get_written(const lam_field *field, const void *object, double numbers[4]);
 
-// Sets them, whatever their range.
+// Sets the numbers without checking their range.
 LAM_API void lam_field_set(const lam_field *field, void *object, const double numbers[4]);
 
 #ifdef __cplusplus

@@ -16,7 +16,7 @@ typedef enum lam_gl_api {
     LAM_GL_ES,       // OpenGL ES 3.0, the base of WebGL 2
 } lam_gl_api;
 
-// A pointer to a function of OpenGL; its true type goes by its name.
+// A pointer to an OpenGL function; its actual type depends on its name.
 typedef void (*lam_gl_function)(void);
 
 // Returns the function of a name ("glDrawArrays"), NULL if there is none. For a window made by SDL, GLFW or GTK it
@@ -25,14 +25,14 @@ typedef lam_gl_function lam_gl_get_proc(void *user, const char *name);
 
 // Parameters of an OpenGL device. All zero: OpenGL 3.3 core on the first usable device, without a window.
 typedef struct lam_gl_params {
-    // The interface to use. It does not count in the caller's own context, which has one already.
+    // The interface to use. Ignored with the caller's own context, which determines the interface.
     lam_gl_api api;
     // The device: its number in lam_gl_devices ("0"), or a part of its name or driver ("llvmpipe"), in upper or lower
     // case. NULL: the first usable one, hardware before software.
     const char *device;
     // Not NULL: draw in the caller's own context, which must be current on the calling thread now, in each lam_draw and
-    // in lam_device_free. It has OpenGL 3.3 (core or compatibility) or OpenGL ES 3.0. The device draws into
-    // framebuffers of its own and restores every state that it changes.
+    // in lam_device_free. The context must support OpenGL 3.3 (core or compatibility) or OpenGL ES 3.0. The device
+    // draws into its own framebuffers and restores every state that it changes.
     lam_gl_get_proc *get_proc_address;
     void *user; // passed to `get_proc_address`
     // Collects the driver's debug messages (KHR_debug): an error fails the draw with LAM_UNSUPPORTED and the driver's sentence.
@@ -57,7 +57,7 @@ typedef struct lam_gl_params {
 // library, a driver or a version is missing (the sentence names it and the package to install), LAM_LIMIT.
 LAM_API lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error);
 
-// A device of this machine that OpenGL may run on without a window. Texts are "" where nothing is known.
+// A device of this machine on which OpenGL can run without a window. Unknown texts are "".
 typedef struct lam_gl_device {
     int number; // as lam_gl_params.device takes it
     // The driver's name of it: "llvmpipe (LLVM 15.0.6, 256 bits)".
@@ -72,9 +72,9 @@ typedef struct lam_gl_device {
     LAM_RESERVED(8);
 } lam_gl_device;
 
-// Finds the devices by starting each, which takes from some milliseconds to some hundreds. Writes the first `capacity`
-// of them, hardware first, and returns how many there are; −1 and LAM_UNSUPPORTED where OpenGL cannot be loaded.
-// `params` may be NULL; only its `library` counts.
+// Finds the devices by starting each, which takes between a few and a few hundred milliseconds. Writes the first
+// `capacity` of them, hardware first, and returns how many there are; −1 and LAM_UNSUPPORTED where OpenGL cannot be
+// loaded. `params` may be NULL; only its `library` counts.
 LAM_API int lam_gl_devices(const lam_gl_params *params, lam_gl_device *devices, int capacity, lam_error *error);
 
 #ifdef __cplusplus

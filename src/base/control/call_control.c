@@ -1,4 +1,4 @@
-// call_control.c: the running side of lam_control.
+// call_control.c: enforces lam_control while a call runs.
 #include "call_control.h"
 
 #include "fail.h"
@@ -61,7 +61,7 @@ bool call_error(struct call_control *call, lam_error *error)
 
 static uint64_t or_default(uint64_t limit, uint64_t standard) { return limit ? limit : standard; }
 
-// base + bytes · rate, without overflow.
+// Computes base + bytes · rate, without overflow.
 static uint64_t grown(uint64_t base, uint64_t bytes, uint64_t rate)
 {
     uint64_t sum;

@@ -1,4 +1,4 @@
-// call_control.h: the running side of lam_control: one call's cancel flag, deadline, memory budget and progress.
+// call_control.h: enforces lam_control while a call runs: cancel flag, deadline, memory budget and progress.
 #ifndef CALL_CONTROL_H
 #define CALL_CONTROL_H
 
@@ -13,7 +13,7 @@ struct call_control {
     uint64_t input_bytes; // of the files that were read; accessed atomically. 0: none, and no limit follows from them
     bool unknown_field;   // the control has a field that this version does not know
     double last_share;
-    // Operations of the formulas of a scene file, and how many there may be; 0: any number.
+    // The number of formula operations in a scene file, and its limit; 0: no limit.
     uint64_t operations, operation_limit;
 };
 
@@ -27,16 +27,17 @@ bool call_should_continue(struct call_control *call);
 // Fills the error with the reason why call_should_continue returned false, and returns false.
 bool call_error(struct call_control *call, lam_error *error);
 
-// Charge and refund memory; false: over the budget. Any thread.
+// Charges and refunds memory. Returns false if the budget is exceeded. Any thread may call it.
 bool call_charge(struct call_control *call, size_t bytes);
-// The same for memory that the call can do without: a refusal does not end it.
+// Charges memory that the call does not strictly need: a refusal does not end the call.
 bool call_charge_spare(struct call_control *call, size_t bytes);
 void call_refund(struct call_control *call, size_t bytes);
 
 // Reports an allocation that failed: over the budget, or out of memory. Returns false.
 bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error);
 
-// Adds to the size of the files that the call reads; of a file that is read twice only once. Any thread; `call` may be NULL.
+// Adds to the size of the files that the call reads; a file that is read twice counts once. Any thread may call it;
+// `call` may be NULL.
 void call_add_input(struct call_control *call, uint64_t bytes);
 uint64_t call_input_bytes(const struct call_control *call);
 
@@ -56,8 +57,8 @@ bool call_check_triangles(const struct call_control *call, const char *name, uin
 // Returns whether a model may have this many objects; false: LAM_LIMIT.
 bool call_check_objects(const struct call_control *call, const char *name, uint64_t count, lam_error *error);
 
-// Returns whether the unpacked parts of a compressed file may have this many bytes: as many as reading it may use
-// memory; false: LAM_LIMIT.
+// Returns whether the unpacked parts of a compressed file may have this many bytes: at most the memory that reading it
+// may use; false: LAM_LIMIT.
 bool call_check_expanded(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
 
 // Returns whether a file of this size may be read; false: LAM_LIMIT.

@@ -6,9 +6,9 @@
 #include "call_control.h"
 #include "pool.h"
 
-// Files are read into memory of their own, in parallel pieces, rather than mapped: a mapped file that another program
-// shrinks kills the reader with SIGBUS, and copying from the page cache into huge pages costs no more than the page
-// faults of a mapping. At least FILE_PADDING zero bytes follow the last byte, so a parser may read past the end.
+// Files are read into memory in parallel pieces, not mapped: a mapped file that another program shrinks kills the
+// reader with SIGBUS, and copying from the page cache into huge pages costs no more than the page faults of a mapping.
+// At least FILE_PADDING zero bytes follow the last byte, so a parser may read past the end.
 enum { FILE_PADDING = 64 };
 
 struct file_bytes {
@@ -39,7 +39,7 @@ bool file_check_regular(const char *path, lam_error *error);
 // folder's part, with its '/'; 0 if the two are the same.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
-// A large file that is read in parts, from any thread.
+// A large file, which any thread may read in parts.
 enum { FILE_HEAD = 64 << 10, FILE_LARGE = 1 << 20 };
 struct file_parts {
     int file;
@@ -51,7 +51,7 @@ bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], s
 bool file_read_part(const struct file_parts *parts, size_t offset, void *to, size_t bytes);
 void file_close_parts(struct file_parts *parts);
 
-// Padded memory of zeros for a file's bytes, as file_read returns it; and such a copy of memory.
+// Allocates zeroed, padded memory for a file's bytes, as file_read returns it; or a padded copy of memory.
 bool file_hold(size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 bool file_copy(const void *bytes, size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 
@@ -60,15 +60,15 @@ void file_release(struct file_bytes *bytes);
 // Makes the arena the owner of the bytes, without copying them. False: out of memory; `bytes` still owns them.
 bool file_move_to_arena(struct file_bytes *bytes, struct arena *arena);
 
-// Writes a file whole or not at all, and leaves nothing else in its folder, even if a signal ends the process meanwhile
-// (file_write.c). Keeps the rights to read and write an existing file, and none to execute it; a symbolic link is kept,
-// and its target replaced. A path that is not a regular file (/dev/stdout, a pipe) is written directly. `durable`: it
-// is on the disk when the call returns, and its folder too, so that a loss of power leaves the old file or the new one.
-// `call` may be NULL. Errors: LAM_CANNOT_WRITE, and the errors of `call`: LAM_CANCELLED, LAM_LIMIT.
+// Writes a file completely or not at all, and leaves no other file in its folder, even if a signal ends the process
+// meanwhile (file_write.c). Keeps the rights to read and write an existing file, and none to execute it; a symbolic
+// link is kept, and its target replaced. A path that is not a regular file (/dev/stdout, a pipe) is written directly.
+// `durable`: it is on the disk when the call returns, and its folder too, so that a loss of power leaves the old file
+// or the new one. `call` may be NULL. Errors: LAM_CANNOT_WRITE, and the errors of `call`: LAM_CANCELLED, LAM_LIMIT.
 bool file_write(const char *path, const void *data, size_t size, bool durable, struct call_control *call,
                 lam_error *error);
 
-// The same in a given way, for tests: FILE_NAMED is used on file systems without unnamed files.
+// Writes a file by a given method, for tests: FILE_NAMED is used on file systems without unnamed files.
 enum file_way { FILE_UNNAMED = 0, FILE_NAMED = 1, FILE_DURABLE = 2 }; // the last one is a bit
 bool file_write_by(unsigned way, const char *path, const void *data, size_t size, struct call_control *call,
                    lam_error *error);

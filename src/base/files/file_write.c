@@ -1,4 +1,5 @@
-// file_write.c: writes whole files, so that a reader sees the old file or the new one and nothing is left behind.
+// file_write.c: writes whole files, so that a reader sees either the old file or the new one, and no temporary file
+// remains.
 //
 // If the file system supports them, the bytes go to a file without a name (O_TMPFILE), which the kernel removes with
 // the process, however it ends. The finished file is linked to its name; if that name exists, beside it, and renamed
@@ -74,7 +75,7 @@ static void hold_signals(sigset_t *before)
 
 // --- writing
 
-// The bytes to write, and their destination.
+// The data to write and their destination.
 struct writing {
     const char *target;
     const struct stat *existing; // NULL: the target does not exist
@@ -107,7 +108,7 @@ static bool write_all(int file, const struct writing *w, const sigset_t *before)
     return true;
 }
 
-// To the disk. Some file systems and devices have nothing to do (EINVAL).
+// Flushes to disk. Some file systems and devices do not support it (EINVAL).
 static bool sync_file(int file) { return fsync(file) == 0 || errno == EINVAL || errno == ENOSYS; }
 
 static bool fill(int file, const struct writing *w, const sigset_t *before)
@@ -119,7 +120,8 @@ static bool fill(int file, const struct writing *w, const sigset_t *before)
         return false;
     if (w->durable && !sync_file(file))
         return false;
-    // Closing a copy reports errors that a file system reports only then, while the file can still be dropped.
+    // Some file systems report errors only on close. Closing a duplicate reports them while the file can still be
+    // discarded.
     int copy = dup(file);
     return copy < 0 || close(copy) == 0;
 }
@@ -145,7 +147,7 @@ static char *name_beside(const char *target)
                : name;
 }
 
-// A file's name is on the disk once its folder is.
+// A file's name is on disk after its folder is flushed.
 static bool sync_folder(const char *target)
 {
     char *name = folder_of(target);
@@ -242,7 +244,7 @@ static bool write_named(const struct writing *w)
     bool ok = file >= 0 && fill(file, w, &before);
     int reason = errno;
     if (file >= 0)
-        close(file); // fill has seen its errors
+        close(file); // fill has reported its errors
     if (ok && rename(name, w->target) != 0) {
         reason = errno;
         ok = false;
@@ -286,7 +288,7 @@ bool file_write_by(unsigned way, const char *path, const void *data, size_t size
     if (exists && !S_ISREG(about.st_mode))
         return write_direct(path, &w, error);
 
-    // A symbolic link is kept: the file that it points to is replaced.
+    // Keeps a symbolic link and replaces the file that it points to.
     char *target = exists ? realpath(path, NULL) : strdup(path);
     bool writable = target && (!exists || access(target, W_OK) == 0), possible = false;
     w.target = target;

@@ -1,4 +1,4 @@
-// double_lanes.h: doubles beside the floats of lanes.h.
+// double_lanes.h: vectors of doubles that correspond to the floats of lanes.h.
 //
 //   dnum   DLANES doubles: one register of them, half as many as a num has floats; DPARTS of them cover LANES
 //   dmask  DLANES truths, from comparing
@@ -88,7 +88,7 @@ LANE_FN unsigned dmask_bits(dmask m) // bit i: lane i
 }
 #endif
 
-// Minimum and maximum as min_of and max_of have them.
+// Minimum and maximum, with the semantics of min_of and max_of.
 #if LANES == 4 && defined(__SSE2__)
 LANE_FN dnum dmin_of(dnum a, dnum b) { return (dnum)_mm_min_pd((__m128d)a, (__m128d)b); }
 LANE_FN dnum dmax_of(dnum a, dnum b) { return (dnum)_mm_max_pd((__m128d)a, (__m128d)b); }

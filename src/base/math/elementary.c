@@ -16,7 +16,7 @@ double math_floor(double x)
     return whole > x ? whole - 1 : whole;
 }
 
-// x · 2^n for |n| ≤ 2200, in steps that neither overflow nor round before the last.
+// Computes x · 2^n for |n| ≤ 2200, in steps of which only the last can overflow or round.
 static double scaled(double x, int n)
 {
     for (; n > 1000; n -= 1000)
@@ -29,7 +29,8 @@ static double scaled(double x, int n)
     return x * power;
 }
 
-// e^(x + tail), where the tail is below a rounding of x: by Taylor's series for the rest of a multiple of ln 2.
+// Computes e^(x + tail), with a tail below the rounding error of x, by Taylor's series after subtracting a multiple of
+// ln 2.
 static double exponential(double x, double tail)
 {
     if (x != x)
@@ -52,7 +53,7 @@ struct two_doubles {
     double head, tail;
 };
 
-// a · b without rounding (Dekker 1971), for factors far from overflow.
+// Computes a · b exactly (Dekker 1971), for factors far from overflow.
 static struct two_doubles exact_product(double a, double b)
 {
     double p = a * b, s = a * 134217729.0, t = b * 134217729.0;

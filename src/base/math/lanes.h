@@ -96,7 +96,7 @@ LANE_FN num num_of_bits(inum i)
     memcpy(&x, &i, 4);
     return x;
 }
-LANE_FN num pick(mask m, num a, num b) { return m ? a : b; } // a where m, else b
+LANE_FN num pick(mask m, num a, num b) { return m ? a : b; } // selects a where m is set, else b
 LANE_FN inum ipick(mask m, inum a, inum b) { return m ? a : b; }
 LANE_FN mask both(mask a, mask b) { return a & b; }
 LANE_FN mask either(mask a, mask b) { return a | b; }
@@ -210,9 +210,9 @@ LANE_FN inum imin_of(inum a, inum b) { return ipick(a < b, a, b); }
 LANE_FN inum imax_of(inum a, inum b) { return ipick(a > b, a, b); }
 // |x|: clears the sign bit; NaN stays NaN.
 LANE_FN num absolute(num x) { return num_of_bits(bits_of(x) & 0x7fffffff); }
-// max(x, 0); NaN gives 0.
+// Computes max(x, 0); NaN gives 0.
 LANE_FN num positive(num x) { return max_of(x, num_of(0.0f)); }
-// x clamped to 0…1; NaN gives 0.
+// Clamps x to 0…1; NaN gives 0.
 LANE_FN num saturate(num x) { return min_of(positive(x), num_of(1.0f)); }
 
 // Stores x in the lanes of m, and leaves memory unchanged elsewhere.
@@ -295,7 +295,7 @@ LANE_FN void inum_store_8(uint8_t *at, inum x)
 #endif
 }
 
-// Floor; |x| < 2³¹, never NaN: clamp first.
+// Rounds down; |x| < 2³¹, never NaN: clamp first.
 LANE_FN inum floor_of(num x)
 {
 #if LANES == 16 && defined(__AVX512F__)
@@ -322,7 +322,7 @@ LANE_FN unsigned negative_bits(inum x)
 #endif
 }
 
-// For each lane, how many of `bits` belong to it or to one before it.
+// Counts, for each lane, the `bits` of this lane and of the lanes before it.
 LANE_FN inum bits_up_to_lane(unsigned bits)
 {
     inum x = inum_of((int32_t)bits) & ((inum_of(2) << lane_numbers()) - 1);
@@ -332,7 +332,7 @@ LANE_FN inum bits_up_to_lane(unsigned bits)
     return (x + (x >> 8)) & 0x1f;
 }
 
-// Lane i is lane at[i] of x; at: 0 to LANES − 1.
+// Permutes lanes: lane i is lane at[i] of x; at: 0 to LANES − 1.
 LANE_FN num lanes_at(num x, inum at)
 {
 #if LANES == 16 && defined(__AVX512F__)
@@ -371,7 +371,7 @@ LANE_FN float min_lane(num x)
 #endif
 }
 
-// The lower half of the lanes from one address, the upper half from another.
+// Loads the lower half of the lanes from one address, the upper half from another.
 LANE_FN num num_load_halves(const float *low, const float *high)
 {
 #if LANES == 1
@@ -454,7 +454,7 @@ LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)
 #endif
 }
 
-// Lane i is from[at[i]]; at < 2³¹.
+// Gathers: lane i is from[at[i]]; at < 2³¹.
 LANE_FN inum igather(const int32_t *from, inum at)
 {
 #if LANES == 1

@@ -20,7 +20,8 @@ double v3_length(lam_vec3 a);
 lam_vec3 v3_unit(lam_vec3 a); // the zero vector stays zero; safe from overflow and underflow
 bool v3_finite(lam_vec3 a);
 
-// Correctly rounded √ (the processor's own), and angle functions within 2 units in the last place for |x| ≤ 1e6.
+// Correctly rounded √ (the processor's instruction), and angle functions within 2 units in the last place for |x| ≤
+// 1e6.
 double math_sqrt(double x);
 double math_sin(double x);
 double math_cos(double x);

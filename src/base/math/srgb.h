@@ -2,9 +2,9 @@
 #ifndef SRGB_H
 #define SRGB_H
 
-// Linear light of an sRGB-encoded number (IEC 61966-2-1), 0…1 for 0…1, good to a few units in a double's last place;
-// NaN and negative numbers give 0, numbers above 1 continue along the curve. For set-up work; image/encoding.h has the
-// curves for many floats at a time.
+// Decodes an sRGB-encoded number to linear light (IEC 61966-2-1), 0…1 for 0…1, accurate to a few units in a double's
+// last place; NaN and negative numbers give 0, numbers above 1 continue along the curve. For set-up work;
+// image/encoding.h has the curves for many floats at a time.
 double srgb_linear(double encoded);
 
 #endif

@@ -20,7 +20,7 @@ struct arena {
 };
 
 void arena_start(struct arena *arena, struct call_control *call);
-void arena_start_large(struct arena *arena, struct call_control *call); // starts with a block of the largest size
+void arena_start_large(struct arena *arena, struct call_control *call); // Starts with a block of the largest size.
 void arena_free(struct arena *arena); // frees everything; the arena is empty and usable again
 
 // Aligned to 64 bytes for 64 bytes and more, else to 16. NULL when memory or the call's budget is exhausted
@@ -28,10 +28,10 @@ void arena_free(struct arena *arena); // frees everything; the arena is empty an
 void *arena_alloc(struct arena *arena, size_t bytes);
 void *arena_alloc_zeroed(struct arena *arena, size_t bytes);
 
-// Space for `count` items of `size` bytes; NULL also where the product overflows.
+// Allocates `count` items of `size` bytes. Returns NULL also if the product overflows.
 void *arena_array(struct arena *arena, size_t count, size_t size);
 
-// Copies of a string (NULL stays NULL), of the first `length` bytes as a string, and formatted.
+// Copies a string (NULL stays NULL), copies the first `length` bytes as a string, or formats a string.
 char *arena_string(struct arena *arena, const char *text);
 char *arena_string_of(struct arena *arena, const char *text, size_t length);
 char *arena_vformat(struct arena *arena, const char *format, va_list arguments);
@@ -40,8 +40,7 @@ char *arena_vformat(struct arena *arena, const char *format, va_list arguments);
 // refunded with them. False: out of memory; the caller still owns them.
 bool arena_adopt(struct arena *arena, void *pages, size_t held, size_t charged);
 
-// For tests: from now on the allocation number `countdown` (0: the next) of this thread fails, once. Returns −1 if
-// there is none.
+// For tests: makes allocation number `countdown` (0: the next) of this thread fail once. Returns −1 if there is none.
 void arena_fail_after(long countdown);
 
 #endif

@@ -1,8 +1,8 @@
 // available_memory.c: the memory available to this process: the smallest of the machine's memory and its limits.
 //
 // Control groups limit memory in a container or under a batch system: cgroup v2 in memory.max, v1 in
-// memory.limit_in_bytes, each for a group and all below it. Within a container the path in /proc/self/cgroup may be the
-// host's and not exist: the groups above it, up to the mount's root, are read nevertheless.
+// memory.limit_in_bytes, each for a group and all below it. Within a container, /proc/self/cgroup may contain a path of
+// the host that does not exist. The parent groups up to the root of the mount are read nevertheless.
 // https://docs.kernel.org/admin-guide/cgroup-v2.html, .../cgroup-v1/memory.html
 #include "available_memory.h"
 
@@ -48,7 +48,8 @@ static bool read_head(const char *path, char *text, size_t size)
 
 static uint64_t smaller(uint64_t a, uint64_t b) { return a < b ? a : b; }
 
-// Returns the smallest limit of a group and those above it: `path` is the group's, below `mount`. "max" is no number.
+// Returns the smallest limit of a group and its parents: `path` is the path of the group below `mount`. "max" is no
+// number.
 static uint64_t limit_of_group(const char *root, const char *mount, const char *path, const char *file)
 {
     char name[PATH_BYTES + 200], text[64];

@@ -11,16 +11,16 @@ enum { PAGES_WHEN_TOUCHED = 0 };
 enum { PAGES_WHEN_TOUCHED = 1 };
 #endif
 
-// Fresh zeroed memory, page-aligned. `held` receives the size to free. Returns NULL if memory runs out.
+// Allocates zeroed, page-aligned memory. `held` receives the size to free. Returns NULL if memory runs out.
 void *pages_get(size_t bytes, size_t *held);
-// The same in small pages, for blocks that are hardly touched.
+// Allocates small pages, for sparsely used blocks.
 void *pages_get_sparse(size_t bytes, size_t *held);
 void pages_free(void *pages, size_t held);
 // Releases the pages after the first `bytes`, where the system allows that.
 void pages_trim(void *pages, size_t *held, size_t bytes);
 
-// Bytes of the machine's memory; SIZE_MAX: unknown. The system overcommits and kills a process that uses too much:
-// check this before a large allocation.
+// Returns the size of the machine's memory in bytes, or SIZE_MAX if it is unknown. The system overcommits and kills a
+// process that uses too much: check this before a large allocation.
 size_t pages_of_machine(void);
 
 #endif

@@ -1,4 +1,4 @@
-// loop_status.h: whether the threads of a parallel loop must stop.
+// loop_status.h: tells the threads of a parallel loop to stop.
 #ifndef LOOP_STATUS_H
 #define LOOP_STATUS_H
 

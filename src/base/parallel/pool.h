@@ -20,7 +20,7 @@ int pool_threads(const struct pool *pool); // NULL: 1
 typedef void pool_task(void *user, size_t index, int thread);
 void pool_run(struct pool *pool, size_t count, pool_task *task, void *user);
 
-// Processors that this process may run on.
+// Returns the number of processors that this process may use.
 int processor_count(void);
 
 #endif

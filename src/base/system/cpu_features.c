@@ -5,7 +5,7 @@ unsigned cpu_features(void)
 {
     unsigned features = 0;
 #if defined(__x86_64__) || defined(__i386__)
-    __builtin_cpu_init(); // also checks that the operating system saves the wide registers
+    __builtin_cpu_init(); // also checks whether the operating system saves the wide registers
     if (__builtin_cpu_supports("sse4.2"))
         features |= CPU_SSE4;
     if (__builtin_cpu_supports("avx2"))

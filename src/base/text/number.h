@@ -5,15 +5,15 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// Reads a decimal number (sign, digits, '.', exponent; also inf, nan, as C writes them) at `at`, never looking at or
-// past `end`. Returns the position after the number, NULL if there is none. The result is the double nearest to the text,
+// Parses a decimal number (sign, digits, '.', exponent; also inf and nan, as in C) at `at`, without reading at or past
+// `end`. Returns the position after the number, or NULL if there is none. The result is the double nearest to the text,
 // ties to even.
 const uint8_t *number_double(const uint8_t *at, const uint8_t *end, double *out);
 
-// The same, rounded once to the nearest float (not through double).
+// Parses a decimal number, rounded once to the nearest float (not through double).
 const uint8_t *number_float(const uint8_t *at, const uint8_t *end, float *out);
 
-// A decimal integer with optional sign; NULL if none, or if it does not fit.
+// Parses a decimal integer with an optional sign. Returns NULL if there is none or it does not fit.
 const uint8_t *number_int(const uint8_t *at, const uint8_t *end, int64_t *out);
 
 #endif

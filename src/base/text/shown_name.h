@@ -10,8 +10,8 @@ enum {
 };
 
 // Writes a name from a file to `out`, for a message: its first SHOWN_CHARACTERS characters, and "…" if it has more.
-// Control characters and bytes that are not UTF-8 become '?', so that a file cannot play with a terminal. Returns
-// `out`.
+// Control characters and bytes that are not UTF-8 become '?', so that a file cannot send control sequences to a
+// terminal. Returns `out`.
 const char *shown_name(const char *name, char out[SHOWN_NAME_SIZE]);
 const char *shown_name_of(const void *bytes, size_t length, char out[SHOWN_NAME_SIZE]); // not ended by a 0
 

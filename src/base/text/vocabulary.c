@@ -1,4 +1,4 @@
-// vocabulary.c: how far a typed word is from one of the interface, and other names of things.
+// vocabulary.c: measures the distance of a typed word from a word of the interface, and lists synonyms.
 #include <lambent/base.h>
 
 #include <stddef.h>
@@ -6,8 +6,8 @@
 
 enum { LENGTH_MAX = 63 };
 
-// Other names that people use, separated by spaces, in small letters with '-' between words. They are suggested, not
-// accepted. A name may occur in several rows: it counts for the words that are possible at that position.
+// Other names that people use, separated by spaces, in small letters with '-' between words. The program suggests them,
+// but does not accept them. If a name occurs in several rows, the rows that are valid at that position apply.
 static const struct {
     const char *word, *others;
 } vocabulary[] = {
@@ -111,7 +111,7 @@ static const struct {
     {"teapot", "utah"},
 };
 
-// Writes a word in small letters, '_' and ' ' as '-'. Returns false if it is too long.
+// Converts a word to lower case, with '-' for '_' and ' '. Returns false if it is too long.
 static bool simplify(const char *word, char out[LENGTH_MAX + 1])
 {
     size_t length = strnlen(word, LENGTH_MAX + 1);

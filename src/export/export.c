@@ -1,4 +1,4 @@
-// export.c: the front of all writers of model formats.
+// export.c: selects and calls the writer of a model format.
 #include "export.h"
 
 #include "fail.h"
@@ -31,7 +31,7 @@ const struct exporter *exporter_find(const char *ending, const char *path, lam_e
 
 // --- the call
 
-// Turns the text into the first file.
+// Stores the text as the first file.
 static bool finish(struct exporting *e, const char *ending)
 {
     struct lam_export *out = e->out;

@@ -11,7 +11,7 @@
 
 #define EXPORTERS(row) row(glb) row(obj) row(stl) row(ply) row(3mf)
 
-// What a scene consists of: each kind has meshes of its own.
+// The kinds of items in a scene. Each kind has separate meshes.
 enum export_kind { EXPORT_TRIANGLES, EXPORT_LINES, EXPORT_POINTS, EXPORT_KINDS };
 
 struct export_file {
@@ -25,7 +25,7 @@ struct lam_export {
     struct scene_list losses; // const char *
 };
 
-// A scene while it is written.
+// The state of an export.
 struct exporting {
     const struct lam_scene *scene; // NULL: a mesh alone
     const lam_export_params *params;
@@ -53,23 +53,24 @@ EXPORTERS(EXPORTER_DECLARED)
 // Returns the exporter of an ending; NULL, with the error that names `path`: there is none.
 const struct exporter *exporter_find(const char *ending, const char *path, lam_error *error);
 
-// Says that something of the scene is not in the file; once for each sentence.
+// Records a loss: something in the scene that the file does not contain. Each sentence is recorded once.
 void export_lose(struct exporting *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// Says what no flat format holds: lights, cameras, an environment, animations. `cameras`: the format has lights and cameras.
+// Records the losses that all flat formats share: lights, cameras, an environment, animations. `cameras`: the format
+// supports lights and cameras.
 void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras);
 
 // Adds a file beside the model, whose bytes come from malloc and are given away. Its name is the model's without its
 // ending, and `ending`: "-0.png". Fails with LAM_LIMIT.
 const char *export_add_file(struct exporting *e, const char *ending, lam_bytes bytes);
 
-// Out of memory: false, with the error.
+// Reports that memory has run out, and returns false.
 bool export_no_memory(struct exporting *e, size_t bytes);
 
-// flatten.c: makes e->flat of the scene.
+// flatten.c: builds e->flat from the scene.
 bool export_flatten(struct exporting *e);
 
-// export_numbers.c: numbers in text and bytes, vectors turned to the format's up axis.
+// export_numbers.c: numbers in text and bytes, vectors rotated to the format's up axis.
 void export_number(struct text *text,
                    double x); // with all digits of a float, or of a double if it is not exactly a float
 void export_word(struct text *text, uint32_t value); // little endian

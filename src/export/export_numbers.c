@@ -1,4 +1,4 @@
-// export_numbers.c: numbers of model files, and vectors turned to the axis that is up in a format.
+// export_numbers.c: writes numbers of model files, and rotates vectors to the up axis of a format.
 #include "export.h"
 
 #include "linear.h"
@@ -37,7 +37,8 @@ lam_vec3 export_position(const struct exporting *e, const lam_mesh *mesh, uint32
     return export_turned(e, v3((double)p[0] + o[0], (double)p[1] + o[1], (double)p[2] + o[2]));
 }
 
-// A normal that is a unit vector up to rounding stays as it is, so that a file that is read and written again has the same numbers.
+// Leaves a normal unchanged if its length is 1 up to rounding, so that reading and writing a file preserves its
+// numbers.
 lam_vec3 export_normal(const struct exporting *e, const lam_mesh *mesh, uint32_t index)
 {
     const float *n = mesh->normals + 3 * (size_t)index;

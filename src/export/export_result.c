@@ -1,4 +1,4 @@
-// export_result.c: the result of an export: its files, and sentences about what they do not hold.
+// export_result.c: the result of an export: its files, and a sentence about each loss.
 #include "export.h"
 
 #include "fail.h"

@@ -1,5 +1,5 @@
-// export_vertices.c: formats with one number for all attributes of a corner: corners that have the same ones share a vertex. And the
-// colours and pictures of what is written.
+// export_vertices.c: shares vertices between corners with equal attributes, for formats with one index for all
+// attributes of a corner. Also converts colours and textures for the writers.
 #include "export.h"
 
 #include "srgb.h"

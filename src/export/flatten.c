@@ -1,4 +1,5 @@
-// flatten.c: a scene as one mesh of triangles, one of lines and one of points, in world space, for formats without objects.
+// flatten.c: merges a scene into one mesh of triangles, one of lines and one of points, in world space, for formats
+// without objects.
 #include "export.h"
 
 #include "fail.h"
@@ -62,7 +63,7 @@ static bool is_identity(const lam_mat4 *m)
     return memcmp(m, &identity, sizeof identity) == 0;
 }
 
-// Coordinates far from zero are kept relative to the mesh's own origin; the first object's serves all.
+// Coordinates far from zero are stored relative to an origin: the origin of the first object's mesh, for all objects.
 static void put_positions(struct flat *f, const lam_mesh *m, const lam_mat4 *transform, const double origin[3])
 {
     bool same = is_identity(transform) && memcmp(origin, m->origin, 3 * sizeof *origin) == 0;
@@ -103,7 +104,7 @@ static void put_normals(struct flat *f, const lam_mesh *m, const lam_mat4 *trans
     }
 }
 
-// A transform that mirrors turns triangles round: their corners change places, so that they show the same side.
+// A mirroring transform reverses the winding of triangles, so two of their corners are swapped to keep the front side.
 static size_t source_corner(const struct flat *f, size_t corner, bool mirrored)
 {
     static const size_t swapped[3] = {0, 2, 1};
@@ -154,7 +155,7 @@ static void put_object(struct flat *f, const lam_mesh *m, const lam_object *obje
     f->corners += mesh_corners(m);
 }
 
-// The elements that meshes without an attribute refer to, where there are such meshes.
+// Appends the elements to which meshes without an attribute refer, if there are such meshes.
 static void put_missing(struct flat *f, size_t corners)
 {
     bool normals = false, texcoords = false;

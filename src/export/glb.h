@@ -1,4 +1,4 @@
-// glb.h: a glTF file while it is written: the trees of its JSON, and the bytes of its buffer.
+// glb.h: the state of writing a glTF file: the trees of its JSON, and the bytes of its buffer.
 #ifndef GLB_H
 #define GLB_H
 
@@ -6,7 +6,7 @@
 
 #include <jansson.h>
 
-// The arrays of a mesh of the scene in the buffer: numbers of accessors, −1: none.
+// The accessors for the arrays of a scene's mesh in the buffer; −1: none.
 struct glb_arrays {
     bool ready;
     int position, normal, texcoords[2], tangent, color;
@@ -40,14 +40,15 @@ struct glb {
     bool failed;                // out of memory in a tree
 };
 
-// Sets a member, adds an element; of NULL, notes that memory was out. The value is given away.
+// Sets a member or adds an element, and takes ownership of the value. If the value is NULL, records that memory ran
+// out.
 void glb_set(struct glb *glb, json_t *object, const char *key, json_t *value);
 int glb_add(struct glb *glb, json_t *list, json_t *value); // returns its number
 
 void glb_set_name(struct glb *glb, json_t *object, const char *name); // NULL, or not UTF-8: none
 json_t *glb_floats(struct glb *glb, const float *numbers, int count);
 
-// Names an extension in extensionsUsed, and returns its object in `object`, which is made if it is not there.
+// Lists an extension in extensionsUsed, and returns its object in `object`, creating it if it is missing.
 json_t *glb_extension(struct glb *glb, json_t *object, const char *name);
 
 // Appends bytes to the buffer, aligned to four, as a view. Returns its number. `target`: of the view, or 0 if there is

@@ -1,4 +1,4 @@
-// glb_materials.c: materials as metallic-roughness ones of glTF, with the extensions of their layers.
+// glb_materials.c: writes materials as metallic-roughness materials of glTF, with the extensions for their layers.
 #include "glb.h"
 
 #include "khr_layers.h"
@@ -8,7 +8,7 @@
 
 static float scale_of(const lam_texture_map *map) { return map->scale == 0 ? 1 : map->scale; }
 
-// A map that its slot in glTF has in one form alone: a channel, and neither scale nor offset.
+// Checks whether glTF can represent a map: its slot allows only one channel, without scale and offset.
 static const lam_texture_map *usual(struct glb *glb, const lam_material *m, lam_map slot, int channel)
 {
     const lam_texture_map *map = m->maps[slot];
@@ -31,7 +31,7 @@ static bool same_place(const lam_texture_map *a, const lam_texture_map *b)
            a->wrap_t == b->wrap_t && memcmp(a->transform, b->transform, sizeof a->transform) == 0;
 }
 
-// One picture has the roughness in its green and the metalness in its blue.
+// glTF stores roughness in the green channel and metalness in the blue channel of one picture.
 static const lam_texture_map *metallic_roughness(struct glb *glb, const lam_material *m)
 {
     const lam_texture_map *metallic = usual(glb, m, LAM_MAP_METALLIC, 2),
@@ -120,7 +120,7 @@ static void put_other_maps(struct glb *glb, json_t *object, const lam_material *
             export_lose(glb->e, "%s maps are left out: glTF has none", lam_map_name(others[i]));
 }
 
-// Emission above 1 is a factor and a strength (KHR_materials_emissive_strength).
+// Writes emission above 1 as a factor and a strength (KHR_materials_emissive_strength).
 static void put_emission(struct glb *glb, json_t *object, const lam_material *m)
 {
     const float *e = &m->emission.r;

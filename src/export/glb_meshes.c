@@ -1,4 +1,5 @@
-// glb_meshes.c: meshes as glTF has them: one number for all attributes of a corner, and a primitive for each part.
+// glb_meshes.c: writes meshes in the form of glTF: one index for all attributes of a corner, and a primitive for each
+// part.
 #include "glb.h"
 
 #include <stdlib.h>
@@ -16,7 +17,7 @@ static bool has_one_number(const lam_mesh *m)
            (!m->tangents || m->tangent_count == m->vertex_count) && (!m->colors || m->color_count == m->vertex_count);
 }
 
-// The vertices that are written: those of the mesh, or shared ones.
+// The vertices to write: the vertices of the mesh, or shared ones.
 struct vertices {
     const lam_mesh *mesh;
     bool as_they_are;
@@ -78,7 +79,7 @@ static uint32_t color_of(const struct vertices *v, uint32_t vertex)
     return v->as_they_are ? vertex : export_color_element(v->mesh, v->shared.corners[vertex]);
 }
 
-// Colours are linear in glTF: bytes of such stay bytes.
+// Colours are linear in glTF: linear bytes remain bytes.
 static int add_colors(struct glb *glb, const struct vertices *v)
 {
     const lam_mesh *m = v->mesh;
@@ -106,7 +107,7 @@ static int add_colors(struct glb *glb, const struct vertices *v)
 
 static size_t corners_of_item(const lam_mesh *m) { return m->line_count ? 2 : m->point_count ? 1 : 3; }
 
-// The numbers of each part's corners, an accessor each.
+// Writes the indices of each part's corners, as one accessor per part.
 static void add_indices(struct glb *glb, const struct vertices *v, struct glb_arrays *arrays)
 {
     const lam_mesh *m = v->mesh;

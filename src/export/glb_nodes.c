@@ -1,9 +1,9 @@
-// glb_nodes.c: objects, lights (KHR_lights_punctual) and cameras as nodes, each with a matrix of its own.
+// glb_nodes.c: writes objects, lights (KHR_lights_punctual) and cameras as nodes, each with its own matrix.
 #include "glb.h"
 
 #include "linear.h"
 
-// A matrix that turns the scene's up axis to y comes before all others.
+// Multiplies all matrices by a rotation of the scene's up axis to y.
 static lam_mat4 placed(const struct glb *glb, lam_mat4 m)
 {
     lam_mat4 turn = lam_mat4_identity();

@@ -1,4 +1,4 @@
-// glb_textures.c: the maps of materials: images as PNG in the buffer, samplers, transforms.
+// glb_textures.c: writes material maps: images as PNG in the buffer, samplers, transforms.
 #include "glb.h"
 
 #include "linear.h"
@@ -6,7 +6,8 @@
 
 #include <string.h>
 
-// Pictures are the same if their bytes are: one picture is read twice if a file uses it as colours and as numbers.
+// Two pictures with equal bytes are stored once: a picture that a file uses both as colours and as numbers was read
+// twice.
 static bool is_same(const lam_texture *a, const lam_texture *b)
 {
     if (a == b)

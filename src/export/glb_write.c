@@ -1,4 +1,4 @@
-// glb_write.c: scenes as binary glTF 2.0: the container.
+// glb_write.c: writes the container of a scene in binary glTF 2.0.
 #include "glb.h"
 
 #include "fail.h"

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The formats that hold a mesh alone.
+// The formats that can store a single mesh.
 static const struct exporter *const formats[] = {&exporter_obj, &exporter_stl, &exporter_ply};
 enum { FORMATS = (int)(sizeof formats / sizeof *formats) };
 

@@ -1,4 +1,4 @@
-// mtl_write.c: materials as MTL, and the pictures of their maps as PNG beside it.
+// mtl_write.c: writes materials as MTL, and the pictures of their maps as PNG beside it.
 #include "mtl_write.h"
 
 #include "fail.h"
@@ -25,7 +25,7 @@ static const struct {
 };
 enum { MAPS = sizeof maps / sizeof *maps };
 
-// The pictures that have been written.
+// The pictures written so far.
 struct pictures {
     const lam_texture *textures[4096];
     const char *names[4096];
@@ -190,7 +190,8 @@ static const char *name_of(struct exporting *e, const char *const *names, int in
     return arena_string(e->arena, name);
 }
 
-// Which materials the parts use, and whether their texture coordinates have t downwards. Returns how many.
+// Finds the materials that the parts use, and whether t runs downwards in their texture coordinates. Returns the number
+// of these materials.
 static int find_used(struct exporting *e, bool *used, bool *flips)
 {
     int count = 0, materials = e->scene->materials.count;
@@ -219,7 +220,7 @@ bool mtl_write(struct exporting *e, struct mtl_names *out)
         return export_no_memory(e, sizeof *pictures);
     *out = (struct mtl_names){.names = names, .count = materials};
     int count = find_used(e, used, &out->flips);
-    if (count == used[materials]) // nothing but the default material
+    if (count == used[materials]) // only the default material
         return true;
     struct text text = {0};
     bool ok = true;

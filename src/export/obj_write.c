@@ -1,4 +1,4 @@
-// obj_write.c: triangles, lines and points as OBJ; its materials are mtl_write.c.
+// obj_write.c: writes triangles, lines and points as OBJ; mtl_write.c writes the materials.
 #include "export.h"
 
 #include "fail.h"
@@ -6,7 +6,8 @@
 
 #include <string.h>
 
-// The numbers of the next vertex, texture coordinate and normal, from 1: those of a kind follow those of the kind before.
+// The numbers of the next vertex, texture coordinate and normal, from 1. Numbers continue from one kind of items to the
+// next.
 struct firsts {
     unsigned long position, texcoord, normal;
 };
@@ -16,7 +17,8 @@ static void put_vector(struct text *text, const char *word, lam_vec3 p)
     export_line(text, word, (double[3]){p.x, p.y, p.z}, 3);
 }
 
-// The colour of each vertex, NULL: there are none. OBJ has one for a position: a vertex whose corners have several keeps none.
+// Collects the colour of each vertex; NULL: there are none. OBJ stores one colour for each position, so a vertex whose
+// corners have different colours gets none.
 static bool find_colors(struct exporting *e, const lam_mesh *m, uint32_t **out)
 {
     *out = NULL;
@@ -90,7 +92,7 @@ static void put_items(struct exporting *e, const lam_mesh *m, const lam_part *pa
     }
 }
 
-// A name on a line of its own.
+// Writes a name on a separate line.
 static void put_name(struct text *text, const char *word, const char *name)
 {
     char clean[200];

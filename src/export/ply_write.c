@@ -1,4 +1,4 @@
-// ply_write.c: triangles, or points, as binary PLY, with normals, texture coordinates and colours.
+// ply_write.c: writes triangles, or points, as binary PLY, with normals, texture coordinates and colours.
 #include "export.h"
 
 #include "fail.h"

@@ -1,4 +1,4 @@
-// stl_write.c: triangles as binary STL.
+// stl_write.c: writes triangles as binary STL.
 #include "export.h"
 
 #include "fail.h"

@@ -1,5 +1,5 @@
-// threemf_write.c: triangles as 3MF: one object, with a base material for each material that is used. libzip packs it, and is opened when it
-// is used.
+// threemf_write.c: writes triangles as 3MF: one object, with a base material for each used material. libzip, loaded on
+// demand, packs the archive.
 #include "export.h"
 
 #include "fail.h"

@@ -19,8 +19,8 @@
 
 static float rounded(double x) { return (float)x; }
 
-// Samples per pixel of pictures of up to TINY_SIDE² pixels, of up to SMALL_SIDE², and of larger ones. Thin wires break into dashes
-// with fewer.
+// Samples per pixel of pictures of up to TINY_SIDE² pixels, of up to SMALL_SIDE², and of larger ones. With fewer
+// samples, thin wires break into dashes.
 enum { TINY_SIDE = 256, TINY_SAMPLES = 16, SMALL_SIDE = 512, SMALL_SAMPLES = 8, LARGE_SAMPLES = 4 };
 
 int lam_default_samples(int width, int height)
@@ -99,7 +99,8 @@ static void build_draw(struct frame_draw *draw, const lam_mesh *mesh, const lam_
             largest = c > largest ? c : largest;
             largest_eye = e > largest_eye ? e : largest_eye;
         }
-    // The cofactors are the inverse transpose times the determinant; only the determinant's sign has to be removed.
+    // The cofactor matrix is the inverse transpose times the determinant; only the sign of the determinant must be
+    // removed.
     double scale = (draw->mirrored ? -1 : 1) / (largest > 0 ? largest : 1);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
@@ -258,7 +259,7 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
     if (!buffer_reserve(&frame->storage, bytes, call, error))
         return false;
     char *at = frame->storage.data;
-    // In the order of their alignment: ranges are the only ones without a pointer or a double.
+    // Ordered by alignment: only ranges contain neither a pointer nor a double.
     frame->materials = (void *)at;
     at += materials * sizeof *frame->materials;
     frame->converted = (void *)at;
@@ -306,8 +307,7 @@ static bool build_environment(struct frame *frame, const lam_scene *scene, const
     return true;
 }
 
-// Normals of facets need not be made before the picture is lit, if each is only read for the points of its own
-// triangle.
+// Facet normals need not be computed before lighting, if each is read only for points of its own triangle.
 static void leave_facets(struct frame *frame)
 {
     if (!frame->makes_normals || frame->settings.shading != LAM_SHADING_PHONG || frame_has_rays(frame))
@@ -321,7 +321,7 @@ static void leave_facets(struct frame *frame)
     }
 }
 
-// Of the cavity, as a share of half the diagonal of the scene's box.
+// The radius of cavity shading, relative to half the diagonal of the scene's box.
 #define CAVITY_RADIUS 0.05
 
 // Returns whether a texture colours the drawn surfaces.
@@ -333,11 +333,11 @@ static bool has_color_maps(const struct frame *frame)
     return false;
 }
 
-// Decides about ambient occlusion, once the lights are known.
+// Selects the method of ambient occlusion, after the lights are known.
 static void set_occlusion(struct frame *frame, const lam_scene *scene, bool physical)
 {
     lam_draw_params *settings = &frame->settings;
-    // A picture of one light or term has the occlusion that the whole picture has.
+    // A picture of one light or term uses the same occlusion as the whole picture.
     bool wanted =
         physical && (scene->environment || (settings->rig == LAM_RIG_AUTO && scene_lit_by_environment(scene)));
     for (int i = 0; i < scene->lights.count; i++)
@@ -392,7 +392,7 @@ static void resolve_settings(struct frame *frame, const lam_draw_params *params,
         settings->reflection = LAM_REFLECTION_AUTO;
 }
 
-// The planes of the projection, and the distances that --show depth makes black and white.
+// Sets the planes of the projection, and the distances that --show depth shows black and white.
 static void set_planes(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, double near_plane,
                        double far_plane)
 {
@@ -406,7 +406,7 @@ static void set_planes(struct frame *frame, const lam_scene *scene, const lam_ma
     }
 }
 
-// The scene's objects, as triangles that follow one another.
+// Adds the scene's objects, with consecutive triangle numbers.
 static bool build_draws(struct frame *frame, const lam_scene *scene, const struct stroke_view *strokes,
                         struct call_control *call, lam_error *error)
 {
@@ -447,7 +447,7 @@ static void set_tone(struct frame *frame, bool physical)
 
 static void leave_normals(struct frame *frame)
 {
-    // Flat shading has the normals of the faces; coverage and overdraw need no normals.
+    // Flat shading uses face normals; coverage and overdraw need no normals.
     if (lam_output_is_light(frame->settings.output)
             ? frame->settings.shading == LAM_SHADING_FLAT && frame->settings.flat_normal == LAM_FLAT_NORMAL_FACE
             : frame->settings.output == LAM_OUTPUT_COVERAGE || frame->settings.output == LAM_OUTPUT_OVERDRAW ||
@@ -460,7 +460,7 @@ static void set_glass(struct frame *frame, const lam_mat4 *pixel)
 {
     static const lam_rgba white = {1, 1, 1, 1};
     bool clear =
-        frame->settings.background.a <= 0 && output_is_picture(frame->settings.output); // a term has none of it
+        frame->settings.background.a <= 0 && output_is_picture(frame->settings.output); // a single term excludes it
     const lam_rgba *back = clear ? &white : &frame->settings.background;
     for (int c = 0; c < 3; c++)
         frame->glass_background[c] = (&back->r)[c] * back->a / frame->exposure;
@@ -525,7 +525,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     set_tone(frame, physical);
     frame->environment_lights = physical && frame->environment && shows_reflection(frame->settings.output);
     leave_normals(frame);
-    // Lit by a classic model, materials that the environment would have lit have the studio's rig.
+    // If a classic model lights the materials that the environment would light, they are lit by the studio rig.
     bool by_rig = settings->rig == LAM_RIG_AUTO && !scene->lights.count && !uses_physical(frame);
     if (!frame_lights_build(frame, scene, by_rig ? LAM_RIG_STUDIO : settings->rig,
                             output_is_one_light(frame->settings.output) ? settings->output_light : -1, &view, error))

@@ -1,4 +1,4 @@
-// frame.h: a scene and a camera as flat arrays in eye space, the input of every device.
+// frame.h: converts a scene and a camera to flat arrays in eye space, the input of every device.
 //
 // The transforms are computed in double and rounded to float once, here. Triangle t of a draw has the number
 // first_id + t, unique within the frame; a visibility buffer stores it.
@@ -28,10 +28,11 @@ struct frame_draw {
     double rounding[3];
     bool mirrored; // the transform reverses the winding
     bool one_sided;
-    // The mesh consists of the rectangles of lines or points (frame_strokes.h): made for this frame, in eye space. They are no
-    // surface: flat shading takes the normals of their vertices, and they cast no shadows.
+    // The mesh consists of rectangles for lines or points (frame_strokes.h), built for this frame in eye space. They
+    // are not surfaces: flat shading uses their vertex normals, and they cast no shadows.
     bool strokes;
-    // The mesh is the ground's, made for this frame in world space (frame_ground.h): its object is −1. It casts no shadows.
+    // The mesh is the ground, built for this frame in world space (frame_ground.h); its object is −1. It casts no
+    // shadows.
     bool ground;
     lam_cull cull;
     // > 0: the mesh has no normals; the device computes the needed ones, with this crease angle.
@@ -126,7 +127,7 @@ struct frame {
     bool translucent;       // any range is
     bool passes_rays;       // any range does
     bool masked;            // and one has a material of LAM_ALPHA_MASK
-    bool tints_rays;        // any range transmits, whatever the output: light is coloured on its way through
+    bool tints_rays;        // any range transmits, whatever the output: the material colours the light that passes
     bool transmits;         // and one has LAYER_TRANSMISSION: layers let each channel through by a share of its own
     bool refracts;          // and one is rough or thick: it blurs and bends what is behind it (src/cpu/shade/behind.h)
     bool makes_normals;     // a draw has a crease_rad, and the output needs its normals
@@ -242,7 +243,8 @@ static inline bool output_is_one_light(lam_output output)
     return output == LAM_OUTPUT_LIGHT || output == LAM_OUTPUT_N_L || output == LAM_OUTPUT_N_H;
 }
 
-// Outputs whose pixels show the value of their nearest surface, whatever its opacity; masked surfaces keep their holes.
+// Returns whether each pixel of an output shows the value of its nearest surface, whatever its opacity; masked surfaces
+// keep their holes.
 static inline bool output_is_value(lam_output output)
 {
     return !lam_output_is_light(output) && output != LAM_OUTPUT_CLIPPED;

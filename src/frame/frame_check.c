@@ -1,4 +1,4 @@
-// frame_check.c: the ranges of a camera's and of the draw parameters' numbers.
+// frame_check.c: checks the ranges of the numbers in cameras and draw parameters.
 #include "frame.h"
 
 #include "fail.h"
@@ -27,7 +27,7 @@ bool frame_camera_check(const lam_camera *camera, lam_error *error)
     return true;
 }
 
-// The members that are not in the table of settings.
+// Checks the members that are not in the table of settings.
 static bool others_check(const lam_draw_params *params, lam_error *error)
 {
     int s = params->samples;

@@ -1,4 +1,4 @@
-// frame_edges.c: which edges of surfaces a frame draws as lines, and how.
+// frame_edges.c: selects the edges that a frame draws as lines, and their appearance.
 #include "frame.h"
 
 #include "linear.h"
@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// Rec. 709 luminance of the background below which lines alone are white.
+// If the background's Rec. 709 luminance is lower and no surfaces are drawn, lines are white.
 #define DARK 0.18f
 
 static lam_rgba color_of(const lam_rgba *given, const lam_draw_params *params)

@@ -1,4 +1,5 @@
-// frame_ground.c: where the ground of a frame lies, and its mesh: squares that fade out around the model (lam_ground).
+// frame_ground.c: places the ground of a frame and builds its mesh: squares that fade out around the model
+// (lam_ground).
 #include "frame_ground.h"
 
 #include "linear.h"
@@ -14,7 +15,7 @@
 // at the border. The model of a fitted camera lies inside (FILL_ON_GROUND in camera_fit.c).
 #define BORDER_FIRST 0.8
 #define BORDER_LAST  0.95
-// How far below the lowest point it lies, in radii: a flat underside would else have the very depth of the ground.
+// Its distance below the lowest point, in radii. Otherwise a flat underside would have exactly the depth of the ground.
 #define DROP 0x1p-14
 // The sides of squares without a pattern: in shares of the ground's radius, and for a catcher.
 #define PLAIN_SQUARE   0.0625
@@ -50,7 +51,7 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
     ground->kind = LAM_GROUND_NONE;
     lam_vec3 centre;
     double radius;
-    // A catcher is no surface of the model: of the numbers of surfaces it has ambient occlusion alone.
+    // A catcher is not a surface of the model: among the surface quantities, it shows only ambient occlusion.
     bool number = !lam_output_is_light(params->output) && params->output != LAM_OUTPUT_CLIPPED &&
                   params->output != LAM_OUTPUT_AMBIENT_OCCLUSION;
     if (!params->ground || (params->ground == LAM_GROUND_SHADOW && number) ||
@@ -61,7 +62,8 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
     ground->front = from_y_up(scene->up, v3(0, 0, 1));
     double height = lowest(scene, ground->right, ground->front, ground->up, centre) - DROP * radius;
     ground->middle = v3_add(centre, v3_scale(ground->up, height));
-    // A plane has one height for the eye, and an orthographic view one direction: all of the upper side is seen, or none.
+    // The eye is either above or below the plane, and an orthographic view has one direction: the whole upper side is
+    // visible, or none of it.
     bool above = camera->ortho_half_height > 0
                      ? v3_dot(v3_sub(camera->target, camera->eye), ground->up) < 0
                      : v3_dot(v3_sub(camera->eye, ground->middle), ground->up) > 1e-6 * radius;
@@ -132,7 +134,8 @@ bool frame_ground_make(struct frame *frame, const lam_mat4 *view, const lam_mat4
              to_pixel = mat4_mul(view, &place);
     to_pixel = mat4_mul(pixel, &to_pixel);
     bool catcher = ground->kind == LAM_GROUND_SHADOW;
-    // A checker's squares begin at multiples of their side in world space, so that a model that turns has the same ground.
+    // The squares of a checker begin at multiples of their side in world space, so that a rotating model keeps the same
+    // ground.
     bool checker = ground->kind == LAM_GROUND_CHECKER;
     double at_x = v3_dot(ground->middle, ground->right), at_y = v3_dot(ground->middle, ground->front);
     int64_t first_x = checker ? whole_number(at_x / ground->square) : 0;

@@ -1,4 +1,4 @@
-// frame_ground.h: the ground under the scene, a mesh that is made for a frame.
+// frame_ground.h: the ground under the scene: a mesh built for each frame.
 #ifndef FRAME_GROUND_H
 #define FRAME_GROUND_H
 
@@ -8,7 +8,7 @@
 // frame->ground but its mesh and the material.
 void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_mat4 *view);
 
-// Widens a near and a far plane that were fitted to the scene, so that the ground lies between them.
+// Moves near and far planes that were fitted to the scene, so that the ground lies between them.
 void frame_ground_planes(const struct frame_ground *ground, const lam_mat4 *view, bool orthographic, double *near_plane,
                          double *far_plane);
 

@@ -1,4 +1,5 @@
-// frame_materials.c: the reflection model of each material, and materials converted to the kind that their model lights.
+// frame_materials.c: selects the reflection model of each material, and converts materials to the kind that their model
+// lights.
 #define LANES 1
 #include "lighting.h"
 
@@ -103,7 +104,7 @@ static bool is_unchosen(const struct frame *frame, int front)
            (front == 0 || (m->physical && m->metallic == 1 && m->roughness == 1 && !m->maps[LAM_MAP_DIFFUSE]));
 }
 
-// A grey that can be seen on white and on black pages alike: sRGB 124.
+// A grey that is visible on white and on black pages: sRGB 124.
 static const lam_rgba visible_grey = {0.2f, 0.2f, 0.2f, 1};
 
 static bool is_dark(const lam_rgba *background)

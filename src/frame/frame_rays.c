@@ -1,4 +1,4 @@
-// frame_rays.c: the data of a frame for rays: draws and lights in world space, in double.
+// frame_rays.c: computes the data of a frame for rays: draws and lights in world space, in double.
 #include "frame.h"
 
 #include "linear.h"

@@ -1,4 +1,4 @@
-// frame_strokes.c: lines and points as polygons that face the eye (frame_strokes.h).
+// frame_strokes.c: converts lines and points to polygons that face the eye (frame_strokes.h).
 #include "frame_strokes.h"
 
 #include "linear.h"
@@ -51,7 +51,7 @@ void frame_strokes_size(struct stroke_view *view, const struct lam_scene *scene,
     view->point_corners = view->point_size < ROUND_FROM ? 4 : view->point_size < ROUNDER_FROM ? 8 : POINT_CORNERS_MAX;
 }
 
-// Divides memory among the arrays, and returns their size in bytes; `at` NULL: the size alone.
+// Divides memory among the arrays, and returns their size in bytes. With `at` NULL, only returns the size.
 static size_t divide(const lam_mesh *mesh, size_t point_corners, char *at, struct stroke_arrays *out)
 {
     size_t corners = corners_of(mesh, point_corners), items = mesh_items(mesh), vertices = corners * items, size = 0;
@@ -112,7 +112,7 @@ void frame_strokes_near(const struct lam_scene *scene, const lam_camera *camera,
 
 // --- attributes
 
-// A place on a line: from its corner a on to its corner b by the share t. A point is its corner a.
+// A position on a line: at the fraction t from its corner a to its corner b. A point is its corner a.
 struct place {
     size_t a, b;
     double t;
@@ -314,7 +314,7 @@ static void build_line(const struct builder *b, size_t item)
 
 // --- all of a mesh
 
-// A square with the size as its side, or a regular polygon with the area of a disc of that diameter.
+// Builds a square whose side is the size, or a regular polygon with the area of a disc of that diameter.
 static void set_corners(struct builder *b)
 {
     double step = 2 * PI / (double)b->corners;

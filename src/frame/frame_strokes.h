@@ -1,9 +1,9 @@
-// frame_strokes.h: lines and points as polygons that face the eye, so that devices draw triangles alone.
+// frame_strokes.h: converts lines and points to polygons that face the eye, so that devices draw only triangles.
 //
 // A line becomes the rectangle around its picture: its ends, moved to both sides at right angles to it in the window, each at its own
 // depth. A point becomes a square or, if that can be seen, a regular polygon of 8 or 16 corners. Both are planar in space and in the window, so depth and attributes run along a line as
-// they do along the edge of a triangle. Each lies nearer to the eye than its vertices, by its
-// width as it is seen there: half of a line that follows a slanted surface would be behind it. Line ends are cut off without caps, also where lines meet.
+// they do along the edge of a triangle. Each is drawn nearer to the eye than its vertices, by its own width. Otherwise
+// a slanted surface would hide half of a line on it. Line ends are cut off without caps, also where lines meet.
 #ifndef FRAME_STROKES_H
 #define FRAME_STROKES_H
 

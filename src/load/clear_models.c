@@ -1,4 +1,4 @@
-// clear_models.c: makes a scene visible whose picture would be empty because everything is fully transparent.
+// clear_models.c: makes a fully transparent scene visible, because its picture would be empty.
 #include "clear_models.h"
 
 #include <stdio.h>
@@ -17,7 +17,7 @@ static bool colors_are_clear(const lam_mesh *mesh)
     return clear;
 }
 
-// The materials of an object's front from the first part on, then its back's; false after the last.
+// Iterates over the materials of an object's front, part by part, then of its back. Returns false after the last.
 struct shown {
     uint32_t part;
     lam_material *front, *back; // NULL: back faces show the front's

@@ -1,4 +1,4 @@
-// clear_models.h: makes a scene visible whose picture would be empty because everything is fully transparent.
+// clear_models.h: makes a fully transparent scene visible, because its picture would be empty.
 #ifndef CLEAR_MODELS_H
 #define CLEAR_MODELS_H
 

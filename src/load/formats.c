@@ -1,4 +1,4 @@
-// formats.c: the table of model formats, and the choice of a file's importer.
+// formats.c: the table of model formats; selects the importer of a file.
 #include "formats.h"
 
 #include "fail.h"
@@ -86,7 +86,7 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
     }
     if (best == 2)
         return by_content;
-    // A reader that the name agrees with says best what is wrong.
+    // The reader that matches the name reports the clearest error.
     if (by_content && by_content == by_ending)
         return by_content;
     // Recognised as another kind of file, whatever its name.

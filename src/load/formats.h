@@ -1,4 +1,4 @@
-// formats.h: which importer reads a file.
+// formats.h: selects the importer of a file.
 #ifndef FORMATS_H
 #define FORMATS_H
 

@@ -1,4 +1,4 @@
-// load.c: from a file or memory to a scene: the steps that all formats share.
+// load.c: loads a scene from a file or memory: the steps that all formats share.
 #include "clear_models.h"
 #include "companion.h"
 #include "fail.h"
@@ -52,7 +52,7 @@ static struct lam_scene *start_scene(const struct import_source *source, const s
     return scene;
 }
 
-// The steps after reading: origin, normals, tangents, bounds.
+// Runs the steps after reading: origin, normals, tangents, bounds.
 static bool finish(struct lam_scene *scene, const struct import_source *source, const struct importer *importer,
                    uint64_t start_ns, lam_error *error)
 {
@@ -125,7 +125,8 @@ static struct lam_scene *load_stream(struct import_source *source, const struct 
     struct lam_scene *scene = NULL;
     if (head && source->path && file_open_parts(source->path, head, &file)) {
         bool allowed =
-            call_check_file(source->call, source->name, file.size, NULL); // else the whole file's reader says so
+            call_check_file(source->call, source->name, file.size, NULL); // otherwise the reader of whole files reports
+                                                                          // it
         source->bytes = head;
         source->size = FILE_HEAD;
         call_add_input(source->call, file.size);
@@ -136,7 +137,7 @@ static struct lam_scene *load_stream(struct import_source *source, const struct 
             lam_scene_free(scene);
             scene = NULL;
         }
-        if (!scene) // the whole file will be read, and counted then
+        if (!scene) // the whole file is read, and counted, later
             call_add_input(source->call, 0 - file.size);
         file_close_parts(&file);
         source->bytes = NULL;

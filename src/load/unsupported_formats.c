@@ -1,4 +1,4 @@
-// unsupported_formats.c: kinds of files that are recognised by content or by name, so that an error can name them.
+// unsupported_formats.c: recognises unsupported formats by content or name, so that an error can name them.
 #include "unsupported_formats.h"
 
 #include <stdbool.h>

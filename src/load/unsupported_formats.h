@@ -1,4 +1,4 @@
-// unsupported_formats.h: kinds of files that are recognised by content or by name, so that an error can name them.
+// unsupported_formats.h: recognises unsupported formats by content or name, so that an error can name them.
 #ifndef UNSUPPORTED_FORMATS_H
 #define UNSUPPORTED_FORMATS_H
 

@@ -1,11 +1,11 @@
-// up_guess.c: the up axis of a model whose format has none, if its shape is unambiguous.
+// up_guess.c: guesses the up axis of a model whose format defines none, if the shape is unambiguous.
 #include "up_guess.h"
 
 #include "linear.h"
 
 #include <math.h>
 
-// A terrain: a surface that is much thinner along z than along x and y, and nearly all of which faces +z.
+// A terrain is a surface that is much thinner along z than along x and y, and that faces +z almost everywhere.
 #define THIN     0.3
 #define NOT_FLAT 0.01 // a flat picture is often upright
 #define FACING   0.6

@@ -1,4 +1,4 @@
-// up_guess.h: the up axis of a model whose format has none, where its shape leaves no doubt.
+// up_guess.h: guesses the up axis of a model whose format defines none, if the shape is unambiguous.
 #ifndef UP_GUESS_H
 #define UP_GUESS_H
 

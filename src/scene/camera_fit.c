@@ -1,4 +1,4 @@
-// camera_fit.c: placing the camera so that a scene fills the picture.
+// camera_fit.c: places the camera so that a scene fills the picture.
 #include <lambent/device.h>
 
 #include "fail.h"
@@ -8,7 +8,8 @@
 #include "up_axis.h"
 #include "view_extents.h"
 
-// The share of the picture's width or height that the scene takes. On a ground the rest is for its shadow.
+// The fraction of the picture's width or height that the scene fills. On a ground, the rest leaves space for the
+// shadow.
 #define FILL           0.92
 #define FILL_ON_GROUND 0.8
 
@@ -191,7 +192,7 @@ static bool holds(const struct fitting *fitting, const lam_camera *camera, const
            extents.value[EXTENT_BOTTOM] <= -y + extents.ky * z + half_height;
 }
 
-// Replaces the camera, if it does not show the whole scene at every angle, by one that does.
+// Replaces the camera if it does not show the whole scene at every angle.
 static void fit_turning(const struct fitting *fitting, const lam_scene *scene, lam_vec3 centre, lam_vec3 axis,
                         lam_camera *camera)
 {

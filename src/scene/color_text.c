@@ -1,4 +1,4 @@
-// color_text.c: colours as people write them.
+// color_text.c: parses colours as users write them.
 #include "scene_internal.h"
 
 #include "fail.h"
@@ -140,7 +140,7 @@ bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam
         *color = numbers;
         return true;
     }
-    // The '#' is easily forgotten, and easily lost: in a shell it begins a comment.
+    // Users often forget the '#', and a shell treats it as the beginning of a comment.
     char hex[16];
     struct spelling spelling = spelling_of(text);
     for (int i = 0; i < NAMES; i++)

@@ -1,4 +1,4 @@
-// fields.c: reading, setting and checking a field of a material or light by its row.
+// fields.c: reads, sets and checks a field of a material or light by its row.
 #include "fields.h"
 
 #include "linear.h"

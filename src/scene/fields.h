@@ -60,7 +60,7 @@ bool field_is_standard(const lam_field *field, const void *object); // compared 
 void field_set_standard(const lam_field *field, void *object);
 void field_set_written(const lam_field *field, void *object, const double numbers[4]);
 
-// To be called for each field that a person or a file has set: see material_field.physical.
+// Call it for each field that a user or a file has set: see material_field.physical.
 void material_note_written(lam_material *material, int field);
 
 #endif

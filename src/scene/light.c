@@ -5,7 +5,7 @@
 
 #include <lambent/light.h>
 
-// Fields of other types get defaults too: a program may change the type later.
+// Sets the fields of other types too, because a program may change the type later.
 lam_light lam_light_default(lam_light_type type)
 {
     lam_light light = {.type = type};

@@ -1,4 +1,4 @@
-// cube_chain.c: smaller copies of a cube map, each of half the size of the one before.
+// cube_chain.c: builds a chain of copies of a cube map, each half the size of the previous one.
 #include "environment_light.h"
 
 #include "call_control.h"

@@ -1,4 +1,4 @@
-// cube_faces.c: where the texels of a cube map look, and the borders of its faces.
+// cube_faces.c: computes the directions of a cube map's texels, and the borders of its faces.
 #include "cube_map.h"
 
 #include <string.h>

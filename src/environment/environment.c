@@ -1,4 +1,4 @@
-// environment.c: cube maps from pictures: six faces, a cross, or an equirectangular one.
+// environment.c: builds cube maps from pictures: six faces, a cross, or an equirectangular picture.
 #include "codec.h"
 #include "cube_map.h"
 #include "fail.h"

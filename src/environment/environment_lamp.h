@@ -1,5 +1,5 @@
-// environment_lamp.h: the brightest lamp of an environment, as a light of its own that can cast shadows, and the light of the
-// environment without it (docs/lighting/environment.md).
+// environment_lamp.h: the brightest lamp of an environment, as a separate light that can cast shadows, and the light of
+// the environment without it (docs/lighting/environment.md).
 #ifndef ENVIRONMENT_LAMP_H
 #define ENVIRONMENT_LAMP_H
 

@@ -1,4 +1,4 @@
-// origin.h: when a mesh gets an origin other than zero, and which. One rule for every format.
+// origin.h: decides whether a mesh gets an origin other than zero, and computes it, by one rule for every format.
 //
 // Positions are floats, good to 2⁻²⁴ of their size. A part that lies far from zero (survey coordinates, a car in its
 // factory) would lose its detail, so a mesh carries an `origin` in double, and its positions are rounded to float after

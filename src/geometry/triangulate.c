@@ -1,4 +1,4 @@
-// triangulate.c: polygons of any size, convex or not, into triangles.
+// triangulate.c: splits polygons of any size, convex or not, into triangles.
 //
 // Ear clipping (Meisters 1975): a corner is an ear when it is convex and no other corner lies in its triangle. Cutting
 // an ear changes only its two neighbours, so each corner is tested about three times. Only corners that are not

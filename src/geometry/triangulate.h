@@ -1,4 +1,4 @@
-// triangulate.h: polygons of any size, convex or not, into triangles.
+// triangulate.h: splits polygons of any size, convex or not, into triangles.
 //
 // A triangle stays as it is, a quad is cut along the diagonal that lies inside it, a larger convex polygon becomes a fan;
 // every other polygon is cut ear by ear in its dominant plane, snapped to a grid of integers so that every decision is

@@ -1,4 +1,4 @@
-// animation.c: the public interface of animations: checks, and the codec that encodes.
+// animation.c: the public interface of animations: checks arguments and calls the codec.
 #include "animation.h"
 #include "codec.h"
 #include "fail.h"

@@ -1,4 +1,4 @@
-// caption.c: words in pictures, by FreeType, which is opened (dlopen) with the first font and not before.
+// caption.c: draws text in pictures with FreeType, which is loaded (dlopen) with the first font.
 #include "dynamic_library.h"
 #include "fail.h"
 #include "file.h"

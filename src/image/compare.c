@@ -1,4 +1,4 @@
-// compare.c: how far two pictures are apart.
+// compare.c: measures the difference of two pictures.
 #include "fail.h"
 #include "float_state.h"
 #include "pixels.h"

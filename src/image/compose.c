@@ -1,4 +1,4 @@
-// compose.c: a picture over a background, for formats without alpha.
+// compose.c: composites a picture over a background, for formats without alpha.
 #include "compose.h"
 
 #include "srgb.h"

@@ -1,4 +1,4 @@
-// compose.h: a picture over a background, for formats without alpha.
+// compose.h: composites a picture over a background, for formats without alpha.
 #ifndef COMPOSE_H
 #define COMPOSE_H
 

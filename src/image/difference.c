@@ -1,4 +1,4 @@
-// difference.c: a picture of the differences of two pictures.
+// difference.c: draws the differences of two pictures.
 #include "fail.h"
 #include "float_state.h"
 #include "pixels.h"

@@ -1,4 +1,4 @@
-// console.c: messages on standard error, and the final flush of standard output.
+// console.c: prints messages to standard error, and flushes standard output at the end.
 #include "console.h"
 
 #include <errno.h>

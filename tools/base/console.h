@@ -1,4 +1,4 @@
-// console.h: messages on standard error, and the final flush of standard output.
+// console.h: prints messages to standard error, and flushes standard output at the end.
 #ifndef CONSOLE_H
 #define CONSOLE_H
 
@@ -15,7 +15,7 @@ bool console_has_colors(void);
 // Print one line on standard error: "lambent: …" and "lambent: warning: …".
 void say_error(const char *text);
 void say_warning(const char *text);
-// The next messages of this thread go to `stream` until it is NULL again, to be shown later in their order.
+// Redirects the messages of this thread to `stream`, until it is NULL again, so that they can be shown later in order.
 void console_capture(FILE *stream);
 // Control characters other than line ends and tabs are printed as "?": names of files may contain them.
 void say_plain(const char *format, ...) __attribute__((format(printf, 1, 2)));

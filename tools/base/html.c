@@ -1,4 +1,4 @@
-// html.c: text and addresses in HTML.
+// html.c: escapes text and addresses for HTML.
 #include "html.h"
 
 #include <string.h>

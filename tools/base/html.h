@@ -1,4 +1,4 @@
-// html.h: text and addresses in HTML.
+// html.h: escapes text and addresses for HTML.
 #ifndef HTML_H
 #define HTML_H
 
@@ -7,7 +7,7 @@
 // Text, also within quotes. NULL: nothing.
 void html_text(FILE *file, const char *text);
 
-// A path as an address: everything but letters, digits, slashes and a few signs is escaped, byte by byte.
+// Writes a path as an address: escapes every byte except letters, digits, slashes and a few signs.
 void html_address(FILE *file, const char *path);
 
 #endif

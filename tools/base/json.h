@@ -1,7 +1,8 @@
 // json.h: writes JSON, one value after the other, on one line.
 //
-// Numbers have the fewest digits that read back as the same double, in any locale, so that a camera copied from a
-// report gives the same picture. (Jansson prints a fixed number of digits: 0.10000000000000001, or another number.)
+// Numbers are written with the fewest digits that read back as the same double, in any locale, so that a camera copied
+// from a report gives the same picture. (Jansson prints a fixed number of digits: 0.10000000000000001, or another
+// number.)
 #ifndef JSON_H
 #define JSON_H
 
@@ -30,7 +31,7 @@ void json_flag(struct json *json, const char *key, bool value);
 void json_numbers(struct json *json, const char *key, const double *values, int count);
 void json_vector(struct json *json, const char *key, lam_vec3 v);
 
-// The shortest decimal number that reads back as `value`, at most 24 bytes with the closing zero.
+// Formats the shortest decimal number that reads back as `value`, at most 24 bytes with the closing zero.
 void shortest_number(double value, char text[32]);
 
 #endif

@@ -1,4 +1,4 @@
-// output_folder.c: the folder that a file is written to.
+// output_folder.c: creates the folder to which a file is written.
 #include "output_folder.h"
 
 #include <errno.h>

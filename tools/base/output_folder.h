@@ -1,4 +1,4 @@
-// output_folder.h: the folder that a file is written to.
+// output_folder.h: creates the folder to which a file is written.
 #ifndef OUTPUT_FOLDER_H
 #define OUTPUT_FOLDER_H
 
@@ -7,7 +7,7 @@
 // Returns the folder of a path, from malloc: "." if it names none. Returns NULL if memory runs out.
 char *output_folder_of(const char *path);
 
-// Makes the missing folder of a path that output_check has accepted, with those above it. Error: LAM_CANNOT_WRITE.
+// Creates the missing folder of a path that output_check has accepted, including its parents. Error: LAM_CANNOT_WRITE.
 bool output_make_folder(const char *path, lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// progress.c: the progress bar on the terminal.
+// progress.c: draws the progress bar on the terminal.
 #include "progress.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// progress.h: the progress bar on the terminal.
+// progress.h: draws the progress bar on the terminal.
 #ifndef PROGRESS_H
 #define PROGRESS_H
 

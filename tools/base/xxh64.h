@@ -17,10 +17,10 @@ void xxh64_add(struct xxh64 *hash, const void *bytes, size_t size);
 void xxh64_add_text(struct xxh64 *hash, const char *text); // with its closing zero; NULL: one byte 1
 uint64_t xxh64_end(const struct xxh64 *hash);
 
-// Of a block of bytes.
+// Hashes a block of bytes.
 uint64_t xxh64_of(const void *bytes, size_t size);
 
-// Of a file's bytes. False, with errno: it cannot be read, or is not a regular file.
+// Hashes the bytes of a file. Returns false and sets errno if it cannot be read or is not a regular file.
 bool xxh64_file(const char *path, uint64_t *hash);
 
 // "xxh64:0123456789abcdef", and back. False: not of that form.

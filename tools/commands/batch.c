@@ -1,4 +1,4 @@
-// batch.c: the command `batch`: pictures of many models, with a journal.
+// batch.c: the command `batch`: draws many models and writes a journal.
 #include "command.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// compare.c: the command `compare`: several pictures of a model on one labelled sheet.
+// compare.c: the command `compare`: draws several pictures of a model on one labelled sheet.
 #include "command.h"
 
 #include <stdio.h>
@@ -74,7 +74,7 @@ static bool share_rotations(const struct sheet *sheet, struct options *options)
     return true;
 }
 
-// The words that belong to a cell alone; returns how many.
+// Collects the options that apply only to one cell, and returns their number.
 static int words_of(const struct compare *c, const struct cell *cell, const char *words[CELL_WORDS + 2])
 {
     int count = 0;
@@ -200,7 +200,7 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
     return ok;
 }
 
-// Removes from a sheet of all mistakes those without an effect on the scene, and prints their names.
+// Removes mistakes without a visible effect from a sheet of all mistakes, and prints their names.
 static bool choose_mistakes(struct compare *c, lam_error *error)
 {
     struct sheet *sheet = &c->sheet;
@@ -360,7 +360,7 @@ static const char *title_of(const struct compare *c, char title[256])
     return title;
 }
 
-// The description in an SVG: its title, and the meaning of each picture.
+// Builds the description in an SVG: its title, and the meaning of each picture.
 static bool describe(struct compare *c, const char *title, lam_error *error)
 {
     char *text = NULL;

@@ -1,4 +1,4 @@
-// convert.c: the command `convert`: a model or a scene in another format.
+// convert.c: the command `convert`: writes a model or a scene in another format.
 #include "command.h"
 
 #include <inttypes.h>

@@ -253,7 +253,7 @@ static bool write_page(struct journal_sum *sum, const struct batch_tally *tally,
     return batch_page_write(&page, error);
 }
 
-// Thumbnails are made of pictures that the journals name, which may be anyone's.
+// Thumbnails are computed from pictures that the journals name, which may come from anywhere.
 static enum writer_right right_of(void *user, const char *path)
 {
     const char *page = user;

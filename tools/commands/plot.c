@@ -1,4 +1,4 @@
-// plot.c: the command `plot`: attenuation, spot and highlight as curves, in a picture and in numbers.
+// plot.c: the command `plot`: plots attenuation, spot and highlight as curves, and prints their numbers.
 #include "plot.h"
 
 #include <stdlib.h>
@@ -205,7 +205,7 @@ static bool add_spot_light(struct plot *plot, const lam_light *light, const char
     return true;
 }
 
-// The cone of a spot light, in the keys of --light.
+// Parses the cone of a spot light, in the keys of --light.
 static bool add_spot(struct plot *plot, const char *word, lam_error *error)
 {
     char light[200];

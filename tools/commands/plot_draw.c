@@ -188,7 +188,8 @@ static bool draw_marks(const struct plot *plot, const struct layout *at, struct 
     return true;
 }
 
-// A curve in the legend. If a curve fades beyond the axis, it has no dot, and its legend states the point.
+// Draws a curve in the legend. If a curve falls below 1/255 beyond the axis, it shows no dot, and the legend states the
+// point.
 static const char *legend_of(const struct plot *plot, const struct curve *curve, char text[LEGEND_SIZE])
 {
     snprintf(text, LEGEND_SIZE, "%s", curve->label);
@@ -199,7 +200,7 @@ static const char *legend_of(const struct plot *plot, const struct curve *curve,
     return text;
 }
 
-// The legend: in the plot's upper right corner if no curve passes there, else beside the plot.
+// Draws the legend: in the upper right corner of the plot if no curve passes there, otherwise beside the plot.
 struct names {
     double left, top, width, height; // pixels
 };

@@ -1,4 +1,4 @@
-// render.c: the main command: each model becomes a picture. The loop over them is tools/many.
+// render.c: the command `render`, the default: draws a picture of each model. tools/many contains the loop over models.
 #include "command.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-// shader.h: a scene's shaders as text for people, as C code that sets them, and as JSON.
+// shader.h: prints a scene's shaders as text for people, as C code that sets their inputs, and as JSON.
 #ifndef SHADER_COMMAND_H
 #define SHADER_COMMAND_H
 

@@ -1,4 +1,5 @@
-// shader_host.c: the C code of `lambent shader --host c`: OpenGL calls that set every uniform to the scene's value.
+// shader_host.c: prints the C code of `lambent shader --host c`: OpenGL calls that set every uniform to the scene's
+// value.
 #include "shader.h"
 
 #include <ctype.h>
@@ -113,7 +114,7 @@ static bool is_map(const lam_shader_uniform *u)
            strcmp(u->name, "product_list") != 0 && strcmp(u->name, "environment_light") != 0;
 }
 
-// A comment about the picture of a map. A name from a file must not end the comment.
+// Prints a comment about the picture of a map. A name from a file must not end the comment.
 static void write_map(FILE *file, const lam_shader_uniform *u, int unit)
 {
     if (!u->map) {

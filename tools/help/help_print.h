@@ -1,4 +1,4 @@
-// help_print.h: the parts that help texts are made of, on standard output, at most 100 columns wide.
+// help_print.h: prints the parts of help texts to standard output, at most 100 columns wide.
 #ifndef HELP_PRINT_H
 #define HELP_PRINT_H
 
@@ -10,8 +10,8 @@ enum { HELP_WIDTH = 100, HELP_COLUMN = 29, HELP_EXAMPLE_COLUMN = 41 };
 // out.
 void help_text(const char *text, int indent, int width);
 
-// A row: `left`, then the text from `column` on, wrapped there at `width` columns; on a line of its own if `left` is too
-// long.
+// Prints a row: `left`, then the text from `column` on, wrapped at `width` columns, or on the next line if `left` is
+// too long.
 void help_row(const char *left, int column, int width, const char *text);
 
 // An option's row: its summary and default, for a command the command's own. With `details` all that is known of it.

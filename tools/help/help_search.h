@@ -1,4 +1,4 @@
-// help_search.h: the subjects, commands, options and keys whose texts contain given words.
+// help_search.h: searches for subjects, commands, options and keys whose texts contain given words.
 #ifndef HELP_SEARCH_H
 #define HELP_SEARCH_H
 

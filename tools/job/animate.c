@@ -38,7 +38,7 @@ static bool check_sweeps(const struct options *o, lam_error *error)
         lam_error reason;
         if (!sweep_parse(o->animation.sweeps.items[i], &sweep, &reason))
             return complain(error, LAM_BAD_ARGUMENT, "option '--sweep': %.400s", reason.text);
-        // A sweep of the view's angles or its zoom moves the camera that is fitted.
+        // A sweep of the view angles or the zoom moves the fitted camera.
         if (o->view.camera && sweep.kind == SWEEP_OPTION && sweep.option->group == GROUP_VIEW)
             return complain(error, LAM_BAD_ARGUMENT, "options '--camera' and '--sweep %s' cannot be used together",
                             sweep.option->name);
@@ -230,7 +230,7 @@ static bool use_options(struct job *job, int frame, lam_error *error)
     return true;
 }
 
-// Loads the model as a frame has it, without a progress bar of its own.
+// Loads the model for a frame, without a progress bar.
 static bool load_frame(struct job *job, int frame, lam_error *error)
 {
     struct progress none;
@@ -406,7 +406,7 @@ static lam_animation *start_file(const struct job *job, lam_error *error)
                               error);
 }
 
-// Encodes the frame into the file of all frames, or writes it as a picture of its own.
+// Encodes the frame into the file of all frames, or writes it to a separate file.
 static bool put_frame(struct job *job, lam_animation *file, lam_error *error)
 {
     lam_control control;

@@ -37,7 +37,7 @@ struct job_view {
     int width, height; // pixels
 };
 
-// What two jobs share whose pictures are compared.
+// The data shared by two jobs whose pictures are compared.
 struct job_shared {
     struct model_sphere sphere; // around both models
     lam_camera camera;          // if the flag below is set, in place of any other
@@ -111,11 +111,11 @@ void job_free(struct job *job);
 // Loads and draws; the picture stays in `image`. Ignores output and format.
 bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error);
 
-// The first step of job_run, for commands that draw nothing: loads the model or makes the shape, where the job has no scene,
-// and applies the settings of a scene file.
+// Runs the first step of job_run, for commands that draw nothing: loads the model or builds the shape if the job has no
+// scene, and applies the settings of a scene file.
 bool job_load(struct job *job, struct progress *progress, lam_error *error);
 
-// The second step: applies the options for materials, turns, camera and lights.
+// Runs the second step: applies the options for materials, rotations, camera and lights.
 bool job_arrange(struct job *job, struct progress *progress, lam_error *error);
 
 // Runs both steps and explains one pixel. NULL on failure.

@@ -1,4 +1,4 @@
-// job_check.c: options of a picture that exclude one another.
+// job_check.c: checks for options of a picture that exclude each other.
 #include "job_check.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-// job_check.h: options of a picture that exclude one another.
+// job_check.h: checks for options of a picture that exclude each other.
 #ifndef JOB_CHECK_H
 #define JOB_CHECK_H
 

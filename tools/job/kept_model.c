@@ -1,4 +1,4 @@
-// kept_model.c: a model that stays loaded.
+// kept_model.c: keeps a model loaded between pictures.
 #include "kept_model.h"
 
 #include <stdio.h>

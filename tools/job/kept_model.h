@@ -1,4 +1,4 @@
-// kept_model.h: a model that stays loaded while one picture of it is drawn after the other.
+// kept_model.h: keeps a model loaded while several pictures of it are drawn.
 #ifndef KEPT_MODEL_H
 #define KEPT_MODEL_H
 

@@ -1,5 +1,5 @@
-// batch_isolate.c: a pass over the models with a process for each. The process sends its results back; if it ends
-// before that, its pictures get the class `crashed`.
+// batch_isolate.c: runs a pass over the models, with a separate process for each. The process sends its results back;
+// if it ends before that, its pictures get the class `crashed`.
 #include "batch_isolate.h"
 
 #include <errno.h>
@@ -277,7 +277,7 @@ static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_proces
     return false;
 }
 
-// An interrupt is passed to the processes; those that do not end soon are killed.
+// Passes an interrupt to the processes, and kills processes that do not end soon.
 static void end_processes(struct batch_process *processes, int count, double *since_ms)
 {
     if (!interrupted())

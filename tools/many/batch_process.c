@@ -1,4 +1,4 @@
-// batch_process.c: runs a function in a process of its own.
+// batch_process.c: runs a function in a separate process.
 #include "batch_process.h"
 
 #include <errno.h>

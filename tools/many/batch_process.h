@@ -1,4 +1,4 @@
-// batch_process.h: runs a function in a process of its own, whose end cannot affect the others.
+// batch_process.h: runs a function in a separate process, whose end cannot affect other processes.
 #ifndef BATCH_PROCESS_H
 #define BATCH_PROCESS_H
 

@@ -208,7 +208,8 @@ static void free_workers(const struct batch *b, struct worker *workers)
         lam_device_free(workers[i].device);
 }
 
-// Draws the models that a killed run was drawing, each in a process of its own: one of them may be the cause.
+// Draws the models that were in progress in a killed run, each in a separate process, because one of them may be the
+// cause.
 static void draw_suspects(struct batch *b)
 {
     if (b->way == JOURNAL_START || !batch_begin_suspects(b))
@@ -447,7 +448,7 @@ int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch)
     const struct batch_shard *shard = &plan->shard;
     if (!shard->count)
         return run(plan, journal, is_batch, NULL);
-    // The files that a batch has besides its pictures are each shard's own.
+    // Each shard has separate files besides the pictures.
     struct options options = *plan->options;
     struct batch_plan part = *plan;
     const char *page = options.batch.report_page;

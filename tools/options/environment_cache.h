@@ -1,4 +1,4 @@
-// environment_cache.h: environments that many scenes share, in many threads: each is read, and its light prepared, once.
+// environment_cache.h: caches environments for many scenes and threads: each is read, and its light prepared, once.
 #ifndef ENVIRONMENT_CACHE_H
 #define ENVIRONMENT_CACHE_H
 

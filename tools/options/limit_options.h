@@ -1,4 +1,4 @@
-// limit_options.h: the limits of the options, as the library takes them.
+// limit_options.h: converts the limits set by options to the library's limits.
 #ifndef LIMIT_OPTIONS_H
 #define LIMIT_OPTIONS_H
 

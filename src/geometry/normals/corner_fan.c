@@ -1,4 +1,4 @@
-// corner_fan.c: the normals at one position, from the corners that meet there.
+// corner_fan.c: computes the normals at one position from the corners that meet there.
 #include "corner_fan.h"
 
 #include "angle_series.h"

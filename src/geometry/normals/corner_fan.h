@@ -1,4 +1,4 @@
-// corner_fan.h: the normals at one position, from the corners that meet there.
+// corner_fan.h: computes the normals at one position from the corners that meet there.
 #ifndef CORNER_FAN_H
 #define CORNER_FAN_H
 

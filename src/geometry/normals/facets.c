@@ -1,4 +1,4 @@
-// facets.c: facet normals: of one triangle, and for some triangles of a mesh, each with an element of its own.
+// facets.c: computes facet normals, for one triangle or for some triangles of a mesh, each with a separate element.
 #include "facets.h"
 
 #include "corner_fan.h"

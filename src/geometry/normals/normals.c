@@ -1,7 +1,7 @@
-// normals.c: normals for meshes that have none.
+// normals.c: computes normals for meshes without normals.
 //
-// Smooth normals are made by visible_normals.c, which numbers them in the order in which threads come. They are then
-// numbered by the first corner that has them, so that the result does not depend on the threads.
+// visible_normals.c computes smooth normals, numbered in an order that depends on the threads. This file renumbers them
+// by their first corner, so that the result does not depend on the threads.
 #include "normals.h"
 
 #include "corner_fan.h"

@@ -1,4 +1,4 @@
-// normals.h: normals for meshes that have none.
+// normals.h: computes normals for meshes without normals.
 #ifndef NORMALS_H
 #define NORMALS_H
 

@@ -1,4 +1,4 @@
-// position_bins.c: the corners at the positions that were found, sorted by ranges of positions.
+// position_bins.c: sorts the corners at shared positions by ranges of positions.
 #include "position_bins.h"
 
 #include <string.h>

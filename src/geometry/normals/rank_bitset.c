@@ -1,4 +1,4 @@
-// rank_bitset.c: ranks of a set of numbers.
+// rank_bitset.c: computes the ranks of a set's members.
 #include "rank_bitset.h"
 
 void rank_bitset_finish(struct rank_bitset *set)

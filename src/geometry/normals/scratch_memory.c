@@ -1,4 +1,4 @@
-// scratch_memory.c: memory of the caller that several steps share.
+// scratch_memory.c: lets several steps share the caller's memory.
 #include "scratch_memory.h"
 
 void *scratch_take(struct scratch_memory *scratch, struct arena *arena, size_t count, size_t size)

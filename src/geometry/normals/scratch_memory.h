@@ -1,4 +1,4 @@
-// scratch_memory.h: memory of the caller that several steps share.
+// scratch_memory.h: lets several steps share the caller's memory.
 #ifndef SCRATCH_MEMORY_H
 #define SCRATCH_MEMORY_H
 

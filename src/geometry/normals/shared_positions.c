@@ -1,4 +1,4 @@
-// shared_positions.c: which vertices of a mesh lie at the positions of given triangles.
+// shared_positions.c: finds the vertices of a mesh at the positions of given triangles.
 //
 // The vertices of these triangles go into a hash table of positions. Then every other vertex of the mesh is looked up in
 // it; a filter turns most of them away before the table is searched. The order in which threads run decides only where

@@ -1,4 +1,4 @@
-// visible_normals.c: smooth normals for some triangles of a mesh, or for all of them.
+// visible_normals.c: computes smooth normals for some or all triangles of a mesh.
 //
 // First come the closed vertices (normals.h), which need no search: the corners that name each vertex are collected. The
 // others take three steps. Positions (shared_positions.c): every vertex at one of their positions gets the position's

@@ -1,4 +1,4 @@
-// visible_normals.h: normals for some triangles of a mesh, or for all of them.
+// visible_normals.h: computes normals for some or all triangles of a mesh.
 //
 // Of a large model a picture shows few triangles: only the corners at their positions are searched for, and the normals
 // of these triangles have the same bits as if all were made.

@@ -1,4 +1,4 @@
-// corner_weld.h: which corners of a mesh have the same position, normal and texture coordinates.
+// corner_weld.h: finds corners of a mesh with the same position, normal and texture coordinates.
 #ifndef CORNER_WELD_H
 #define CORNER_WELD_H
 

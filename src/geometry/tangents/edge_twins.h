@@ -1,4 +1,4 @@
-// edge_twins.h: which triangle lies across each edge.
+// edge_twins.h: finds the triangle across each edge.
 #ifndef EDGE_TWINS_H
 #define EDGE_TWINS_H
 

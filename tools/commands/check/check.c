@@ -16,7 +16,8 @@
 enum { MAX_SCENES = 32 };
 static const size_t max_cache_bytes = (size_t)384 << 20; // of pictures cached for several shaders
 
-// The contract of a command line, by its name or from its file. *contract stays NULL for one to recognise.
+// Loads the contract given on the command line, by name or from a file. *contract stays NULL if the check must
+// recognise it.
 static bool read_contract(const char *name, lam_check_contract **contract, lam_error *error)
 {
     if (!name || strcmp(name, "auto") == 0)
@@ -93,7 +94,7 @@ static bool find_submissions(struct check_command *c, int operand_count, char **
     return true;
 }
 
-// The formats of output files are checked before the work; writing them may still fail later.
+// Checks the formats of output files before the work. Writing them may still fail later.
 static bool check_outputs(const struct check_command *c, lam_error *error)
 {
     const struct options *o = c->options;
@@ -141,7 +142,7 @@ static bool open_tables(struct check_command *c, lam_error *error)
     return true;
 }
 
-// The folder of the page and the sheets. Without it the verdicts are still printed.
+// Creates the folder of the page and the sheets. If this fails, the verdicts are still printed.
 static bool prepare_page(struct check_command *c, lam_error *error)
 {
     char *page = check_page_path(c->options->picture.output, error);

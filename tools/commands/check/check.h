@@ -84,7 +84,7 @@ struct check_points check_points_of(const lam_check_report *report);
 
 // --- output
 
-// A sentence, without the end of its line: no mistake was found.
+// Prints a sentence, without a line end, which says that no mistake was found.
 void check_print_no_finding(FILE *file, const lam_check_report *report);
 void check_report_text(FILE *file, const lam_check_report *report, const char *shader, double tolerance);
 void check_report_line(FILE *file, const struct check_result *result); // a class's line of text
@@ -97,8 +97,8 @@ bool check_print_lists(FILE *file, lam_error *error);
 // passes.
 const char *check_says(const lam_check_report *report);
 
-// A value of a line of comma-separated values, in quotes if it needs them. A spreadsheet would run a name that begins
-// like a formula.
+// Writes a value of a CSV line, in quotes if necessary. Names that begin like a formula are escaped, because a
+// spreadsheet would evaluate them.
 void check_csv_text(FILE *file, const char *text);
 
 // Lines of comma-separated values, and Moodle's. 0, or the errno of the file that could not be written.
@@ -111,7 +111,7 @@ int check_moodle_row(FILE *file, const struct check_result *result);
 int check_gradescope(FILE *file, const struct check_result *result);
 int check_submitty(FILE *file, const struct check_result *result);
 
-// A file of results that grows with each.
+// A file of results, to which each result is appended.
 struct check_table {
     const char *path; // NULL: not asked for
     FILE *file;
@@ -121,7 +121,7 @@ struct check_table {
 };
 enum { CHECK_TABLES = 4 };
 
-// The page of a class: rows are added as results come, and the page is written at the end.
+// The page of a class: rows are added as results arrive, and the page is written at the end.
 struct check_page;
 struct check_page *check_page_make(lam_error *error);
 void check_page_add(struct check_page *page, const struct check_result *result);

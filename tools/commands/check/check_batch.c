@@ -1,7 +1,7 @@
 // check_batch.c: checks many shaders, several at once, and prints the results in their order.
 //
-// Each thread takes the next submission, has it drawn in a process of its own, and compares. Whoever completes the next
-// result that is due prints it and those after it that are ready.
+// Each thread takes the next submission, draws it in a separate process, and compares. The thread that completes the
+// next result in order prints it, and all following results that are ready.
 #include "check.h"
 
 #include <errno.h>
@@ -122,7 +122,7 @@ static void run_check_of(struct check_batch *b, struct check_result *result)
     free(vertex);
 }
 
-// Writes the sheet, and frees the pictures, which are of no more use. A sheet that cannot be written costs no verdict.
+// Writes the sheet, and frees the pictures. If the sheet cannot be written, the verdict is still reported.
 static void write_sheet(struct check_batch *b, struct check_result *result)
 {
     const struct options *o = b->options;

@@ -1,4 +1,4 @@
-// check_csv.c: lines of comma-separated values (RFC 4180), one for each shader.
+// check_csv.c: writes lines of comma-separated values (RFC 4180), one for each shader.
 #include "check.h"
 
 #include <errno.h>

@@ -3,7 +3,7 @@
 // A folder with one fragment shader is one submission, named after the folder, with the one vertex shader in it if
 // there is one. In other folders, and in the class's own, each fragment shader is a submission, named after the file;
 // its vertex shader is the one of the same name beside it, else the only one beside it without a fragment shader of its
-// name. Hidden files and links are left out. Folders below MAX_DEPTH are reported as a problem.
+// name. Hidden files and links are ignored. Folders below MAX_DEPTH are reported as a problem.
 #include "check.h"
 
 #include <dirent.h>
@@ -165,7 +165,7 @@ static bool search(struct finding *f, const char *top, const char *folder, int d
         }
         int before = f->count;
         ok = search(f, top, paths[i], depth + 1, error);
-        // A folder without shaders is listed too, so that nobody who handed in something else is missed.
+        // Lists folders without shaders too, so that no submission is overlooked.
         if (ok && depth == 0 && f->count == before &&
             !add(f, name_of(top, paths[i], false), NULL, NULL,
                  "there is no shader in this folder: expected a file that ends in .frag, .fs, .fsh or .fragment"))

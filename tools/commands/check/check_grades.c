@@ -1,5 +1,5 @@
-// check_grades.c: results in the forms that learning platforms import: Moodle's worksheet of grades, Gradescope's results.json,
-// Submitty's validation_results.json.
+// check_grades.c: writes results in the formats that learning platforms import: Moodle's grading worksheet,
+// Gradescope's results.json, Submitty's validation_results.json.
 #include "check.h"
 
 #include <ctype.h>
@@ -44,7 +44,7 @@ static const char *reason_of(const struct check_result *result)
     return text + (slash ? slash + 1 - path : 0);
 }
 
-// A submission without a verdict has no grade: the cell stays empty, and Moodle leaves the grade as it is.
+// For a submission without a verdict, the grade is empty, and Moodle keeps the present grade.
 int check_moodle_row(FILE *file, const struct check_result *result)
 {
     char full[128], number[24];

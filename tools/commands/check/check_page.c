@@ -1,4 +1,4 @@
-// check_page.c: the page of a class: one HTML file without scripts, whose pictures are the sheets beside it.
+// check_page.c: writes the page of a class: one HTML file without scripts, whose pictures are the sheets beside it.
 #include "check.h"
 
 #include <stdlib.h>

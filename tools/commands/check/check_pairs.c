@@ -1,4 +1,4 @@
-// check_pairs.c: the endings of shaders' files; pairs the files of a command line, and names their sheets.
+// check_pairs.c: recognises shader files by extension, pairs the files of a command line, and names their sheets.
 #include "check.h"
 
 #include <stdlib.h>

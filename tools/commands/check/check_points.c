@@ -1,4 +1,4 @@
-// check_points.c: the points of a report, and its verdict in words.
+// check_points.c: computes the points of a report, and formats its verdict.
 #include "check.h"
 
 const char *check_verdict_text(lam_check_verdict verdict)

@@ -1,5 +1,5 @@
-// check_process.c: runs the shaders under test in a process of their own, a second instance of this program. It is
-// stopped at its limits of time and memory; if it crashes, that is a verdict.
+// check_process.c: runs the shaders under test in a separate process, a second instance of this program. The process is
+// stopped at its limits of time and memory; a crash is a verdict.
 //
 // The limit is processor time over all threads, so that other load on the machine makes no shader endless. While a
 // graphics card works, the processor may be idle: therefore elapsed time is limited too, to WALL_TIMES as much.
@@ -95,7 +95,7 @@ static void on_crash(int number)
 }
 #endif
 
-// The worker itself ends by _exit(), so it is the driver that calls exit().
+// The worker ends by _exit(), so only the driver can call exit().
 static void on_exit_of_driver(void) { _exit(is_out_of_memory() ? EXIT_MEMORY : EXIT_DRIVER); }
 
 static uint64_t max_resident_bytes(void)
@@ -148,7 +148,7 @@ void check_worker(const char *memory)
     int code = ok ? 0 : (int)error.code;
     if (!write_all(answer, ok ? drawn.data : error.text, ok ? drawn.size : strlen(error.text)))
         code = LAM_CANNOT_WRITE;
-    // The result is sent; crashes of the driver during exit must not count.
+    // The result has been sent; crashes of the driver during exit are ignored.
     _exit(code);
 }
 
@@ -166,7 +166,7 @@ struct child {
     int to, from; // −1: closed
 };
 
-// The system's own limit, in case the parent dies first.
+// A limit enforced by the system, in case the parent dies first.
 static void bound_time(double limit_s)
 {
     rlim_t seconds = (rlim_t)limit_s + 2;

@@ -1,4 +1,4 @@
-// check_report_json.c: the report of a check as JSON (docs/check.schema.json).
+// check_report_json.c: prints the report of a check as JSON (docs/check.schema.json).
 #include "check.h"
 
 #include "exit_codes.h"

@@ -1,4 +1,4 @@
-// check_sheet.c: the sheet: the shader's picture, the reference and the difference of each scene, on one page.
+// check_sheet.c: draws the sheet: the shader's picture, the reference and the difference of each scene, on one page.
 #include "check.h"
 
 #include <stdlib.h>

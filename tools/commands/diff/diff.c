@@ -1,4 +1,4 @@
-// diff.c: the command `diff`: two pictures, two models, or the models of two folders.
+// diff.c: the command `diff`: compares two pictures, two models, or the models of two folders.
 #include "command.h"
 
 #include <string.h>
@@ -15,14 +15,14 @@ static bool is_folder(const char *path)
     return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
 }
 
-// A scene file is a model here: no picture has its ending.
+// Treats a scene file as a model, because no picture format uses its extension.
 static bool is_model(const char *path)
 {
     const char *dot = strrchr(path, '.');
     return is_model_name(path) || (dot && strcmp(dot, ".json") == 0) || lam_shape_find(path) >= 0;
 }
 
-// Of pictures, only the options of these groups and names say something.
+// For pictures, only options of these groups and names have an effect.
 static bool check_pictures(const struct options *o, lam_error *error)
 {
     static const char *const names[] = {"output", "json", "quiet", NULL};

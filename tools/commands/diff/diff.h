@@ -36,13 +36,13 @@ struct model_diff {
     size_t counts[CHANGE_COUNT];  // when all are drawn
 };
 
-// diff_draw.c: draws a pair with one camera, and finds out how it has changed (batch_use.draw).
+// diff_draw.c: draws a pair with one camera, and determines how it has changed (batch_use.draw).
 bool diff_draw(void *user, size_t model, struct job *job, struct progress *progress, json_t *found, lam_error *error);
 
-// How a model has changed, by its record.
+// Returns how a model has changed, from its record.
 enum change diff_change_of(const json_t *record);
 
-// diff_page.c: the page in one file, from malloc. Returns NULL if memory runs out.
+// diff_page.c: builds the page as one file, from malloc. Returns NULL if memory runs out.
 char *diff_page(const struct model_diff *diff, json_t *const *records);
 
 #endif

@@ -65,7 +65,8 @@ static lam_scene *scene_of_box(const struct box *box, lam_up up, lam_error *erro
     return NULL;
 }
 
-// The sphere around both models; and the camera that shows both, unless the options or the new model's scene file place one.
+// Computes the sphere around both models, and a camera that shows both, unless the options or the scene file of the new
+// model define one.
 static bool share(struct job *old, struct job *new, struct job_shared *shared, lam_error *error)
 {
     struct box box = {0};

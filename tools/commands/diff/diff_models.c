@@ -1,4 +1,5 @@
-// diff_models.c: `lambent diff` of two models, or of the models of two folders: which ones are on both sides, and what is said at the end.
+// diff_models.c: `lambent diff` of two models, or of the models of two folders: pairs the models and prints the
+// summary.
 #include "diff.h"
 
 #include <stdio.h>
@@ -47,7 +48,7 @@ static bool add_pair(struct model_diff *diff, const struct batch_model *old, con
     return true;
 }
 
-// Both lists are sorted: the names that are next are equal, or the smaller one is on one side alone.
+// Both lists are sorted: the next names are either equal, or the smaller name exists on only one side.
 static bool make_pairs(struct model_diff *diff, lam_error *error)
 {
     struct batch_plan *olds = &diff->olds, *news = &diff->news;
@@ -200,7 +201,7 @@ static bool check(const struct model_diff *diff, lam_error *error)
 int diff_models(char **operands, bool folders, const struct options *options)
 {
     lam_error error = {0};
-    // The loop prints no report of its own, and pictures have no files.
+    // The loop prints no report, and writes no picture files.
     struct options drawn = *options;
     drawn.report.json = false;
     drawn.picture.output = NULL;

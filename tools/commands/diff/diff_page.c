@@ -1,4 +1,5 @@
-// diff_page.c: the page of `lambent diff`: models before and after, in one HTML file without scripts that asks for no other file.
+// diff_page.c: builds the page of `lambent diff`: models before and after, in one HTML file without scripts and without
+// other files.
 #include "diff.h"
 
 #include <stdio.h>

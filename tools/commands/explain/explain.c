@@ -1,4 +1,5 @@
-// explain.c: the command `explain`: every number of one pixel, from its triangles to its bytes; with -o, a figure of them.
+// explain.c: the command `explain`: prints every number of one pixel, from its triangles to its bytes; with -o, draws a
+// figure.
 #include "explain.h"
 
 #include <stdio.h>
@@ -152,7 +153,7 @@ static bool check(const struct job *job, const char *pixel, int *x, int *y, lam_
     if (o->picture.show)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--show' has no effect on explain, which prints all terms of a pixel");
-    // A figure is wanted by its name, or by a --term that is none of auto and off.
+    // A figure is requested by -o, or by --term with a value other than auto and off.
     return read_pixel(pixel, o, x, y, error) &&
            terminal_start(o, o->picture.output || (o->picture.term != TERM_AUTO && o->picture.term != TERM_OFF), error);
 }

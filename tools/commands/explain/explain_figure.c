@@ -1,5 +1,6 @@
-// explain_figure.c: the figure of `explain -o`: the vectors n, l, v, r and h (of threads t instead of r and h) as arrows on the
-// surface, the same vectors seen from the side, and tables of the point's coordinates, the vectors, the angles and the terms.
+// explain_figure.c: draws the figure of `explain -o`: the vectors n, l, v, r and h (of threads t instead of r and h) as
+// arrows on the surface, the same vectors seen from the side, and tables of the point's coordinates, the vectors, the
+// angles and the terms.
 #include "explain_figure.h"
 
 #include <stdio.h>
@@ -142,7 +143,8 @@ static void draw_letters(const struct diagram *g, struct drawing *d)
     }
 }
 
-// A line with a head, on a wider white one that sets it off from the picture; one that points at the reader is a dot in a ring.
+// Draws an arrow over a wider white line that separates it from the picture. An arrow that points at the reader is a
+// dot in a ring.
 static bool draw_arrow(const struct diagram *g, int arrow, struct drawing *d, lam_error *error)
 {
     struct point from = g->from, tip = g->tips[arrow], way = minus(tip, from);
@@ -174,7 +176,7 @@ static bool draw_diagram(const struct diagram *g, struct drawing *d, lam_error *
     return spot;
 }
 
-// The tips of all arrows of this length in the picture, from the point that is lit. Returns false if one lies outside
+// Computes the tips of all arrows of this length in the picture, from the lit point. Returns false if one lies outside
 // of it.
 static bool find_tips(const struct explain_figure *f, const struct subject *s, double length, double margin,
                       struct point tips[ARROWS])
@@ -265,7 +267,7 @@ static void put(struct drawing *d, const struct sheet_layout *at, double x, enum
     draw_text(d, (struct point){at->left + x * at->unit, at->y}, 12.5 * at->unit, align, color, text);
 }
 
-// The heading of a table, and the names of its columns.
+// Prints the heading of a table, and the names of its columns.
 static bool begin_table(struct drawing *d, struct sheet_layout *at, const char *title, const char *const *columns,
                         lam_error *error)
 {
@@ -301,7 +303,7 @@ static void put_vector(struct drawing *d, struct sheet_layout *at, uint32_t colo
     put_row(d, at, color, name, (double[3]){v.x, v.y, v.z}, 3);
 }
 
-// The point on its way to the window.
+// Prints the point in each space, from the mesh to the window.
 static bool put_places(const lam_explained_fragment *f, struct drawing *d, struct sheet_layout *at, lam_error *error)
 {
     static const char *const columns[] = {"x", "y", "z", "w", NULL};
@@ -358,7 +360,7 @@ static bool put_vectors(const struct subject *s, struct drawing *d, struct sheet
     return true;
 }
 
-// The factors of the drawn light, and the terms of the sum.
+// Prints the factors of the drawn light, and the terms of the sum.
 static bool put_terms(const lam_explanation *e, const struct subject *s, struct drawing *d, struct sheet_layout *at,
                       lam_error *error)
 {
@@ -388,7 +390,7 @@ static bool put_terms(const lam_explanation *e, const struct subject *s, struct 
     return true;
 }
 
-// The head of the panel: the surface, the methods, and the light that the arrows belong to.
+// Prints the head of the panel: the surface, the methods, and the light of the arrows.
 static void put_words(const struct explain_figure *f, const struct subject *s, struct drawing *d,
                       struct sheet_layout *at)
 {
@@ -442,7 +444,7 @@ void explain_figure_size(const struct explain_figure *f, int *width, int *height
     *height = (int)(head_of(unit) + (rows > e->height ? rows : e->height) + 24 * unit);
 }
 
-// The same in words, for those who do not see it.
+// Describes the figure in words, for readers who cannot see it.
 static bool describe(const struct explain_figure *f, const struct subject *s, const char *title, struct drawing *d,
                      lam_error *error)
 {

@@ -1,4 +1,4 @@
-// explain_figure.h: an explained pixel as a figure: the picture with its vectors, and its numbers beside it.
+// explain_figure.h: draws an explained pixel as a figure: the picture with its vectors, and its numbers beside it.
 #ifndef EXPLAIN_FIGURE_H
 #define EXPLAIN_FIGURE_H
 

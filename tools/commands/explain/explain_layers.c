@@ -1,4 +1,4 @@
-// explain_layers.c: how the layers of a physical material share the light of a point, as text (docs/lighting/layers.md).
+// explain_layers.c: prints how the layers of a physical material share the light of a point (docs/lighting/layers.md).
 #include "explain_rows.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
-// explain_places.c: the way of a triangle from its mesh to the window, as text: the matrices, then each point in each space.
+// explain_places.c: prints the transforms of a triangle from its mesh to the window: the matrices, then each point in
+// each space.
 #include "explain_rows.h"
 
 #include <stdio.h>

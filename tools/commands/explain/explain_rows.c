@@ -1,4 +1,4 @@
-// explain_rows.c: aligned rows of an explanation: a name, numbers, a remark.
+// explain_rows.c: prints aligned rows of an explanation: a name, numbers, a remark.
 #include "explain_rows.h"
 
 #include <stdio.h>

@@ -104,7 +104,7 @@ static void product(char text[200], const lam_explained_light *l, const char *wh
                  (double)l->passed.b);
 }
 
-// How the factor of a spot light comes about, by OpenGL's cone or glTF's (lam_light).
+// Prints how the factor of a spot light is computed, from the cone of OpenGL or glTF (lam_light).
 static void print_cone(const lam_explained_light *l, const lam_light *given)
 {
     const double c = (double)l->cos_axis, exponent = (double)given->exponent;
@@ -328,7 +328,7 @@ static void print_color(const lam_explanation *e, const lam_field *field, const 
     double numbers[4];
     char text[64];
     bool mirrored = field->offset == offsetof(lam_material, reflectivity);
-    // Of the fields that only physical materials use those at their defaults say nothing.
+    // Omits fields of physical materials that have their default value.
     bool known = field->symbol || field->offset == offsetof(lam_material, emission);
     if (lam_field_get(field, m, numbers) > 1 && (e->has_environment || !mirrored) && (known || differs(field, numbers)))
         row_three(4, field_label(field, text), numbers[0], numbers[1], numbers[2], "");

@@ -1,4 +1,5 @@
-// hash_sheet.c: `lambent hash --update`: the sheet of old and new pictures, and the pictures that are kept for the next one.
+// hash_sheet.c: `lambent hash --update`: draws the sheet of old and new pictures, and stores the pictures for the next
+// sheet.
 #include "hash.h"
 
 #include <stdio.h>

@@ -13,7 +13,7 @@
 #include "report.h"
 #include "sandbox_start.h"
 
-// A file that requires an unknown extension is read without it.
+// Reads a file that requires an unknown extension, ignoring the extension.
 static bool load(struct info *info, struct job *job, struct options *options, lam_error *error)
 {
     struct progress progress;
@@ -30,7 +30,8 @@ static bool load(struct info *info, struct job *job, struct options *options, la
     return ok;
 }
 
-// Finds the memory for drawing, by drawing the depths once: lighting needs no more except for an environment's light.
+// Measures the memory for drawing by drawing the depths once. Lighting needs no additional memory, except for
+// environment light.
 static void measure_drawing(struct info *info, const struct job *job)
 {
     lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = job->options->work.threads}, NULL);

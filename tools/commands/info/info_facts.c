@@ -1,4 +1,4 @@
-// info_facts.c: the facts about a model that both forms of the command `info` print.
+// info_facts.c: collects the facts about a model that both forms of the command `info` print.
 #include "info.h"
 
 #include <string.h>

@@ -1,10 +1,10 @@
-// info_json.c: a model in the form of docs/info.schema.json, on one line.
+// info_json.c: prints a model in the form of docs/info.schema.json, on one line.
 #include "info.h"
 
 #include "exit_codes.h"
 #include "json.h"
 
-// The shortest number that reads back as the same float.
+// Formats the shortest number that reads back as the same float.
 static void json_float(struct json *json, const char *key, float value)
 {
     char text[32];

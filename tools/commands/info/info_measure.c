@@ -1,4 +1,4 @@
-// info_measure.c: area, volume and closedness of a model's surface.
+// info_measure.c: computes the area and volume of a model's surface, and whether it is closed.
 #include "info.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-// info_text.c: a model for people: one screen. Lists end after ROWS rows and say how many more there are.
+// info_text.c: prints a model for people, on one screen. Lists end after ROWS rows and state the number of omitted
+// rows.
 #include "info.h"
 
 #include <inttypes.h>

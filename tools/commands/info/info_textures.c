@@ -1,4 +1,5 @@
-// info_textures.c: the textures of a model's materials, each once, and the pictures of its file that no material reads.
+// info_textures.c: lists the textures of a model's materials, each once, and the pictures in its file that no material
+// uses.
 #include "info.h"
 
 #include <stdlib.h>
@@ -11,7 +12,7 @@ static void add(struct info_textures *textures, const lam_texture *texture, cons
     textures->items[textures->count++] = (struct info_texture){.texture = texture, .image = image};
 }
 
-// A picture of the file makes a texture for each way in which materials read it.
+// A picture becomes one texture for each way in which materials read it.
 static void add_image(struct info_textures *textures, const lam_file_image *image)
 {
     for (int values = 0; values < 2; values++)

@@ -149,7 +149,7 @@ char *journal_read(const char *path, size_t *size)
 // Returns the options of the run whose line this is, or NULL if it is no such line.
 static const char *options_of(const json_t *line) { return json_string_value(json_object_get(line, "options")); }
 
-// A line that is not JSON is a torn one, or of a run that went on after one: nobody counts on it.
+// A line that is not JSON was truncated, or written after a truncated line. It is ignored.
 static bool read_lines(struct journal *j, size_t size, const char **options, json_t **last_run, lam_error *error)
 {
     json_t *folder = NULL; // of the latest line that names one
@@ -242,7 +242,7 @@ static bool read_journal(struct journal *j, enum journal_way way, const char *op
     return ok;
 }
 
-// An existing journal is kept under another name; other files do not change.
+// Renames an existing journal; other files do not change.
 static bool set_aside(const struct journal *j, lam_error *error)
 {
     char *before = NULL, head[64] = "";

@@ -112,7 +112,7 @@ static void begin_run(struct journal_part *part, const json_t *record)
     part->ended = false;
 }
 
-// A line that is not JSON was torn by a kill: its picture is drawn again by the next run, and has another line.
+// A line that is not JSON was truncated by a kill. The next run draws its picture again and writes another line.
 static bool read_lines(struct journal_sum *s, int number, lam_error *error)
 {
     const char *line = s->parts[number].text, *last = line + s->parts[number].size, *end, *folder = NULL;

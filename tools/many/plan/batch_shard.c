@@ -1,8 +1,8 @@
 // batch_shard.c: selects this process's models, if several processes share the work.
 //
-// A model's shard follows from its name alone, so that shards need not speak to each other, and a model that is added
-// moves no other one. The environment's variables are read only with --shard auto, and only if they are unambiguous: a
-// wrong guess would skip models, and nobody would notice.
+// A model's shard depends only on its name, so that shards need no communication, and adding a model does not move
+// others. The environment's variables are read only with --shard auto, and only if they are unambiguous: a wrong guess
+// would skip models, and nobody would notice.
 #include "batch_shard.h"
 
 #include <dirent.h>
@@ -57,8 +57,8 @@ static bool set_index(struct batch_shard *shard, const char *variable, long inde
     return true;
 }
 
-// A complete job array: from 0 or 1 on, and without gaps. One that was submitted again for some of its tasks
-// (--array=17,23) speaks of fewer tasks, and would deal out all models anew.
+// A complete job array: from 0 or 1 on, and without gaps. An array resubmitted for some of its tasks (--array=17,23)
+// reports fewer tasks, and would redistribute all models.
 static bool slurm_array(struct batch_shard *shard, lam_error *error)
 {
     long id, first, last, count, step;

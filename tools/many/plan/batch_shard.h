@@ -1,4 +1,4 @@
-// batch_shard.h: --shard: which models of a batch are this process's, where several share the work.
+// batch_shard.h: --shard: selects this process's models, if several processes share the work.
 #ifndef BATCH_SHARD_H
 #define BATCH_SHARD_H
 

@@ -1,4 +1,4 @@
-// batch_sources.c: where the models of `batch` come from.
+// batch_sources.c: collects the models of `batch`.
 #include "batch_sources.h"
 
 #include <dirent.h>
@@ -50,8 +50,8 @@ static bool add_file(struct batch_plan *plan, const char *path, const char *root
     return true;
 }
 
-// Adds the models of a folder and of those below it, in alphabetical order. Links to folders are not followed: they
-// may lead in a circle.
+// Adds the models of a folder and of those below it, in alphabetical order. Does not follow links to folders, because
+// they may form a cycle.
 static bool add_folder(struct batch_plan *plan, const char *folder, const char *root, lam_error *error)
 {
     struct dirent **entries;

@@ -17,9 +17,9 @@ typedef struct lam_export_params {
     // The name of the model's file, without a folder. Files beside it are named after it: "part.obj" comes with "part.mtl" and
     // "part-0.png". NULL: "model" and the format's ending.
     const char *name;
-    // A camera that comes before those of the scene, for formats with cameras. NULL: none.
+    // A camera that comes before the scene's cameras, for formats with cameras. NULL: none.
     const lam_camera *camera;
-    // A picture of the scene that the file contains for those who list files: GLB alone, asset.thumbnail of the draft of glTF 2.1
+    // A picture of the scene for programs that list files: GLB alone, asset.thumbnail of the draft of glTF 2.1
     // (8 bits). NULL: none.
     const lam_image *thumbnail;
     LAM_RESERVED(5);

@@ -11,7 +11,7 @@
 
 #define EXPORTERS(row) row(glb) row(obj) row(stl) row(ply) row(3mf)
 
-// What a scene consists of: each kind has meshes of its own.
+// The kinds of items in a scene; each kind has its own meshes.
 enum export_kind { EXPORT_TRIANGLES, EXPORT_LINES, EXPORT_POINTS, EXPORT_KINDS };
 
 struct export_file {

@@ -1,5 +1,5 @@
-// export_vertices.c: formats with one number for all attributes of a corner: corners that have the same ones share a vertex. And the
-// colours and pictures of what is written.
+// export_vertices.c: formats with one number for all attributes of a corner: corners with the same attributes share a vertex. Also the
+// colours and pictures that are written.
 #include "export.h"
 
 #include "srgb.h"

@@ -154,7 +154,7 @@ static void put_object(struct flat *f, const lam_mesh *m, const lam_object *obje
     f->corners += mesh_corners(m);
 }
 
-// The elements that meshes without an attribute refer to, where there are such meshes.
+// Adds the elements that meshes without an attribute refer to, if there are such meshes.
 static void put_missing(struct flat *f, size_t corners)
 {
     bool normals = false, texcoords = false;

@@ -16,7 +16,7 @@ static bool has_one_number(const lam_mesh *m)
            (!m->tangents || m->tangent_count == m->vertex_count) && (!m->colors || m->color_count == m->vertex_count);
 }
 
-// The vertices that are written: those of the mesh, or shared ones.
+// The vertices that are written: the mesh's own, or shared ones.
 struct vertices {
     const lam_mesh *mesh;
     bool as_they_are;

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// The numbers of the next vertex, texture coordinate and normal, from 1: those of a kind follow those of the kind before.
+// The numbers of the next vertex, texture coordinate and normal, from 1: each kind continues after the kind before.
 struct firsts {
     unsigned long position, texcoord, normal;
 };

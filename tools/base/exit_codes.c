@@ -10,8 +10,8 @@ const struct exit_code exit_codes[] = {
     {5, LAM_CANNOT_WRITE, "cannot-write",
      "the output cannot be written, or would overwrite a file that lambent did not write"},
     {EXIT_DIFFERS, -1, NULL,
-     "`diff`: the pictures differ by more than the tolerance; `hash --check`: pictures are others than those of the "
-     "file; "
+     "`diff`: the pictures differ by more than the tolerance; `hash --check`: pictures differ from the file's "
+     "hashes; "
      "`check`: the shader does not pass"},
     {EXIT_SOME_FAILED, -1, NULL,
      "`batch`, `diff` of folders, `hash`: some pictures failed (0 with `--failures-ok`); the messages and the journal "

@@ -138,9 +138,9 @@ const struct topic topics[] = {
     {"convert", "Models in another format", BIT(CONVERT), TOPIC_NO_TABLE,
      "`lambent convert MODEL OUT.glb` writes any model or scene file as GLB, OBJ (with MTL and PNG beside it), STL, "
      "PLY or "
-     "3MF: geometry, materials with their pictures, lights and cameras as far as the format holds them. What it does "
-     "not "
-     "hold is said in one sentence each. More: `docs/convert.md`."},
+     "3MF: geometry, materials with their pictures, lights and cameras as far as the format stores them. The program "
+     "reports data that the "
+     "format cannot store. More: `docs/convert.md`."},
     {"formulas", "Surfaces given by formulas", BIT(SHAPE), TOPIC_NO_TABLE,
      "`lambent shape --parametric 'x=...; y=...; z=...'` draws a surface over u and v. `--implicit 'x^2+y^2+z^2-1'` "
      "draws the surface on which an expression of x, y and z is zero. `-o torus.obj`, `.stl` or `.ply` saves it as a "

@@ -37,7 +37,7 @@ struct job_view {
     int width, height; // pixels
 };
 
-// What two jobs share whose pictures are compared.
+// The settings that two jobs share if their pictures are compared.
 struct job_shared {
     struct model_sphere sphere; // around both models
     lam_camera camera;          // if the flag below is set, in place of any other

@@ -828,10 +828,10 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_number, .others = "amplify", FIELD(diff.gain), .min = 0.001, .max = 1e6},
 
     {"check", 0, GROUP_HASH, "FILE", NULL, "Compare with the hashes in FILE; the exit code is 6 if they differ.",
-     "Names each model that has changed, that is missing (it is in the file, and not among the models) or that is new. "
-     "Without "
-     "models on the command line it draws those of the file. If the version or the options of the file are others, it "
-     "says so first.",
+     "Lists the models that changed, that are new, or that are missing (in the file but not among the models). If the "
+     "command line names no models, it draws the models in the file. If the file was written by another version or "
+     "with "
+     "other options, it says so first.",
      .kind = VALUE_FILE, .store = store_text, .others = "verify compare-with against", FIELD(hash.check)},
     {"update", 0, GROUP_HASH, NULL, NULL,
      "With `--check`: write the new hashes to the file, with a sheet of what changed.",

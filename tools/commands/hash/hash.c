@@ -55,7 +55,7 @@ static bool add_models(struct hash_run *run, int count, char **operands, lam_err
         ok = batch_add_operand(&run->plan, operands[i], error);
     for (int i = 0; ok && i < run->options->batch.lists.count; i++)
         ok = batch_add_list(&run->plan, run->options->batch.lists.items[i], error);
-    bool all = !count && !run->options->batch.lists.count; // those of the file
+    bool all = !count && !run->options->batch.lists.count; // the file's models
     for (size_t i = 0; ok && all && i < run->then.count; i++) {
         char *model = hash_file_model(run->path, run->then.entries[i].name);
         ok = model ? batch_plan_add(&run->plan, model, NULL, error) : complain(error, LAM_LIMIT, "out of memory");

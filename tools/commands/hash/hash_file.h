@@ -5,7 +5,7 @@
 //     options --size 256
 //     xxh64:0123456789abcdef  models/koala.obj
 //
-// A name is relative to the file's folder; in it "\\" stands for a backslash, "\n" for a line end and "\r" for a carriage return.
+// A name is relative to the file's folder; in it "\\" means a backslash, "\n" for a line end and "\r" for a carriage return.
 #ifndef HASH_FILE_H
 #define HASH_FILE_H
 
@@ -39,7 +39,7 @@ char *hash_file_text(const struct hash_file *file);
 // The name of a built-in shape stays. NULL: out of memory.
 char *hash_file_name(const char *path, const char *model);
 
-// The model that a name of the file `path` stands for, from malloc. NULL: out of memory.
+// The model that a name in the file `path` means, from malloc. NULL: out of memory.
 char *hash_file_model(const char *path, const char *name);
 
 #endif

@@ -175,7 +175,7 @@ typedef struct lam_object {
     // true: back faces are lit with n as it is and the front material; false: with −n.
     bool one_sided;
     lam_cull cull; // the side that is left out
-    bool hidden;   // true: pictures are those of a scene without the object (lam_scene_hide_object)
+    bool hidden;   // true: not drawn (lam_scene_hide_object)
     LAM_RESERVED(15);
 } lam_object;
 
@@ -198,7 +198,7 @@ LAM_API bool lam_scene_set_light(lam_scene *scene, int index, const lam_light *l
 LAM_API bool lam_scene_set_mesh(lam_scene *scene, int index, const lam_mesh *mesh, lam_error *error);
 
 // Hide an object, or all objects that show a mesh, or show them again. Pictures, boxes and cameras are those of a scene without
-// hidden objects; a light in the frame of a hidden object stays there. Counts include hidden objects, and scene files leave
+// hidden objects; a light in the frame of a hidden object stays there. Counts include hidden objects; scene files and exported models leave
 // them out. An object is drawn if neither it nor its mesh is hidden. False: LAM_BAD_ARGUMENT (no such index).
 LAM_API bool lam_scene_hide_object(lam_scene *scene, int index, bool hidden, lam_error *error);
 LAM_API bool lam_scene_hide_mesh(lam_scene *scene, int index, bool hidden, lam_error *error);

@@ -191,13 +191,13 @@ LAM_API bool lam_scene_set_material(lam_scene *scene, int index, const lam_mater
 LAM_API bool lam_scene_set_object(lam_scene *scene, int index, const lam_object *object, lam_error *error);
 LAM_API bool lam_scene_set_light(lam_scene *scene, int index, const lam_light *light, lam_error *error);
 
-// Replaces a mesh: all objects that show it show the new one. The arguments are those of lam_scene_add_mesh. The memory of a
+// Replaces a mesh: all objects that show it show the new one. It takes the same arguments as lam_scene_add_mesh. The memory of a
 // mesh that this function set is freed when the mesh is replaced or removed, unless the scene has a mark (lam_scene_mark); the
 // memory of other meshes is freed with the scene. A scene file cannot be written of a replaced mesh. False, and nothing has changed:
 // LAM_BAD_ARGUMENT, LAM_LIMIT.
 LAM_API bool lam_scene_set_mesh(lam_scene *scene, int index, const lam_mesh *mesh, lam_error *error);
 
-// Hide an object, or all objects that show a mesh, or show them again. Pictures, boxes and cameras are those of a scene without
+// Hide an object, or all objects that show a mesh, or show them again. Pictures, boxes and cameras are the same as in a scene without
 // hidden objects; a light in the frame of a hidden object stays there. Counts include hidden objects; scene files and exported models leave
 // them out. An object is drawn if neither it nor its mesh is hidden. False: LAM_BAD_ARGUMENT (no such index).
 LAM_API bool lam_scene_hide_object(lam_scene *scene, int index, bool hidden, lam_error *error);

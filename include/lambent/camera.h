@@ -95,6 +95,38 @@ LAM_API lam_camera lam_camera_fit_turning(const lam_scene *scene, lam_vec3 centr
 // scene's bounds. Returns false and the default camera if there is no such camera.
 LAM_API bool lam_scene_camera(const lam_scene *scene, int index, lam_camera *camera);
 
+// A camera that orbits a point, for programs in which users rotate a model with the mouse. Begin with lam_orbit_of().
+typedef struct lam_orbit {
+    lam_vec3 target;          // the point that it orbits and looks at, world space
+    double azimuth_rad;       // as in lam_view
+    double elevation_rad;     // as in lam_view, −π/2..π/2
+    double distance;          // from the eye to the target, model units, > 0
+    double fovy_rad;          // as in lam_camera
+    double ortho_half_height; // as in lam_camera
+    lam_up up;                // the axis of the orbit; AUTO: y
+    LAM_RESERVED(8);
+} lam_orbit;
+
+// Returns the orbit of a camera of this scene. Its target is the point of the line of sight that is nearest to the middle of the scene's
+// box, or, if that lies behind the eye or the scene is NULL or empty, the camera's target. A camera that is tilted comes upright.
+LAM_API lam_orbit lam_orbit_of(const lam_camera *camera, const lam_scene *scene);
+
+// Returns the camera of an orbit; the planes are fitted to the scene when it is drawn.
+LAM_API lam_camera lam_orbit_camera(const lam_orbit *orbit);
+
+// Turns the eye about the target, radians: to the right and up. The elevation stops at −π/2 and π/2. To turn the model with
+// the mouse, a drag by dx, dy pixels (dy down) in a picture of `height` pixels is about −π dx / height to the right and
+// π dy / height up. Numbers that are not finite change nothing, here and below.
+LAM_API void lam_orbit_turn(lam_orbit *orbit, double right_rad, double up_rad);
+
+// Moves eye and target in the plane of the picture, in heights of the picture at the target's distance: a drag by dx, dy pixels is
+// −dx / height to the right and dy / height up.
+LAM_API void lam_orbit_pan(lam_orbit *orbit, double right, double up);
+
+// Shows the target `factor` times as large, > 0: the eye comes nearer, or an orthographic camera shows less. Others change
+// nothing.
+LAM_API void lam_orbit_zoom(lam_orbit *orbit, double factor);
+
 // Parses a camera from text: pairs key=value, separated by commas, of
 //   eye=x/y/z     required: its position
 //   target=x/y/z  default: the middle of the scene's box

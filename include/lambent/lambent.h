@@ -33,6 +33,7 @@
 #include "light_eval.h"
 #include "material.h"
 #include "mesh.h"
+#include "pick.h"
 #include "render.h"
 #include "scene.h"
 #include "scene_file.h"

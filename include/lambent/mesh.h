@@ -96,7 +96,8 @@ typedef struct lam_mesh {
     // One for each triangle: bit k (of 0, 1, 2) is set where the edge from its corner k to the next was made by cutting a
     // polygon into triangles. The wireframe leaves such edges out. NULL: every edge is the model's own.
     const uint8_t *inner_edges;
-    LAM_RESERVED(30);
+    bool hidden; // true: no object of the mesh is drawn (lam_scene_hide_mesh)
+    LAM_RESERVED(29);
 } lam_mesh;
 
 // Parameters of a built-in shape. All zero: the shape's defaults.

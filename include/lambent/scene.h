@@ -175,7 +175,8 @@ typedef struct lam_object {
     // true: back faces are lit with n as it is and the front material; false: with −n.
     bool one_sided;
     lam_cull cull; // the side that is left out
-    LAM_RESERVED(16);
+    bool hidden;   // true: not drawn (lam_scene_hide_object)
+    LAM_RESERVED(15);
 } lam_object;
 
 // An object with mesh 0, the identity transform, and −1 for both materials.
@@ -189,6 +190,23 @@ LAM_API int lam_scene_add_object(lam_scene *scene, const lam_object *object, lam
 LAM_API bool lam_scene_set_material(lam_scene *scene, int index, const lam_material *material, lam_error *error);
 LAM_API bool lam_scene_set_object(lam_scene *scene, int index, const lam_object *object, lam_error *error);
 LAM_API bool lam_scene_set_light(lam_scene *scene, int index, const lam_light *light, lam_error *error);
+
+// Replaces a mesh: all objects that show it show the new one. It takes the same arguments as lam_scene_add_mesh. The memory of a
+// mesh that this function set is freed when the mesh is replaced or removed, unless the scene has a mark (lam_scene_mark); the
+// memory of other meshes is freed with the scene. A scene file cannot be written of a replaced mesh. False, and nothing has changed:
+// LAM_BAD_ARGUMENT, LAM_LIMIT.
+LAM_API bool lam_scene_set_mesh(lam_scene *scene, int index, const lam_mesh *mesh, lam_error *error);
+
+// Hide an object, or all objects that show a mesh, or show them again. Pictures, boxes and cameras are the same as in a scene without
+// hidden objects; a light in the frame of a hidden object stays there. Counts include hidden objects; scene files and exported models leave
+// them out. An object is drawn if neither it nor its mesh is hidden. False: LAM_BAD_ARGUMENT (no such index).
+LAM_API bool lam_scene_hide_object(lam_scene *scene, int index, bool hidden, lam_error *error);
+LAM_API bool lam_scene_hide_mesh(lam_scene *scene, int index, bool hidden, lam_error *error);
+
+// Remove an object, or a mesh with all objects that show it. The indices of later objects, or of later meshes, become one less, and
+// the objects name their meshes by the new indices. False, and nothing has changed: LAM_BAD_ARGUMENT (no such index), LAM_LIMIT.
+LAM_API bool lam_scene_remove_object(lam_scene *scene, int index, lam_error *error);
+LAM_API bool lam_scene_remove_mesh(lam_scene *scene, int index, lam_error *error);
 
 // Removes all lights. The scene's ambient light (lam_scene_set_ambient) stays.
 LAM_API void lam_scene_clear_lights(lam_scene *scene);

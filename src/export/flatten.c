@@ -194,7 +194,7 @@ static bool flatten(struct exporting *e, enum export_kind kind)
     for (int i = 0; i < s->objects.count; i++) {
         const lam_object *object = scene_object(s, i);
         const lam_mesh *m = scene_mesh(s, object->mesh);
-        if (kind_of(m) != kind || !mesh_items(m))
+        if (kind_of(m) != kind || !mesh_items(m) || !scene_shows(s, i))
             continue;
         origin = origin ? origin : m->origin;
         count_mesh(&size, m);
@@ -213,7 +213,7 @@ static bool flatten(struct exporting *e, enum export_kind kind)
     for (int i = 0; i < s->objects.count; i++) {
         const lam_object *object = scene_object(s, i);
         const lam_mesh *m = scene_mesh(s, object->mesh);
-        if (kind_of(m) == kind && mesh_items(m))
+        if (kind_of(m) == kind && mesh_items(m) && scene_shows(s, i))
             put_object(&f, m, object, origin);
     }
     put_missing(&f, f.corners);

@@ -16,7 +16,7 @@ struct glb_arrays {
 
 // A mesh of the file: a mesh of the scene with the materials of an object.
 struct glb_mesh {
-    int material; // the object's; −1: those of the parts
+    int material; // the object's; −1: the parts' materials
     bool double_sided;
     int before; // another one of the same mesh of the scene; −1: none
 };

@@ -189,7 +189,7 @@ bool glb_nodes(struct glb *glb)
 {
     const struct lam_scene *s = glb->e->scene;
     for (int i = 0; i < s->objects.count; i++)
-        if (!add_object(glb, scene_object(s, i)))
+        if (scene_shows(s, i) && !add_object(glb, scene_object(s, i)))
             return false;
     for (int i = 0; i < s->lights.count; i++)
         add_light(glb, (const lam_light *)s->lights.items + i);

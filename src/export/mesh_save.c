@@ -38,7 +38,7 @@ bool lam_mesh_save(const lam_mesh *mesh, const char *path, lam_up up, lam_error 
     arena_start(&arena, NULL);
     struct exporting e = {.name = path, .arena = &arena, .from = up, .to = format->up, .error = error};
     e.flat[EXPORT_TRIANGLES] = *mesh;
-    e.flat[EXPORT_TRIANGLES].colors = NULL; // materials and colours are those of scenes
+    e.flat[EXPORT_TRIANGLES].colors = NULL; // only scenes have materials and colours
     e.flat[EXPORT_TRIANGLES].parts = NULL;
     e.flat[EXPORT_TRIANGLES].second_texcoords = NULL;
     e.flat[EXPORT_TRIANGLES].tangents = NULL;

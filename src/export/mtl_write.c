@@ -92,7 +92,7 @@ static void put_options(struct exporting *e, struct text *text, const lam_textur
     if (map->wrap_s == LAM_WRAP_CLAMP && map->wrap_t == LAM_WRAP_CLAMP)
         text_add(text, " -clamp on");
     else if (map->wrap_s || map->wrap_t)
-        export_lose(e, "how pictures go on beyond their edges is left out, but for -clamp: MTL has no more");
+        export_lose(e, "how pictures repeat beyond their edges is left out, except -clamp: MTL has no more");
     if (map->magnify || map->minify || map->mip)
         export_lose(e, "filters of pictures are left out: MTL has none");
     if (maps[row].one_channel)

@@ -8,7 +8,7 @@ struct mtl_names {
     const char *file;         // of the materials; NULL: there is none
     const char *const *names; // of each material of the scene, then of the default one; NULL: it is not used
     int count;
-    // The texture coordinates are those of glTF, with t downwards: t is written as 1 − t.
+    // The texture coordinates follow glTF, with t downwards: t is written as 1 − t.
     bool flips;
 };
 

@@ -210,7 +210,7 @@ static void lose(struct exporting *e)
     if (m->texcoords)
         export_lose(e, "texture coordinates are left out: this writer of 3MF has colours alone");
     if (m->colors)
-        export_lose(e, "colours of vertices are left out: this writer of 3MF has those of materials alone");
+        export_lose(e, "colours of vertices are left out: this writer of 3MF stores only the colours of materials");
     if (e->flat[EXPORT_LINES].line_count || e->flat[EXPORT_POINTS].point_count)
         export_lose(e, "lines and points are left out: 3MF has none");
     export_lose_surroundings(e, false);

@@ -416,7 +416,7 @@ static bool build_draws(struct frame *frame, const lam_scene *scene, const struc
         uint64_t triangles = mesh_is_strokes(mesh)
                                  ? stroke_triangles(mesh, strokes->point_corners) * (uint64_t)mesh_items(mesh)
                                  : mesh->triangle_count;
-        if (!triangles || (frame->settings.no_surfaces && !mesh_is_strokes(mesh)))
+        if (!triangles || !scene_shows(scene, i) || (frame->settings.no_surfaces && !mesh_is_strokes(mesh)))
             continue;
         if (next + triangles > TRIANGLES_MAX)
             return fail(error, LAM_LIMIT, "the scene has more than %u triangles", TRIANGLES_MAX);

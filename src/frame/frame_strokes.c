@@ -41,7 +41,8 @@ void frame_strokes_size(struct stroke_view *view, const struct lam_scene *scene,
 {
     double points = 0, side = frame->width < frame->height ? frame->width : frame->height;
     for (int i = 0; i < scene->objects.count; i++)
-        points += scene_mesh(scene, scene_object(scene, i)->mesh)->point_count;
+        if (scene_shows(scene, i))
+            points += scene_mesh(scene, scene_object(scene, i)->mesh)->point_count;
     double least = points < FEW ? FEW_LEAST : POINT_LEAST, most = FEW_MOST * side;
     double size = POINT_SHARE * side / math_sqrt(points > 1 ? points : 1);
     size = size > most ? most : size;
@@ -83,7 +84,7 @@ bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, c
     size_t bytes = 0;
     for (int i = 0; i < scene->objects.count; i++) {
         const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
-        bytes += mesh_is_strokes(mesh) ? divide(mesh, view->point_corners, NULL, &unused) : 0;
+        bytes += mesh_is_strokes(mesh) && scene_shows(scene, i) ? divide(mesh, view->point_corners, NULL, &unused) : 0;
     }
     frame->stroke_mesh_count = 0;
     frame->strokes_used = 0;
@@ -103,7 +104,10 @@ void frame_strokes_near(const struct lam_scene *scene, const lam_camera *camera,
     double half = view->orthographic ? camera->ortho_half_height : math_tan(camera->fovy_rad / 2), width = 0;
     for (int i = 0; i < scene->objects.count; i++) {
         const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
-        double own = mesh->line_count ? view->line_width : mesh->point_count ? view->point_size : 0;
+        double own = !scene_shows(scene, i) ? 0
+                     : mesh->line_count     ? view->line_width
+                     : mesh->point_count    ? view->point_size
+                                            : 0;
         width = own > width ? own : width;
     }
     double nearer = nearer_by(view, width, 2 * half / height);

@@ -152,8 +152,8 @@ static bool move_origin(struct lam_scene *scene, lam_mesh *mesh, struct aabb_tre
     return true;
 }
 
-static bool measure(struct lam_scene *scene, lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
-                    lam_error *error)
+bool scene_measure_mesh(struct lam_scene *scene, lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
+                        lam_error *error)
 {
     *extent = (struct scene_extent){.translucent = has_translucent_colors(mesh, pool)};
     if (!find_used(scene, mesh, extent, pool, error))
@@ -176,7 +176,7 @@ bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error)
 {
     for (int i = scene->extents.count; i < scene->meshes.count; i++) {
         struct scene_extent extent;
-        if (!measure(scene, (lam_mesh *)scene->meshes.items + i, &extent, pool, error) ||
+        if (!scene_measure_mesh(scene, (lam_mesh *)scene->meshes.items + i, &extent, pool, error) ||
             scene_append(scene, &scene->extents, &extent, sizeof extent, error) < 0)
             return false;
     }
@@ -210,7 +210,7 @@ bool lam_scene_bounds(const lam_scene *scene, lam_vec3 *minimum, lam_vec3 *maxim
         const lam_object *object = scene_object(scene, i);
         const lam_mesh *mesh = scene_mesh(scene, object->mesh);
         const struct scene_extent *extent = scene_extent(scene, object->mesh);
-        if (!extent->used_count)
+        if (!extent->used_count || !scene_shows(scene, i))
             continue;
         any = true;
         if (keeps_boxes(&object->transform)) {

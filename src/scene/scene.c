@@ -9,6 +9,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+struct scene_token *scene_token_make(lam_error *error)
+{
+    struct scene_token *token = malloc(sizeof *token);
+    if (!token)
+        fail_memory(error, sizeof *token);
+    else
+        *token = (struct scene_token){.references = 1};
+    return token;
+}
+
 struct lam_scene *scene_make(struct call_control *call, lam_error *error)
 {
     struct lam_scene *scene = calloc(1, sizeof *scene);
@@ -16,9 +26,8 @@ struct lam_scene *scene_make(struct call_control *call, lam_error *error)
         fail_memory(error, sizeof *scene);
         return NULL;
     }
-    scene->token = malloc(sizeof *scene->token);
+    scene->token = scene_token_make(error);
     if (!scene->token) {
-        fail_memory(error, sizeof *scene->token);
         free(scene);
         return NULL;
     }
@@ -29,7 +38,6 @@ struct lam_scene *scene_make(struct call_control *call, lam_error *error)
         free(scene);
         return NULL;
     }
-    *scene->token = (struct scene_token){.references = 1};
     arena_start(&scene->arena, call);
     scene->up = LAM_UP_Y;
     scene->placement = lam_mat4_identity();
@@ -48,6 +56,10 @@ void lam_scene_free(lam_scene *scene)
         return;
     for (int i = 0; i < scene->textures.count; i++)
         lam_texture_free(((lam_texture **)scene->textures.items)[i]);
+    for (int i = 0; i < scene->extents.count; i++)
+        arena_delete(scene_extent(scene, i)->own);
+    for (int i = 0; i < scene->kept.count; i++)
+        arena_delete(((struct arena **)scene->kept.items)[i]);
     arena_free(&scene->arena);
     lam_environment_free(scene->environment);
     lazy_environment_free(scene->studio);
@@ -305,6 +317,10 @@ const lam_file_info *lam_scene_file_info(const lam_scene *scene) { return scene 
 uint64_t lam_scene_memory(const lam_scene *scene)
 {
     uint64_t bytes = scene ? scene->arena.total : 0;
+    for (int i = 0; scene && i < scene->extents.count; i++)
+        bytes += scene_extent(scene, i)->own ? scene_extent(scene, i)->own->total : 0;
+    for (int i = 0; scene && i < scene->kept.count; i++)
+        bytes += ((struct arena *const *)scene->kept.items)[i]->total;
     for (int i = 0; scene && i < scene->textures.count; i++)
         bytes += lam_texture_memory(((lam_texture *const *)scene->textures.items)[i]);
     return bytes;

@@ -170,6 +170,17 @@ static bool copy_mesh(struct lam_scene *scene, lam_mesh *mesh)
     return ok;
 }
 
+bool scene_copy_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_mesh *copy, lam_error *error)
+{
+    *copy = *mesh;
+    if (!check_mesh(scene, mesh, error))
+        return false;
+    if (!copy_mesh(scene, copy))
+        return call_memory_error(scene->arena.call, 0, error);
+    return copy->normals || mesh_is_strokes(copy) ||
+           normals_smooth(copy, math_radians(40), &scene->arena, NULL, NULL, error);
+}
+
 int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error)
 {
     if (!scene || !mesh) {
@@ -177,13 +188,8 @@ int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error)
         return -1;
     }
     uint64_t state = float_state_enter();
-    lam_mesh copy = *mesh;
-    bool ok = check_mesh(scene, mesh, error);
-    if (ok && !copy_mesh(scene, &copy))
-        ok = call_memory_error(scene->arena.call, 0, error);
-    if (ok && !copy.normals && !mesh_is_strokes(&copy))
-        ok = normals_smooth(&copy, math_radians(40), &scene->arena, NULL, NULL, error);
-    int index = ok ? scene_adopt_mesh(scene, &copy, error) : -1;
+    lam_mesh copy;
+    int index = scene_copy_mesh(scene, mesh, &copy, error) ? scene_adopt_mesh(scene, &copy, error) : -1;
     if (index >= 0 && !scene_measure(scene, NULL, error)) {
         scene->meshes.count--;
         index = -1;

@@ -24,6 +24,7 @@ struct scene_extent {
     uint32_t used_count;
     struct aabb_tree boxes; // of the used vertices
     bool translucent;       // some colour has an alpha below 1
+    struct arena *own;      // of the mesh's arrays and this extent's; NULL: they are in the scene's arena
 };
 
 // The source of meshes, for writing a scene file: a model file, a built-in shape or a formula, and the parameters it was
@@ -47,6 +48,7 @@ struct scene_origin {
     int object_count;
     const int *part_materials; // of all parts of the meshes, in order
     int part_count;
+    bool edited; // a mesh was replaced or removed, or one of several objects removed: a scene file cannot name the rest
 };
 
 // Identifies a scene in the caches of devices. A token is unique, unlike the scene's address, which a later scene may
@@ -72,6 +74,7 @@ struct lam_scene {
     struct scene_list lights;    // lam_light
     struct scene_list cameras;   // struct scene_camera
     struct scene_list textures;  // lam_texture *: one reference each
+    struct scene_list kept;      // struct arena *: of meshes that the mark may bring back
     struct scene_list warnings;  // const char *
     struct scene_list files;     // const char *: paths
     struct scene_list origins;   // struct scene_origin, in the order of their meshes
@@ -106,6 +109,7 @@ void scene_built(struct lam_scene *scene);
 // without one the built-in studio, in place of a rig.
 bool scene_lit_by_environment(const struct lam_scene *scene);
 
+struct scene_token *scene_token_make(lam_error *error); // NULL: out of memory
 struct scene_token *scene_token_hold(struct scene_token *token);
 void scene_token_release(struct scene_token *token); // `token` may be NULL
 
@@ -156,6 +160,14 @@ bool scene_give_colors_white(struct lam_scene *scene, lam_error *error);
 // no tangents, for the texture coordinates of the normal map. Charged to `call`.
 bool scene_make_tangents(struct lam_scene *scene, bool all, struct call_control *call, lam_error *error);
 
+// Checks a mesh, copies it to the scene's arena and makes the normals that it lacks. False: LAM_BAD_ARGUMENT, LAM_LIMIT.
+bool scene_copy_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_mesh *copy, lam_error *error);
+// The extent of one mesh; may give the mesh an origin.
+bool scene_measure_mesh(struct lam_scene *scene, lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
+                        lam_error *error);
+// From now on the scene frees the memory of meshes only with itself: a mark may bring them back. False: out of memory.
+bool scene_keep_meshes(struct lam_scene *scene, lam_error *error);
+
 // Computes the extents of new meshes, and gives distant meshes an origin (origin.h), which changes their positions in
 // place. Every public function that adds meshes ends with it, so that read access never writes. Returns false if memory
 // runs out.
@@ -190,6 +202,11 @@ static inline const struct scene_extent *scene_extent(const struct lam_scene *sc
 static inline const lam_object *scene_object(const struct lam_scene *scene, int i)
 {
     return (const lam_object *)scene->objects.items + i;
+}
+// Whether an object is drawn: neither it nor its mesh is hidden.
+static inline bool scene_shows(const struct lam_scene *scene, int i)
+{
+    return !scene_object(scene, i)->hidden && !scene_mesh(scene, scene_object(scene, i)->mesh)->hidden;
 }
 
 #endif

@@ -46,6 +46,8 @@ bool lam_scene_mark(lam_scene *scene, lam_error *error)
 {
     if (!scene)
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_mark: the scene is NULL");
+    if (!scene_keep_meshes(scene, error))
+        return false;
     struct scene_mark *mark = arena_alloc(&scene->arena, sizeof *mark);
     if (!mark)
         return call_memory_error(scene->arena.call, sizeof *mark, error);

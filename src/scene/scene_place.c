@@ -26,7 +26,8 @@ double scene_radius(const struct lam_scene *scene, lam_vec3 centre)
 {
     double radius = 0;
     for (int i = 0; i < scene->objects.count; i++)
-        extend_radius(scene, scene_object(scene, i)->mesh, &scene_object(scene, i)->transform, centre, &radius);
+        if (scene_shows(scene, i))
+            extend_radius(scene, scene_object(scene, i)->mesh, &scene_object(scene, i)->transform, centre, &radius);
     return radius;
 }
 

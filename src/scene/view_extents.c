@@ -184,7 +184,8 @@ static void search(const struct view_points *points, struct view_extents *extent
     // The extents found with one pair of axes exclude most vertices for the next.
     for (int a = 0; a < points->axes_count && !(points->ball_radius > 0); a++)
         for (int i = 0; i < points->scene->objects.count; i++)
-            search_object(points->scene, scene_object(points->scene, i), &points->axes[a], extents, first, end);
+            if (scene_shows(points->scene, i))
+                search_object(points->scene, scene_object(points->scene, i), &points->axes[a], extents, first, end);
 }
 
 bool view_extents_centre(const lam_scene *scene, lam_vec3 *centre)
@@ -193,7 +194,7 @@ bool view_extents_centre(const lam_scene *scene, lam_vec3 *centre)
     for (int i = 0; i < lam_scene_object_count(scene); i++) {
         const lam_object *object = scene_object(scene, i);
         const struct scene_extent *extent = scene_extent(scene, object->mesh);
-        if (!extent->used_count)
+        if (!extent->used_count || !scene_shows(scene, i))
             continue;
         lam_vec3 half = v3_scale(v3_sub(extent->maximum, extent->minimum), 0.5);
         *centre = mat4_point(&object->transform, v3_add(extent->minimum, half));

@@ -406,6 +406,15 @@ static bool put_object(struct scene_writer *w, json_t *list, const lam_object *o
     return put_changes(w, entry, origin);
 }
 
+// The number of objects among the `count` from `first` on that are hidden.
+static int hidden_from(const struct lam_scene *scene, int first, int count)
+{
+    int hidden = 0;
+    for (int i = first; i < first + count && i < scene->objects.count; i++)
+        hidden += !scene_shows(scene, i);
+    return hidden;
+}
+
 static bool put_objects(struct scene_writer *w, json_t *root)
 {
     json_t *list = json_array();
@@ -421,6 +430,17 @@ static bool put_objects(struct scene_writer *w, json_t *root)
                         w->path, i, shown_name(object->name ? object->name : "", shown));
         const lam_object plain = lam_object_default();
         bool several = origin->object_count > 1; // one entry describes all objects of a file
+        int hidden = hidden_from(w->scene, i, several ? origin->object_count : 1);
+        if (hidden == (several ? origin->object_count : 1)) {
+            i += hidden - 1;
+            continue;
+        }
+        if (hidden || origin->edited)
+            return fail(
+                w->error, LAM_UNSUPPORTED,
+                "%s: object %d ('%s') is of a model of which a mesh was replaced or removed, or an object removed or "
+                "hidden, so a scene file cannot name it",
+                w->path, i, shown_name(object->name ? object->name : "", shown));
         struct change change =
             several ? (struct change){0} : change_of(w, object, origin->object_count ? origin->objects : &plain);
         if (several && !common_change(w, origin, i, &change))

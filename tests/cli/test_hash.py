@@ -80,6 +80,19 @@ class Hash(Case):
         self.assertEqual(done.returncode, 6)
         self.assertIn(b"'--size 64', and these are '--size 64 --background white'", done.stderr)
 
+    def test_options_of_the_file(self):
+        """Without options of the picture --check takes those of the file, and none that do anything else."""
+        self.good("hash", "m", "teapot", "-o", "p.hash", "-s", 64, "-b", "#fff", "--light", "point:position=1/2/3", "-q")
+        self.given.add("p.hash")
+        text = (self.folder / "p.hash").read_text()
+        self.assertIn("--background '#fff'", text)
+        self.assertEqual(self.check("--check", "p.hash", code=0), ["3 equal"])
+        head = text.splitlines()[2]
+        for line, says in (("options -o evil.png", "expected options that change the picture"), ("options --nope 3", "unknown option '--nope'"),
+                           ("options --size 64 '", "expected options that change the picture"), ("options --json", "expected options that change the picture")):
+            (self.folder / "p.hash").write_text(text.replace(head, line))
+            self.bad(2, "hash", "--check", "p.hash", says=says)
+
     def test_update(self):
         self.write("--pictures", "kept")
         self.assertEqual(xxh64(read_png((self.folder / "kept/m/a.stl.png").read_bytes())[2]), self.lines()[3].split()[0])

@@ -128,7 +128,7 @@ static void names_pick_formats(void **state)
     expect_error(lam_image_format_for("a.gif", &format, &error), &error, LAM_UNSUPPORTED,
                  ".png, .ppm, .pfm, .exr, .jpg");
     expect_error(lam_image_format_for("a.pngg", &format, &error), &error, LAM_UNSUPPORTED, "use .png");
-    expect_error(lam_image_format_for("dir.png/a", &format, &error), &error, LAM_UNSUPPORTED, "no ending");
+    expect_error(lam_image_format_for("dir.png/a", &format, &error), &error, LAM_UNSUPPORTED, "no extension");
     expect_error(lam_image_format_for(NULL, &format, &error), &error, LAM_BAD_ARGUMENT, "path");
 }
 

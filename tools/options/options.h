@@ -41,7 +41,7 @@ struct options {
     const char *values[OPTIONS_MAX]; // its last value there; NULL: it takes none
 };
 
-// Options that a command accepts without the rest of their group: bits above those of the groups.
+// Options that a command accepts without the rest of their group: bits above the groups' bits.
 #define TAKES_OUTPUT         (1ull << 40)
 #define TAKES_JSON           (1ull << 41)
 #define TAKES_QUIET          (1ull << 42)

@@ -41,6 +41,21 @@ void arena_start_large(struct arena *arena, struct call_control *call)
     *arena = (struct arena){.call = call, .large = true};
 }
 
+struct arena *arena_new(struct call_control *call)
+{
+    struct arena *arena = malloc(sizeof *arena);
+    if (arena)
+        arena_start(arena, call);
+    return arena;
+}
+
+void arena_delete(struct arena *arena)
+{
+    if (arena)
+        arena_free(arena);
+    free(arena);
+}
+
 void arena_free(struct arena *arena)
 {
     struct arena_block *block = arena->blocks;

@@ -22,6 +22,9 @@ struct arena {
 void arena_start(struct arena *arena, struct call_control *call);
 void arena_start_large(struct arena *arena, struct call_control *call); // Starts with a block of the largest size.
 void arena_free(struct arena *arena); // frees everything; the arena is empty and usable again
+// An arena on the heap (NULL: out of memory), and its end with everything in it (NULL is fine).
+struct arena *arena_new(struct call_control *call);
+void arena_delete(struct arena *arena);
 
 // Aligned to 64 bytes for 64 bytes and more, else to 16. NULL when memory or the call's budget is exhausted
 // (call_memory_error reports which). Size 0 gives a valid pointer.

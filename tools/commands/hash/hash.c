@@ -55,7 +55,7 @@ static bool add_models(struct hash_run *run, int count, char **operands, lam_err
         ok = batch_add_operand(&run->plan, operands[i], error);
     for (int i = 0; ok && i < run->options->batch.lists.count; i++)
         ok = batch_add_list(&run->plan, run->options->batch.lists.items[i], error);
-    bool all = !count && !run->options->batch.lists.count; // those of the file
+    bool all = !count && !run->options->batch.lists.count; // the file's models
     for (size_t i = 0; ok && all && i < run->then.count; i++) {
         char *model = hash_file_model(run->path, run->then.entries[i].name);
         ok = model ? batch_plan_add(&run->plan, model, NULL, error) : complain(error, LAM_LIMIT, "out of memory");
@@ -313,7 +313,7 @@ static bool prepare(struct hash_run *run, int count, char **operands, lam_error 
     const struct options *o = run->options;
     run->checks = o->hash.check != NULL;
     run->path = run->checks ? o->hash.check : o->picture.output;
-    if (run->checks && (!hash_file_read(&run->then, run->path, error) || !say_head(run, error)))
+    if (run->checks && !say_head(run, error))
         return false;
     if ((!run->checks || o->hash.update) && strcmp(run->path, "-") != 0 &&
         !output_check(run->path, "", OUTPUT_NAMED, error))
@@ -323,19 +323,34 @@ static bool prepare(struct hash_run *run, int count, char **operands, lam_error 
     return add_models(run, count, operands, error) && name_models(run, error);
 }
 
-int run_hash(int operand_count, char **operands, const struct options *options)
+// Draws and compares with the options of the command line and of the file.
+static int run_with(struct hash_run *run, int operand_count, char **operands)
 {
     lam_error error = {0};
     // The loop prints no report of its own, and pictures have no files.
-    struct options drawn = *options;
+    struct options drawn = *run->options;
     drawn.report.json = false;
     drawn.report.verbose = false;
     drawn.picture.output = NULL;
+    struct batch_use use = {draw, reach, right_of, finish, run};
+    bool ok = check(operand_count, run->options, &error) && batch_plan_start(&run->plan, &drawn, &error) &&
+              prepare(run, operand_count, operands, &error);
+    return ok ? batch_use_run(&run->plan, &use) : report_failure(&error, run->options);
+}
+
+int run_hash(int operand_count, char **operands, const struct options *options)
+{
+    lam_error error = {0};
     struct hash_run run = {.options = options};
-    struct batch_use use = {draw, reach, right_of, finish, &run};
-    bool ok = check(operand_count, options, &error) && batch_plan_start(&run.plan, &drawn, &error) &&
-              prepare(&run, operand_count, operands, &error);
-    int code = ok ? batch_use_run(&run.plan, &use) : report_failure(&error, options);
+    struct options own = {0};
+    char *kept = NULL;
+    bool ok = check(operand_count, options, &error);
+    if (ok && options->hash.check) {
+        ok = hash_file_read(&run.then, options->hash.check, &error) &&
+             hash_options_take(&run.then, options->hash.check, options, &own, &kept, &error);
+        run.options = &own;
+    }
+    int code = ok ? run_with(&run, operand_count, operands) : report_failure(&error, options);
     for (size_t i = 0; run.names && i < run.plan.count; i++)
         free(run.names[i]);
     free(run.names);
@@ -344,5 +359,8 @@ int run_hash(int operand_count, char **operands, const struct options *options)
     hash_file_free(&run.then);
     hash_file_free(&run.now);
     batch_plan_free(&run.plan);
+    if (run.options == &own)
+        options_free(&own);
+    free(kept);
     return code;
 }

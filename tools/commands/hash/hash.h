@@ -21,6 +21,11 @@ struct hash_run {
     atomic_int *rows;       // --update: pictures that were kept for it
 };
 
+// Copies the options of the command line to `own`, with the file's options if the command line has none that change the picture.
+// *kept: the text that `own` refers to, from malloc; the caller frees both, also after a failure. Errors: LAM_CANNOT_READ, LAM_LIMIT.
+bool hash_options_take(const struct hash_file *file, const char *path, const struct options *given, struct options *own,
+                       char **kept, lam_error *error);
+
 // hash_sheet.c
 
 // Returns the path of the sheet beside a file of hashes, from malloc: "pictures-changes.png". Returns NULL if memory

@@ -5,7 +5,7 @@
 //     options --size 256
 //     xxh64:0123456789abcdef  models/koala.obj
 //
-// A name is relative to the file's folder; in it "\\" stands for a backslash, "\n" for a line end and "\r" for a carriage return.
+// A name is relative to the file's folder; in it "\\" means a backslash, "\n" for a line end and "\r" for a carriage return.
 #ifndef HASH_FILE_H
 #define HASH_FILE_H
 

@@ -1,5 +1,5 @@
-// remedy.h: advice in messages about a missing library: how to install it, or, on a web page, which program reads the
-// file.
+// remedy.h: advice in messages about a missing library: on a machine, how to install it; in a page, where nothing can
+// be installed, which program reads the file.
 #ifndef REMEDY_H
 #define REMEDY_H
 

@@ -39,7 +39,7 @@ char *hash_file_text(const struct hash_file *file);
 // either is reached by a link. The name of a built-in shape stays. Returns NULL if memory runs out.
 char *hash_file_name(const char *path, const char *model);
 
-// Returns the model that a name of the file `path` stands for, from malloc. Returns NULL if memory runs out.
+// Returns the model that a name in the file `path` means, from malloc. Returns NULL if memory runs out.
 char *hash_file_model(const char *path, const char *name);
 
 #endif

@@ -8,9 +8,9 @@
 extern "C" {
 #endif
 
-// Formats of 8 bits store sRGB-encoded numbers (or raw ones), the floats linear ones. RGBA8 and BGRA8 are not
-// premultiplied by alpha, RGBA32F is. Formats without alpha are opaque: a frame is drawn into them over its background,
-// and that over black. Converted to another format of 8 bits, they have alpha 255.
+// 8-bit formats store sRGB-encoded (or raw) numbers, float formats store linear numbers. RGBA8 and BGRA8 are not
+// premultiplied by alpha, RGBA32F is premultiplied. Formats without alpha are opaque: a frame is drawn over its
+// background, and the background over black. Converted to another 8-bit format, they get alpha 255.
 typedef enum lam_pixel_format {
     LAM_RGBA8 = 0,   // 4 bytes a pixel
     LAM_RGBA32F = 1, // 4 floats a pixel
@@ -23,13 +23,13 @@ typedef enum lam_pixel_format {
 } lam_pixel_format;
 
 // A picture. Row 0 is the top one: pixel (x, y) starts at (char *)pixels + y·stride + x·bytes, with the bytes a pixel of
-// its format. Every function of this library that takes a picture takes all formats and strides unless it says
-// otherwise. The pixels are the library's (lam_image_make, lam_image_load: `owned` is set) or the caller's:
+// its format. Every function of this library that accepts a picture accepts all formats and strides unless its comment
+// says otherwise. The library owns the pixels (lam_image_make, lam_image_load: `owned` is set), or the caller does:
 //     lam_image window = {.width = 800, .height = 600, .format = LAM_BGRA8, .pixels = memory, .stride = pitch};
 typedef struct lam_image {
     int width, height;       // pixels, 1..65535
     lam_pixel_format format; // decides the bytes a pixel
-    // true: lam_image_free frees `pixels`. false: they are the caller's, and stay as they are.
+    // true: lam_image_free frees `pixels`. false: the caller owns them, and they are not freed.
     bool owned;
     void *pixels; // formats of floats: aligned to 4 bytes
     // Bytes from a row to the next lower one. 0: rows without padding; negative: bottom row first.
@@ -44,16 +44,16 @@ LAM_API bool lam_image_make(lam_image *image, int width, int height, lam_pixel_f
 // Frees the pixels if the picture owns them, and zeroes the struct. NULL and a zeroed struct are fine.
 LAM_API void lam_image_free(lam_image *image);
 
-// The effort spent on a small PNG file. The picture is the same.
+// The compression of PNG files. The pixels are identical.
 typedef enum lam_compress {
     // The default: some milliseconds for a million pixels. The bytes depend on the picture alone.
     LAM_COMPRESS_FAST,
-    // About a third smaller, some hundred times slower, by libdeflate, which is loaded on demand (LAM_UNSUPPORTED if it
-    // is not installed). The bytes depend on its version.
+    // About a third smaller and about a hundred times slower, by libdeflate, which is loaded on demand (LAM_UNSUPPORTED
+    // if it is not installed). The bytes depend on its version.
     LAM_COMPRESS_BEST,
 } lam_compress;
 
-// How a picture is written. All zero: the defaults.
+// Parameters of writing a picture. All zero: the defaults.
 typedef struct lam_save_params {
     // Cancel flag and time limit, checked while encoding. NULL: none.
     const lam_control *control;
@@ -65,11 +65,11 @@ typedef struct lam_save_params {
     // conversion.
     bool raw;
     lam_compress compress; // of PNG; ignored for other formats
-    // 1 to 100: how close a lossy picture is to its original; ignored for other formats. JPEG: 0 is 90, and below 90 colours
-    // have half the resolution (4:2:0). WebP: 0 and 100 are lossless.
+    // The quality of a lossy picture, 1 to 100; ignored for other formats. JPEG: 0 is 90, and below 90 colours have
+    // half the resolution (4:2:0). WebP: 0 and 100 are lossless.
     int64_t quality;
-    // lam_image_save returns when the file and its name are on the disk (fsync of both), so that a loss of power leaves the
-    // old file or the new one. false: the system writes them when it likes, within seconds.
+    // lam_image_save returns after the file and its name are on disk (fsync of both), so that a power failure leaves
+    // either the old file or the new one. false: the system writes them later, within seconds.
     bool durable;
     LAM_RESERVED(6);
 } lam_save_params;
@@ -83,9 +83,9 @@ typedef struct lam_bytes {
 // Frees the block and zeroes the struct. NULL and a zeroed struct are fine.
 LAM_API void lam_bytes_free(lam_bytes *bytes);
 
-// Writes a file whole or not at all, as lam_image_save does. Errors: LAM_BAD_ARGUMENT, LAM_CANNOT_WRITE.
+// Writes a file completely or not at all, like lam_image_save. Errors: LAM_BAD_ARGUMENT, LAM_CANNOT_WRITE.
 LAM_API bool lam_bytes_save(const lam_bytes *bytes, const char *path, lam_error *error);
-// The same, and it is on the disk when the call returns, as with lam_save_params.durable.
+// Writes a file that is on disk when the call returns, as with lam_save_params.durable.
 LAM_API bool lam_bytes_save_durably(const lam_bytes *bytes, const char *path, lam_error *error);
 
 // Encodes a picture. `format` is "png", "ppm", "jpg" ("jpeg") or "webp" (from formats of 8 bits), "pfm" (from floats;
@@ -97,9 +97,9 @@ LAM_API bool lam_bytes_save_durably(const lam_bytes *bytes, const char *path, la
 LAM_API bool lam_image_encode(const lam_image *image, const char *format, const lam_save_params *params, lam_bytes *out,
                               lam_error *error);
 
-// Encodes and writes to `path`, whose ending names the format. The file appears whole or not at all, and nothing
-// else is left in its folder, even if a signal ends the process while it is written (SIGKILL too, where the file system has
-// files without a name: O_TMPFILE). Errors as above, LAM_CANNOT_WRITE.
+// Encodes and writes to `path`, whose extension selects the format. The file appears completely or not at all, and no
+// other file remains in its folder, even if a signal ends the process meanwhile (including SIGKILL, if the file system
+// supports O_TMPFILE). Errors as above, LAM_CANNOT_WRITE.
 LAM_API bool lam_image_save(const lam_image *image, const char *path, const lam_save_params *params, lam_error *error);
 
 // A layer of an EXR picture.
@@ -113,7 +113,7 @@ typedef struct lam_layer {
     LAM_RESERVED(4);
 } lam_layer;
 
-// Encodes, and writes to `path` as lam_image_save does, one EXR picture with all layers: 32-bit floats, ZIP. The same
+// Encodes one EXR picture with all layers (32-bit floats, ZIP), and writes it to `path` like lam_image_save. The same
 // layers give the same bytes with the same OpenEXR library. Errors: LAM_BAD_ARGUMENT (sizes, formats, channels of the
 // same name), LAM_UNSUPPORTED (OpenEXR is not in this build, or not installed), LAM_LIMIT, LAM_CANNOT_WRITE.
 LAM_API bool lam_image_encode_layers(const lam_layer *layers, int count, lam_bytes *out, lam_error *error);
@@ -132,10 +132,10 @@ LAM_API const char *lam_image_format_written(int format);
 
 // Reads a picture: PNG, JPEG (CMYK without its profile), WebP (LAM_UNSUPPORTED without libwebp), BMP, TGA and binary
 // PPM into LAM_RGBA8 (16 bits are cut to 8, grey and palettes become RGB), PFM, EXR (scanlines; the first part) and
-// Radiance (.hdr) into LAM_RGBA32F, with alpha 1 where the file has none. Content decides the format; of a TGA with a
-// wrong header the ending of its name. `path` is a regular file, or "-": standard input. The call ignores the previous
-// contents of `image` and does not free them; on failure it is zeroed. `control` may be NULL; its memory limit counts
-// the file and the pixels. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535, more than 400
+// Radiance (.hdr) into LAM_RGBA32F, with alpha 1 where the file has none. The content determines the format; for a TGA
+// with an invalid header, the extension does. `path` is a regular file, or "-": standard input. The call ignores the
+// previous contents of `image` and does not free them; on failure it is zeroed. `control` may be NULL; its memory limit
+// counts the file and the pixels. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535, more than 400
 // million pixels, memory, time), LAM_CANCELLED.
 LAM_API bool lam_image_load(lam_image *image, const char *path, const lam_control *control, lam_error *error);
 
@@ -145,15 +145,15 @@ LAM_API bool lam_image_load(lam_image *image, const char *path, const lam_contro
 LAM_API bool lam_image_load_linear(lam_image *image, const char *path, lam_color_mode color, const lam_control *control,
                                    lam_error *error);
 
-// Returns whether the file at `path` says that Lambent wrote it: PNG by its text "Software: lambent", PPM by the
-// comment "# lambent" in its second line, JPEG by the comment "lambent". False for PFM and WebP, which have no room for
-// a remark, and for a file that does not exist, is not regular or is not readable. Reads the beginning of the file
-// only.
+// Returns whether the file at `path` states that Lambent wrote it: PNG by its text "Software: lambent", PPM by the
+// comment "# lambent" in its second line, JPEG by the comment "lambent". Returns false for PFM and WebP, which cannot
+// store such a remark, and for a file that does not exist, is not regular or is not readable. Reads the beginning of
+// the file only.
 LAM_API bool lam_image_is_from_lambent(const char *path);
 
 // The difference of two pictures of the same size and format, over red, green, blue and alpha (1 in formats without it);
-// a channel's unit is 1 = full range (255 steps of a byte). A number and NaN, and a number and another infinity, differ
-// infinitely.
+// a channel's unit is 1 = full range (255 steps of a byte). The difference of a number and NaN, or of a number and an
+// infinity, is infinite.
 typedef struct lam_difference {
     // Largest, mean and root mean square difference of a channel.
     double maximum, mean, rmse;
@@ -167,11 +167,11 @@ typedef struct lam_difference {
 // Measures the difference of two pictures. Fails with LAM_BAD_ARGUMENT (sizes or formats differ).
 LAM_API bool lam_image_compare(const lam_image *a, const lam_image *b, lam_difference *difference, lam_error *error);
 
-// A picture of the differences of two pictures of the same size and format, LAM_RGBA8 or LAM_RGBA32F: each colour
-// channel is `gain` times the larger of the channel's own difference and alpha's, and alpha is 1. Black is equal. Bytes
-// end at 255; floats continue, and are infinite if lam_image_compare finds an infinite difference. `gain` ≥ 0 and
-// finite. The call makes `difference` (without freeing its old contents), the caller frees it. Saved as PNG its numbers
-// are raw (lam_save_params). LAM_BAD_ARGUMENT, LAM_LIMIT.
+// Draws the differences of two pictures of the same size and format, LAM_RGBA8 or LAM_RGBA32F: each colour channel is
+// `gain` times the larger of the channel's own difference and alpha's, and alpha is 1. Black means equal. Bytes are
+// clamped at 255; floats are not clamped, and are infinite if lam_image_compare finds an infinite difference. `gain` ≥
+// 0 and finite. The call makes `difference` (without freeing its old contents), the caller frees it. Saved as PNG its
+// numbers are raw (lam_save_params). LAM_BAD_ARGUMENT, LAM_LIMIT.
 LAM_API bool lam_image_difference(const lam_image *a, const lam_image *b, float gain, lam_image *difference,
                                   lam_error *error);
 

@@ -1,4 +1,4 @@
-// lambent/light.h: light sources, and ready-made sets of them.
+// lambent/light.h: light sources and rigs (predefined sets of lights).
 //
 // docs/lighting.md has the equations. ⊙ multiplies channel by channel.
 #ifndef LAMBENT_LIGHT_H
@@ -21,7 +21,7 @@ typedef enum lam_light_type {
     LAM_LIGHT_TYPE_COUNT
 } lam_light_type;
 
-// A kind of light in words. lam_light_field has its fields.
+// The name of a light type. lam_light_field lists its fields.
 typedef struct lam_light_type_info {
     const char *word;    // in options, scene files and reports: "point"
     const char *summary; // one line
@@ -37,7 +37,7 @@ typedef enum lam_light_frame {
     // Eye space: x to the right, y up, the camera looks along −z. The light moves with the camera.
     LAM_FRAME_CAMERA,
     LAM_FRAME_OBJECT, // the space of a named object, which the light moves with
-    // The space of the whole scene as it was made. The light moves with lam_scene_transform.
+    // The space of the whole scene as created. The light moves with lam_scene_transform.
     LAM_FRAME_MODEL,
     // The camera's axes, as in eye space, with the origin at the centre of the scene's box: the light keeps its side of
     // the picture and its distance from the scene for every camera.
@@ -52,9 +52,9 @@ typedef struct lam_attenuation {
     float constant, linear, quadratic;
 } lam_attenuation;
 
-// A light. lam_light_default() gives a white one of each type. Fields that the type does not use are ignored.
+// A light. lam_light_default() returns a white light of each type. Fields that the type does not use are ignored.
 typedef struct lam_light {
-    lam_light_type type;   // the kind of light; decides which fields count
+    lam_light_type type;   // the type; determines the fields in use
     lam_light_frame frame; // the space of `position`, `direction` and `up`
     const char *object;    // LAM_FRAME_OBJECT: the object's name; NULL: the first
     const char *name;      // UTF-8; NULL: unnamed
@@ -86,9 +86,9 @@ typedef struct lam_light {
 
     // With lam_draw_params.shadows. Point, directional, spot: the light passes through everything.
     bool no_shadows;
-    // Point, spot: of the ball that gives the light, in world units, which makes soft edges. 0: a point.
+    // Point, spot: the radius of the ball that emits the light, in world units, which softens shadows. 0: a point.
     float radius;
-    // Directional: the angular radius of the disc that gives the light (the sun's is 0.27 degrees). 0: a point.
+    // Directional: the angular radius of the disc that emits the light (0.27 degrees for the sun). 0: a point.
     float angular_radius_rad;
     // Point, directional, spot: the share of this light that ambient occlusion dims (lam_draw_params.occlusion), 0..1. 1
     // suits large, soft lights. Ambient and hemisphere light is always dimmed.
@@ -105,8 +105,8 @@ LAM_API bool lam_light_check(const lam_light *light, lam_error *error);
 
 // Ready-made sets of lights.
 typedef enum lam_rig {
-    // The scene's own lights. Without own lights: the studio; or if its materials are physical, only its environment;
-    // or without one, the built-in environment "studio".
+    // The scene's own lights. If there are none: the studio; for physical materials, only the scene's environment, or
+    // the built-in environment "studio".
     LAM_RIG_AUTO = 0,
     LAM_RIG_NONE, // the scene's own lights only, even if it has none
     // The default look: a near key light, a fill and a rim light that turn with the camera, and a hemisphere light. Ambient
@@ -121,7 +121,7 @@ typedef enum lam_rig {
     LAM_RIG_LECTURE,
 } lam_rig;
 
-// The most lights that a rig has.
+// The largest number of lights in a rig.
 enum { LAM_RIG_LIGHTS_MAX = 8 };
 
 // Writes the lights of a rig and returns their number, 0 for AUTO and NONE. Positions and attenuation are for a scene whose

@@ -1,4 +1,4 @@
-// lambent/material.h: how a surface answers light, and the classic named materials.
+// lambent/material.h: how a surface reflects light, and the classic named materials.
 #ifndef LAMBENT_MATERIAL_H
 #define LAMBENT_MATERIAL_H
 
@@ -10,20 +10,20 @@ extern "C" {
 
 // Reflection models (docs/lighting.md has their equations and sources).
 typedef enum lam_reflection {
-    // The material's own: none if it is unlit, GGX if it is physical, otherwise Blinn–Phong.
+    // Depends on the material: none if it is unlit, GGX if it is physical, otherwise Blinn–Phong.
     LAM_REFLECTION_AUTO = 0,
     LAM_REFLECTION_NONE,               // the diffuse colour, unlit
     LAM_REFLECTION_LAMBERT,            // diffuse only
     LAM_REFLECTION_PHONG,              // highlight by the mirrored light
     LAM_REFLECTION_BLINN_PHONG,        // highlight by the half vector
     LAM_REFLECTION_KAJIYA_KAY,         // threads along the tangents
-    LAM_REFLECTION_KAJIYA_KAY_LECTURE, // the same as lectures print it
+    LAM_REFLECTION_KAJIYA_KAY_LECTURE, // the form printed in lectures
     LAM_REFLECTION_OREN_NAYAR,         // rough diffuse surfaces, no highlight
-    LAM_REFLECTION_GGX,                // metals and dielectrics of tiny mirrors, as glTF has them
+    LAM_REFLECTION_GGX,                // microfacet model for metals and dielectrics, as in glTF
     LAM_REFLECTION_COUNT
 } lam_reflection;
 
-// A reflection model in words. With its formulas (UTF-8) the light of one source is, as in lam_material,
+// The description of a reflection model. By its formulas (UTF-8), the light of one source is, as in lam_material,
 //   diffuse ⊙ Ld · D + specular ⊙ Ls · base^α.
 typedef struct lam_reflection_info {
     const char *word;    // in options, scene files and reports: "blinn-phong"
@@ -32,9 +32,9 @@ typedef struct lam_reflection_info {
     // unless light from behind counts.
     const char *diffuse;
     const char *base; // of the highlight: "max(n·h, 0)"; NULL: no highlight
-    // It reads the mesh's tangents, or a direction field if there are none.
+    // It uses the mesh's tangents, or a direction field if there are none.
     bool tangents;
-    // Whether light from behind the surface (n·l ≤ 0) counts: always, or where the material is a fibre.
+    // Whether light from behind the surface (n·l ≤ 0) contributes: always, or only for fibres.
     bool backlit, backlit_fibre;
     // It lights physical materials, and Fresnel's factor colours its highlight.
     bool microfacet;
@@ -44,8 +44,8 @@ typedef struct lam_reflection_info {
 // Returns NULL if there is no such model.
 LAM_API const lam_reflection_info *lam_reflection_describe(lam_reflection model);
 
-// The maps of a material: a texture changes a field from point to point (docs/textures.md). MTL's and glTF's names are
-// beside each.
+// The maps of a material: textures that vary a field over the surface (docs/textures.md). Each line lists the names in
+// MTL and glTF.
 typedef enum lam_map {
     // Multiplies ka. Without it, the diffuse map is used.
     LAM_MAP_AMBIENT, // map_Ka
@@ -94,7 +94,7 @@ typedef enum lam_map {
 // Returns the word of a map in reports and messages: "diffuse", "normal". Returns NULL if there is no such map.
 LAM_API const char *lam_map_name(lam_map map);
 
-// How a point is drawn whose opacity (diffuse alpha × map × vertex colour) is below 1.
+// How a point is drawn if its opacity (diffuse alpha × map × vertex colour) is below 1.
 typedef enum lam_alpha_mode {
     LAM_ALPHA_BLEND = 0, // it covers the surfaces behind it by that share
     // It is left out where the opacity is below lam_material.alpha_cutoff, and opaque elsewhere.
@@ -103,8 +103,8 @@ typedef enum lam_alpha_mode {
     LAM_ALPHA_COUNT
 } lam_alpha_mode;
 
-// A material of the classic models. Colours are linear reflectances, 0..1 for a surface that returns no more light than
-// arrives; more is allowed. The light that leaves a point is
+// A material of the classic models. Colours are linear reflectances, 0..1 for a surface that reflects no more light
+// than it receives; larger values are allowed. The light that leaves a point is
 //   emission + ambient ⊙ (ambient light) + Σ over lights of (diffuse ⊙ Ld · D + specular ⊙ Ls · S)
 //            + reflectivity ⊙ environment
 // with D and S of the reflection model (docs/lighting.md). lam_material_default() gives a neutral grey; a zeroed struct
@@ -134,7 +134,7 @@ typedef struct lam_material {
     // the rest; `specular` and `shininess` are not read. false: a classic material. A reflection model of the other kind
     // lights it as lam_material_as_classic or lam_material_as_physical turns it.
     bool physical;
-    // The diffuse colour is shown as it is, unless a reflection model is asked for.
+    // The diffuse colour is shown unchanged, unless a reflection model is requested.
     bool unlit;
     float metallic;  // 0: a dielectric, 1: a metal
     float roughness; // 0 a mirror … 1; the lobe takes at least 0.045
@@ -145,7 +145,7 @@ typedef struct lam_material {
     lam_alpha_mode alpha_mode; // the effect of an opacity below 1
     float alpha_cutoff;        // of LAM_ALPHA_MASK, 0..1
 
-    // The layers of a physical material (docs/lighting/layers.md). The defaults leave them out.
+    // The layers of a physical material (docs/lighting/layers.md). By default they are absent.
     //
     // The dielectric: it reflects f0 = min(((ior − 1)/(ior + 1))² ⊙ f0_color, 1) · specular_weight along the normal, and
     // specular_weight at grazing angles (KHR_materials_ior, KHR_materials_specular).
@@ -190,7 +190,8 @@ LAM_API lam_material lam_material_default(void);
 // it is.
 LAM_API lam_material lam_material_as_classic(const lam_material *material);
 
-// Returns the reverse: base and metallic from kd and ks, roughness from α. A physical material is returned as it is.
+// Converts in the opposite direction: base and metallic from kd and ks, roughness from α. A physical material is
+// returned as it is.
 LAM_API lam_material lam_material_as_physical(const lam_material *material);
 
 // The classic named materials of OpenGL's `teapots.c` demonstration (SGI, 1993/1997).

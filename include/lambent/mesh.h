@@ -32,8 +32,7 @@ typedef struct lam_part {
     LAM_RESERVED(4);
 } lam_part;
 
-// A mesh of triangles, of lines or of points. Its arrays are borrowed: lam_scene_add_mesh copies them, and the scene
-// owns its copies.
+// A mesh of triangles, of lines or of points. lam_scene_add_mesh copies the arrays, and the scene owns the copies.
 //
 // At most one of triangle_count, line_count and point_count is not 0. Statements about triangles also apply to lines,
 // which have two corners, and to points, which have one. Corner c of line l has the number 2l + c, point p the number
@@ -76,7 +75,7 @@ typedef struct lam_mesh {
     uint32_t tangent_count;          // elements of `tangents`
     const uint32_t *tangent_indices; // 3 per triangle; NULL: `indices`
 
-    // Colours of the type that `colors_format` says; they multiply the material's ambient and diffuse. NULL: none.
+    // Colours in the format `colors_format`; they multiply the material's ambient and diffuse colours. NULL: none.
     const void *colors;
     uint32_t color_count;            // elements of `colors`
     lam_colors_format colors_format; // type of an element
@@ -100,7 +99,7 @@ typedef struct lam_mesh {
     LAM_RESERVED(29);
 } lam_mesh;
 
-// Parameters of a built-in shape. All zero: the shape's defaults.
+// Parameters of a built-in shape. All zero: the defaults of the shape.
 typedef struct lam_shape_params {
     double radius; // of the whole shape, model units; 0: 1
     // Segments around, 3..16384; 0: the shape's own number, smooth at 1024 pixels. For gyroid and metaballs the cells
@@ -150,7 +149,8 @@ typedef struct lam_parametric {
     LAM_RESERVED(8);
 } lam_parametric;
 
-// A surface that is written as text. docs/shapes.md describes the language. Normals come from the symbolic derivatives.
+// A surface given by formulas in a text. docs/shapes.md describes the language. Normals come from the symbolic
+// derivatives.
 //
 // Parametric: "a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)". Ends of a range that meet are
 // joined, and a line of the grid along which the surface has a crease separates normals.

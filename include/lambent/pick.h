@@ -1,4 +1,4 @@
-// lambent/pick.h: the surface under a pixel, for programs in which people point at a picture.
+// lambent/pick.h: the surface under a pixel, for programs in which users point at a picture.
 #ifndef LAMBENT_PICK_H
 #define LAMBENT_PICK_H
 

@@ -1,4 +1,4 @@
-// lambent/render.h: one call from a model's path to a picture.
+// lambent/render.h: renders a model file with one call.
 //
 //   lam_image image = {0};
 //   if (lam_render("bunny.obj", NULL, &image, NULL, &error))
@@ -13,9 +13,9 @@
 extern "C" {
 #endif
 
-enum { LAM_RENDER_SIZE = 1024 }; // pixels on a side of a picture whose size nobody names
+enum { LAM_RENDER_SIZE = 1024 }; // default width and height of a picture, pixels
 
-// How a picture is rendered. All zero: the picture that `lambent MODEL` draws.
+// Parameters of rendering. All zero: the picture that `lambent MODEL` draws.
 typedef struct lam_render_params {
     // How the model is loaded. NULL: the defaults. Not used for built-in shapes.
     const lam_load_params *load;
@@ -23,7 +23,7 @@ typedef struct lam_render_params {
     const lam_view *view;
     // How the picture is drawn. NULL: a scene file's settings, else the defaults.
     const lam_draw_params *draw;
-    // The device that draws. NULL: a CPU device for this call alone.
+    // The device that draws. NULL: a temporary CPU device.
     lam_device *device;
     // Threads of that device, and of loading without `load`. 0: one for each processor.
     int threads;

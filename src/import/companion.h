@@ -1,4 +1,4 @@
-// companion.h: files that a model or a scene file names, opened beside it or through the caller's function.
+// companion.h: opens files that a model or a scene file names, beside it or through the caller's function.
 #ifndef COMPANION_H
 #define COMPANION_H
 
@@ -39,9 +39,10 @@ bool companions_of_model(const struct import_source *scene, const char *name, co
                          struct arena *arena, struct companions *out, lam_error *error);
 
 // The name by which a file that the model names is opened. It is confined to the model's folder: backslashes become slashes,
-// "." and empty components go, ".." takes the component before it away, and a name that begins at a root or a drive, or leads out
-// of the folder, is cut to its last component, unless it leads to a file of params->allowed_paths. So the names of one file in the
-// folder are the same text. *cut: it was. False: nothing is left, or COMPANION_NAME_SIZE is too small.
+// "." and empty components are removed, ".." removes the component before it, and a name that begins at a root or a
+// drive, or leads out of the folder, is cut to its last component, unless it leads to a file of params->allowed_paths.
+// So the names of one file in the folder are the same text. *cut: it was. False: nothing is left, or
+// COMPANION_NAME_SIZE is too small.
 enum { COMPANION_NAME_SIZE = 4096 };
 bool companion_name(const struct import_source *source, const char *name, char out[COMPANION_NAME_SIZE], bool *cut);
 

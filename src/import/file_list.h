@@ -1,4 +1,4 @@
-// file_list.h: the files that a load looked for, found or not.
+// file_list.h: lists the files that a load looked for, found or not.
 #ifndef FILE_LIST_H
 #define FILE_LIST_H
 

@@ -1,4 +1,4 @@
-// parallel_rows.h: a loop over a file's rows in parallel pieces, whose errors do not depend on the threads.
+// parallel_rows.h: processes a file's rows in parallel pieces; the reported error does not depend on the threads.
 #ifndef PARALLEL_ROWS_H
 #define PARALLEL_ROWS_H
 

@@ -1,4 +1,4 @@
-// text_cursor.h: words, lines and names of text files.
+// text_cursor.h: reads words, lines and names of text files.
 #ifndef TEXT_CURSOR_H
 #define TEXT_CURSOR_H
 
@@ -43,7 +43,7 @@ size_t text_count_word(const uint8_t *at, const uint8_t *end, const char *word);
 // Returns the number, from 1, of the line at `at`; lines end in "\n", "\r\n" or "\r". Linear time: for messages only.
 size_t text_line(const uint8_t *bytes, const uint8_t *at);
 
-// The word at `at` for a message: in quotes, cut by shown_name; or "the end of the file". Returns `out`.
+// Formats the word at `at` for a message: in quotes, truncated by shown_name; or "the end of the file". Returns `out`.
 enum { TEXT_FOUND_SIZE = SHOWN_NAME_SIZE + 2 };
 const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUND_SIZE]);
 

@@ -1,4 +1,4 @@
-// builder.h: a hierarchy while it is built.
+// builder.h: the state of building a hierarchy.
 #ifndef BUILDER_H
 #define BUILDER_H
 

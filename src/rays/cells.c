@@ -1,4 +1,4 @@
-// cells.c: divides large ranges of a hierarchy's triangles, and hands the small ones out.
+// cells.c: divides large ranges of a hierarchy's triangles, and distributes small ranges to threads.
 //
 // The middles of a large range's triangles are sorted into the cells of a grid, and the range is divided by the boxes
 // of its cells in place of the far more numerous triangles. A range of few triangles leaves its cells and is divided by

@@ -1,4 +1,4 @@
-// hierarchy.c: the hierarchy of a frame, built when it is asked for and kept while the same meshes stay in their places.
+// hierarchy.c: builds the hierarchy of a frame on demand, and keeps it while the meshes do not move.
 #include "builder.h"
 
 #include "fail.h"

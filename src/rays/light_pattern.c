@@ -1,4 +1,4 @@
-// light_pattern.c: the points of a light with a size.
+// light_pattern.c: computes sample points on a light with a size.
 #include "light_pattern.h"
 
 #include "linear.h"

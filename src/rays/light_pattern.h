@@ -1,4 +1,4 @@
-// light_pattern.h: the points of a light with a size that shadow rays aim at.
+// light_pattern.h: sample points on a light with a size, at which shadow rays aim.
 //
 // The points lie on a disc across the way to the light: a ball looks like its disc. They follow the spiral of Vogel (1979),
 // each with an equal share of the disc: point i of N at the radius √((i + ½)/N), turned by i golden angles. They are the same for

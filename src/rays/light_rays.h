@@ -1,5 +1,5 @@
-// light_rays.h: the light that passes along LANES rays (docs/lighting/shadows.md). Include with LANES defined, before or after
-// ray_lanes.h.
+// light_rays.h: computes the light that passes along LANES rays (docs/lighting/shadows.md). Include with LANES defined,
+// before or after ray_lanes.h.
 #ifndef LIGHT_RAYS_H
 #define LIGHT_RAYS_H
 
@@ -156,7 +156,7 @@ static void across(const double d[3], double u[3], double v[3])
         v[i] = n[j] * u[k] - n[k] * u[j];
 }
 
-// The rays to point n of a disc with the axes u and v.
+// Sets the rays to point n of a disc with the axes u and v.
 LANE_FN void aim_at_point(struct ray_lanes *ray, const struct ray_lanes *centre, const struct light_points *points,
                           int n, double u[3][LANES], double v[3][LANES])
 {

@@ -1,5 +1,5 @@
-// opacity.c: the opacity of a point of a triangle and the light that it lets through, from its material, its vertices'
-// colours and its maps.
+// opacity.c: computes the opacity of a point on a triangle, and the light that passes it, from its material, vertex
+// colours and maps.
 #include "opacity.h"
 
 #include "layer_kinds.h"

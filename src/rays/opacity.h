@@ -1,4 +1,4 @@
-// opacity.h: the shares of crossing light that a triangle blocks and lets pass.
+// opacity.h: computes the fractions of light that a triangle blocks and lets pass.
 #ifndef OPACITY_H
 #define OPACITY_H
 

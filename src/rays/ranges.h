@@ -128,7 +128,7 @@ static inline void fill_bins(struct bins *bins, const struct split *s, const str
     }
 }
 
-// The bins along the longest side of the box of middles. Returns false if the middles are the same.
+// Fills the bins along the longest side of the box of middles. Returns false if the middles are the same.
 static inline bool choose_axis(const struct range *r, struct split *s)
 {
     num size = r->middles.high - r->middles.low;
@@ -141,7 +141,7 @@ static inline bool choose_axis(const struct range *r, struct split *s)
     return length > 1e-30f;
 }
 
-// The cheapest boundary between bins; returns its cost.
+// Finds the cheapest boundary between bins, and returns its cost.
 static inline float choose_bin(const struct bins *bins, struct split *s)
 {
     float right_cost[BINS];

@@ -1,4 +1,4 @@
-// ray_lanes.h: LANES rays at a time against a hierarchy. Include with LANES defined as 1, 4, 8 or 16.
+// ray_lanes.h: intersects LANES rays at a time with a hierarchy. Include with LANES defined as 1, 4, 8 or 16.
 //
 // A ray is origin + t direction with 0 < t < end, in the hierarchy's space. Whether a triangle is in its way is decided
 // in double by crosses() alone, in a fixed order of operations; boxes only save work. Hence neither the hierarchy, nor

@@ -1,4 +1,4 @@
-// mtl.h: MTL, the material files that OBJ files name.
+// mtl.h: reads MTL, the material files of OBJ.
 #ifndef MTL_H
 #define MTL_H
 

@@ -69,7 +69,7 @@ static int take_numbers(struct options *o, float *out, int most)
     return count;
 }
 
-// The same for numbers that matter: if one is absurd, all are ignored, with a warning.
+// Reads numbers that affect the map: if one is out of range, all are ignored, with a warning.
 static int take_checked(struct options *o, float *out, int most)
 {
     float numbers[3];
@@ -198,7 +198,7 @@ static bool add_map(struct lam_scene *scene, const char *file, lam_material *mat
         return call_memory_error(scene->arena.call, sizeof *map, error);
     *map = map_of(scene, file, material, slot, &channel_given);
     map->texture = picture->texture;
-    // The opacity of a picture with alpha is its alpha, else its grey.
+    // The opacity of a picture is its alpha, or its grey value if it has no alpha.
     if (slot == LAM_MAP_OPACITY && !channel_given)
         map->channel = picture->texture->opaque ? 0 : 3;
     bool nothing = map->scale == 0 && map->offset == 0; // 0 would mean 1

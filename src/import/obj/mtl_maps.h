@@ -1,4 +1,4 @@
-// mtl_maps.h: the textures that MTL materials name.
+// mtl_maps.h: reads the textures that MTL materials name.
 #ifndef MTL_MAPS_H
 #define MTL_MAPS_H
 

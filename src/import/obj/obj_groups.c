@@ -1,5 +1,5 @@
-// obj_groups.c: an OBJ file's statements between vertices and faces, in file order: object, group, material, smoothing
-// group, material files, lines and points, and elements that are not drawn.
+// obj_groups.c: reads an OBJ file's statements between vertices and faces, in file order: object, group, material,
+// smoothing group, material files, lines and points, and elements that are not drawn.
 //
 // A part is a run of triangles of the same object, group and material. Its name is "object/group", or the one of the
 // two that the file gives. A new object ends the group.
@@ -346,7 +346,7 @@ bool obj_read_statements(struct obj *obj, lam_error *error)
         parts += kinds[i] == OBJECT || kinds[i] == GROUP || kinds[i] == MATERIAL;
         if ((kinds[i] == LINES || kinds[i] == POINTS) && !obj->streamed)
             corners[kinds[i] == LINES] += obj_strokes_corners(obj, obj->statements[i].at, kinds[i] == LINES);
-        // A file in which all are off has no smoothing groups.
+        // If all groups are off, the file defines no smoothing groups.
         smoothing |= kinds[i] == SMOOTHING && read_smoothing(obj, obj->statements[i].at) != 0;
         // All material files are read first: some programs name them after the first use.
         if (kinds[i] == LIBRARY && !read_libraries(&state, obj->statements[i].at, error))

@@ -1,5 +1,6 @@
-// obj_libraries.c: the material files that an OBJ file names. Each is read once, however often and in whatever way it is
-// named, and at most OBJ_LIBRARIES_MAX names are tried: a small file cannot make many large ones be read.
+// obj_libraries.c: reads the material files that an OBJ file names. Each is read once, however often and in whatever
+// way it is named, and at most OBJ_LIBRARIES_MAX names are tried: a small file cannot cause many large files to be
+// read.
 #include "obj.h"
 
 #include "fail.h"

@@ -1,4 +1,4 @@
-// obj_stream.c: large OBJ files, read piece by piece.
+// obj_stream.c: reads large OBJ files piece by piece.
 //
 // Each thread reads a piece of the text and parses it into scratch arrays, all within the second-level cache. Once the
 // pieces before it are counted, its elements' indices are known, and it copies them to the final arrays. So the text is

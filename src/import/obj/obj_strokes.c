@@ -1,5 +1,5 @@
-// obj_strokes.c: the statements `l` (lines: v or v/t for each vertex) and `p` (points) as meshes beside the faces'
-// mesh.
+// obj_strokes.c: converts the statements `l` (lines: v or v/t for each vertex) and `p` (points) to meshes beside the
+// mesh of faces.
 #include "obj.h"
 
 #include "fail.h"
@@ -133,7 +133,7 @@ bool obj_strokes_read(struct obj *obj, const struct obj_statement *statement, bo
 
 // --- meshes
 
-// The texture coordinates of every corner, (0, 0) for corners without any.
+// Builds the texture coordinates of every corner, (0, 0) for corners without any.
 static bool take_texcoords(struct obj *obj, const struct obj_strokes *s, const float *texcoords, lam_mesh *mesh,
                            lam_error *error)
 {

@@ -110,7 +110,7 @@ static bool fail_rest(const struct ply_reader *reader, size_t row, const uint8_t
                      shown_name(element->properties[element->property_count - 1].name, shown[1]));
 }
 
-// The serial pass: sets the start of each piece and the starts of the list, and *at to the end of the last row.
+// Runs the serial pass: sets the start of each piece and the starts of the list, and *at to the end of the last row.
 static bool index_rows(struct ply_reader *reader, const uint8_t **at, lam_error *error)
 {
     const struct ply_element *element = reader->element;

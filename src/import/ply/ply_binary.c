@@ -133,7 +133,7 @@ static bool try_triangles(struct ply_reader *reader, struct arena *keep, struct 
     return true;
 }
 
-// The serial pass: sets the start of each piece and the starts of the list, and *end to the end of the last row.
+// Runs the serial pass: sets the start of each piece and the starts of the list, and *end to the end of the last row.
 static bool index_rows(struct ply_reader *reader, const uint8_t **end, lam_error *error)
 {
     const struct ply_element *element = reader->element;

@@ -1,4 +1,5 @@
-// ply_columns.c: columns of a PLY table as normals, tangents, texture coordinates and colours, in parallel pieces.
+// ply_columns.c: converts columns of a PLY table to normals, tangents, texture coordinates and colours, in parallel
+// pieces.
 #include "parallel_rows.h"
 #include "srgb.h"
 #include "linear.h"

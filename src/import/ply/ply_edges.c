@@ -1,4 +1,4 @@
-// ply_edges.c: lines from the element `edge`, whose rows name the vertices of both ends.
+// ply_edges.c: reads lines from the element `edge`, whose rows name the vertices of both ends.
 #include "fail.h"
 #include "ply_load.h"
 #include "shown_name.h"

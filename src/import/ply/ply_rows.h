@@ -1,5 +1,5 @@
-// ply_rows.h: the rows of one element, as ply_ascii.c and ply_binary.c read them: a serial pass finds the start of each piece of
-// rows and the lengths of its lists; then the pieces are read in parallel.
+// ply_rows.h: reads the rows of one element, for ply_ascii.c and ply_binary.c: a serial pass finds the start of each
+// piece of rows and the lengths of its lists; then the pieces are read in parallel.
 #ifndef PLY_ROWS_H
 #define PLY_ROWS_H
 
@@ -28,9 +28,9 @@ struct ply_reader {
 // Allocates the arrays that the serial pass fills.
 bool ply_start_rows(struct ply_reader *reader, struct arena *scratch, lam_error *error);
 
-// The serial pass at the start of a row. Returns false if the call must end.
+// Runs the serial pass at the start of a row. Returns false if the call must end.
 bool ply_index_row(struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error);
-// The serial pass at a row's requested list.
+// Runs the serial pass at a row's requested list.
 static inline void ply_count_items(struct ply_reader *reader, int64_t items)
 {
     reader->total += (uint64_t)items;

@@ -36,7 +36,7 @@ static bool looks_ascii(const uint8_t *bytes, size_t size)
            (size < SAMPLE || text_count_word(at, end, "facet") || text_count_word(at, end, "endsolid"));
 }
 
-// The size decides first. A text cannot have 84 + 50 · count bytes by chance: its characters, read as the count, give
+// Tests the size first. A text cannot have 84 + 50 · count bytes by chance: its characters, read as the count, give
 // more than 10⁸.
 static enum kind detect_kind(const uint8_t *bytes, size_t size)
 {

@@ -1,4 +1,4 @@
-// animation.h: how a picture format stores several pictures: a part of its codec.
+// animation.h: the part of a codec that stores several pictures in one file.
 #ifndef ANIMATION_H
 #define ANIMATION_H
 

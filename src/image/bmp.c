@@ -1,10 +1,10 @@
-// bmp.c: Windows and OS/2 bitmaps, read only: 1, 4, 8, 16, 24 and 32 bits, colour masks, run lengths of 4 and 8 bits, rows
+// bmp.c: reads Windows and OS/2 bitmaps: 1, 4, 8, 16, 24 and 32 bits, colour masks, run lengths of 4 and 8 bits, rows
 // upwards and downwards, headers from BITMAPCOREHEADER (12 bytes) to BITMAPV5HEADER (124).
 // https://learn.microsoft.com/windows/win32/gdi/bitmap-storage and, of OS/2's header of 16 to 64 bytes,
 // https://www.fileformat.info/format/os2bmp/egff.htm
 //
-// The fourth byte of 32 bits without masks is not used, as the format says. Pixels that run lengths skip have the palette's
-// first colour. Colour profiles are not applied.
+// Without masks, the fourth byte of 32 bits is ignored, as the format specifies. Pixels that run lengths skip get the
+// palette's first colour. Colour profiles are ignored.
 #include "codec.h"
 #include "fail.h"
 #include "little_endian.h"

@@ -1,4 +1,4 @@
-// codecs.c: the table of picture formats, and the calls that pick from it.
+// codecs.c: the table of picture formats, and the functions that select from it.
 #include "codec.h"
 #include "fail.h"
 #include "file.h"

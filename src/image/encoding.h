@@ -1,4 +1,5 @@
-// encoding.h: linear light to sRGB and back (IEC 61966-2-1), and to bytes, many values at a time (LANES, lanes.h).
+// encoding.h: converts linear light to sRGB and back (IEC 61966-2-1), and to bytes, many values at a time (LANES,
+// lanes.h).
 //
 // Both curves are within 1e-6 of the standard's formulas for 0…1; numbers outside are clamped, NaN gives 0. A byte that
 // is decoded and encoded again stays the same.

@@ -1,7 +1,7 @@
-// exr.c: OpenEXR, floats in named layers, written and read through OpenEXR's C core, which is opened (dlopen) when a
-// file is at hand and not before. Written: one part of scanlines, 32-bit floats, ZIP compression. The picture's
-// channels are R, G, B, A, linear and premultiplied as OpenEXR defines it; a layer's are NAME.R and so on. Neither time
-// nor path is stored: the same picture gives the same bytes with the same library.
+// exr.c: reads and writes OpenEXR, floats in named layers, through OpenEXR's C core, which is loaded on demand
+// (dlopen). Written: one part of scanlines, 32-bit floats, ZIP compression. The picture's channels are R, G, B, A,
+// linear and premultiplied as OpenEXR defines it; a layer's are NAME.R and so on. Neither time nor path is stored: the
+// same picture gives the same bytes with the same library.
 #include "codec.h"
 #include "dynamic_library.h"
 #include "fail.h"

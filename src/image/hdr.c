@@ -1,4 +1,4 @@
-// hdr.c: Radiance pictures (.hdr, RGBE), read only: three mantissas and one exponent for a pixel, linear light.
+// hdr.c: reads Radiance pictures (.hdr, RGBE): three mantissas and one exponent for a pixel, linear light.
 //
 // Lines of text up to an empty one, a line with the size ("-Y 512 +X 1024"), then rows of pixels, each in one of
 // three ways:

@@ -1,5 +1,5 @@
-// jpeg.c: JPEG's row in the table of formats; reading through libjpeg-turbo with its accurate integer transform: the same
-// bytes on every processor.
+// jpeg.c: JPEG's row in the table of formats; reads through libjpeg-turbo with its accurate integer transform,
+// bit-identical on every processor.
 #include "codec.h"
 #include "fail.h"
 #include "pixels.h"

@@ -1,5 +1,5 @@
-// jpeg_write.c: JPEG, written through libjpeg-turbo: baseline, the accurate integer transform, Huffman codes made for the
-// picture. The bytes depend on the picture, the quality and libjpeg-turbo's version alone.
+// jpeg_write.c: writes JPEG through libjpeg-turbo: baseline, the accurate integer transform, optimised Huffman codes.
+// The bytes depend only on the picture, the quality and libjpeg-turbo's version.
 #include "codec.h"
 #include "compose.h"
 #include "fail.h"

@@ -1,4 +1,4 @@
-// linearize.c: a picture's numbers, as a file has them, to linear light.
+// linearize.c: converts the numbers of a picture file to linear light.
 #include "codec.h"
 #include "fail.h"
 #include "pixels.h"

@@ -1,4 +1,4 @@
-// little_endian.h: numbers of a file, lowest byte first.
+// little_endian.h: reads numbers of a file, lowest byte first.
 #ifndef LITTLE_ENDIAN_H
 #define LITTLE_ENDIAN_H
 

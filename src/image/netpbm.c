@@ -1,4 +1,4 @@
-// netpbm.c: the text header that PPM and PFM share.
+// netpbm.c: reads the text header of PPM and PFM.
 #include "netpbm.h"
 
 #include "fail.h"

@@ -1,4 +1,4 @@
-// netpbm.h: the text header that PPM and PFM share.
+// netpbm.h: reads the text header of PPM and PFM.
 #ifndef NETPBM_H
 #define NETPBM_H
 

@@ -1,4 +1,4 @@
-// pfm.c: PFM, floats with a three-line header (Debevec's portable float map), bottom row first.
+// pfm.c: reads and writes PFM, floats with a three-line header (Debevec's portable float map), bottom row first.
 //
 // "PF", width and height, then a number whose sign is the byte order: negative is little-endian. Its absolute value is
 // a scale that programs do not agree about; it is written as 1 and not applied when read. PFM has neither alpha nor

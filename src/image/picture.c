@@ -1,4 +1,4 @@
-// picture.c: the memory of pictures that codecs fill: limited, and charged to the call.
+// picture.c: allocates the pictures that codecs fill, within the limits of the call.
 #include "codec.h"
 #include "fail.h"
 #include "pixels.h"

@@ -1,4 +1,4 @@
-// picture_load.c: reading pictures of any format, from memory and from files.
+// picture_load.c: reads pictures of any format, from memory and from files.
 #include "codec.h"
 #include "fail.h"
 #include "file.h"

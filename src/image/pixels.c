@@ -1,4 +1,4 @@
-// pixels.c: rows of pixels from one format to another.
+// pixels.c: converts rows of pixels between formats.
 #include "pixels.h"
 
 #include "fail.h"

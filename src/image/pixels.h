@@ -1,5 +1,5 @@
-// pixels.h: rows of pixels in every format. Code that works on pixels knows two formats, LAM_RGBA8 and LAM_RGBA32F (the
-// working formats); the others are converted row by row.
+// pixels.h: converts rows of pixels between formats. Code that works on pixels supports two working formats, LAM_RGBA8
+// and LAM_RGBA32F; others are converted row by row.
 #ifndef PIXELS_H
 #define PIXELS_H
 

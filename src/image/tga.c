@@ -1,9 +1,9 @@
-// tga.c: Truevision TGA, read only: palettes, true colour and grey, plain and as run lengths, of 8, 15, 16, 24 and 32 bits,
+// tga.c: reads Truevision TGA: palettes, true colour and grey, plain and as run lengths, of 8, 15, 16, 24 and 32 bits,
 // with the first pixel in any corner. Truevision TGA File Format Specification, version 2.0 (1991).
 //
-// A TGA file does not begin with a mark of its own, so that all of its header is tested, and other formats come first. The
-// fourth byte of 32 bits is alpha, also where the header says that there are 0 bits of it, which many programs write; unless
-// it is 0 everywhere then.
+// A TGA file has no magic number, so the whole header is tested, after all other formats. The fourth byte of 32 bits is
+// alpha, also where the header says that there are 0 bits of it, which many programs write; unless it is 0 everywhere
+// then.
 #include "codec.h"
 #include "fail.h"
 #include "little_endian.h"

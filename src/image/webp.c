@@ -1,6 +1,6 @@
-// webp.c: WebP, lossy and lossless with alpha, through libwebp, which is opened (dlopen) when a file is at hand and not
-// before. Read chunk by chunk, so that a long decoding can be stopped. Animations are not read. The bytes that are
-// written depend on the library's version. https://developers.google.com/speed/webp/docs/riff_container
+// webp.c: reads and writes WebP, lossy and lossless with alpha, through libwebp, which is loaded on demand (dlopen).
+// Reads chunk by chunk, so that a long decoding can be stopped. Does not read animations. The written bytes depend on
+// the library's version. https://developers.google.com/speed/webp/docs/riff_container
 #include "codec.h"
 #include "dynamic_library.h"
 #include "fail.h"

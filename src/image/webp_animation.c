@@ -1,5 +1,5 @@
-// webp_animation.c: animated WebP, through libwebpmux, which is opened (dlopen) when an animation begins. The library
-// stores the changes of each frame; the bytes depend on its version.
+// webp_animation.c: writes animated WebP through libwebpmux, which is loaded (dlopen) when an animation begins. The
+// library stores the changes of each frame; the bytes depend on its version.
 #include "animation.h"
 #include "dynamic_library.h"
 #include "fail.h"

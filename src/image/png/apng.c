@@ -1,6 +1,6 @@
-// apng.c: animated PNG: https://www.w3.org/TR/png-3/ (acTL, fcTL, fdAT).
+// apng.c: writes animated PNG: https://www.w3.org/TR/png-3/ (acTL, fcTL, fdAT).
 //
-// Each frame is encoded as it comes, as a PNG of the smallest rectangle that contains all changes since the previous
+// Each frame is encoded immediately, as a PNG of the smallest rectangle that contains all changes since the previous
 // frame, with the necessary channels. All frames of a file have one colour type, which is known with the last one: a
 // frame that was encoded with fewer channels is then decoded and encoded again. Its chunks become the animation's.
 #include "animation.h"

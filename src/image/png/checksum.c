@@ -1,4 +1,4 @@
-// checksum.c: CRC-32 by eight tables, Adler-32 of pixel rows in 16-bit lanes.
+// checksum.c: computes CRC-32 with eight tables, and Adler-32 of pixel rows in 16-bit lanes.
 #include "checksum.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-// checksum.h: CRC-32 and Adler-32, as PNG and zlib define them.
+// checksum.h: computes CRC-32 and Adler-32, as PNG and zlib define them.
 #ifndef CHECKSUM_H
 #define CHECKSUM_H
 

@@ -1,4 +1,4 @@
-// deflate.c: rows of filtered pixels become tokens, and tokens are counted.
+// deflate.c: converts rows of filtered pixels to tokens, and counts the tokens.
 #include "deflate.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-// deflate.h: rows of filtered pixels become deflate blocks (RFC 1951).
+// deflate.h: converts rows of filtered pixels to deflate blocks (RFC 1951).
 //
 // After a row filter, a lit picture consists of runs of one pixel (the background, flat areas) and noise of a few small
 // numbers. There are two ways to look for matches:

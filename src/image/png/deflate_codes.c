@@ -1,4 +1,4 @@
-// deflate_codes.c: a block's prefix codes: made from counts, and written.
+// deflate_codes.c: builds a block's prefix codes from counts, and writes them.
 #include "deflate_codes.h"
 
 #include "huffman.h"

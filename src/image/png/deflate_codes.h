@@ -1,4 +1,4 @@
-// deflate_codes.h: a block's prefix codes (RFC 1951, 3.2.7): made from counts, and written as bits.
+// deflate_codes.h: builds a block's prefix codes (RFC 1951, 3.2.7) from counts, and writes them as bits.
 #ifndef DEFLATE_CODES_H
 #define DEFLATE_CODES_H
 

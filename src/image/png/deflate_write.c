@@ -1,4 +1,4 @@
-// deflate_write.c: counted tokens become bits: the strip's own Huffman codes, or the bytes as they are.
+// deflate_write.c: writes counted tokens as bits, with the strip's own Huffman codes, or stores the bytes uncompressed.
 #include "deflate_codes.h"
 
 size_t deflate_capacity(int width, int rows, int bytes_per_pixel)

@@ -1,4 +1,4 @@
-// huffman.c: prefix codes of limited length: Huffman's tree, then a repair of leaves that are too deep.
+// huffman.c: builds prefix codes of limited length: a Huffman tree, then a correction of leaves that are too deep.
 #include "huffman.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-// huffman.h: prefix codes of limited length.
+// huffman.h: builds prefix codes of limited length.
 #ifndef HUFFMAN_H
 #define HUFFMAN_H
 

@@ -1,7 +1,8 @@
-// png_best.c: the smallest files, through libdeflate, which is opened when it is used. The bytes depend on its version.
+// png_best.c: writes the smallest files, through libdeflate, which is loaded on demand. The bytes depend on its
+// version.
 //
 // Each strip is filtered in six ways: all rows by one of the five filters, or each row by the filter of the lowest
-// cost. Level 7 finds out which way becomes smallest, and level 12 compresses that one.
+// cost. Level 7 finds the smallest of these, and level 12 compresses it.
 #include "png_encoding.h"
 
 #include "fail.h"

@@ -1,4 +1,4 @@
-// png_encoding.h: what png_write.c shares with the two ways to compress: png_fast.c and png_best.c.
+// png_encoding.h: declarations that png_write.c shares with the two compressors, png_fast.c and png_best.c.
 #ifndef PNG_ENCODING_H
 #define PNG_ENCODING_H
 

@@ -1,4 +1,4 @@
-// png_filter.c: PNG's row filters, sixteen bytes at a time.
+// png_filter.c: applies PNG's row filters, sixteen bytes at a time.
 #include "png_filter.h"
 
 #include <stdbool.h>

@@ -1,4 +1,4 @@
-// png_filter.h: PNG's row filters (PNG specification, clause 9), forward.
+// png_filter.h: applies PNG's row filters (PNG specification, clause 9).
 #ifndef PNG_FILTER_H
 #define PNG_FILTER_H
 

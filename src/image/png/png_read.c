@@ -1,4 +1,5 @@
-// png_read.c: PNG's row in the table of formats; reading through libspng, the pixels of usual files by png_whole.c.
+// png_read.c: PNG's row in the table of formats; reads through libspng, and the pixels of usual files through
+// png_whole.c.
 #include "codec.h"
 #include "fail.h"
 #include "pixels.h"

@@ -2,7 +2,7 @@
 // the time of libspng, which reads row by row through zlib.
 //
 // Takes the usual pictures: 8 bits a channel, grey, RGB or RGBA without a transparent colour, not interlaced, with nothing between or
-// behind the pixels but the end. All others, and all that are damaged, are libspng's, whose sentence a user then sees.
+// behind the pixels but the end. libspng reads all other pictures, and damaged ones, and reports their errors.
 #include "png_whole.h"
 
 #ifdef HAVE_LIBDEFLATE

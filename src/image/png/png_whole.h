@@ -1,4 +1,4 @@
-// png_whole.h: the usual PNG pictures read at once.
+// png_whole.h: reads usual PNG pictures at once.
 #ifndef PNG_WHOLE_H
 #define PNG_WHOLE_H
 

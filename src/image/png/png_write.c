@@ -1,8 +1,9 @@
-// png_write.c: pictures become PNG files: grey, grey and alpha, RGB or RGBA, whichever stores the picture exactly.
+// png_write.c: writes PNG files: grey, grey and alpha, RGB or RGBA, whichever is the smallest that stores the picture
+// exactly.
 //
-// The picture is cut into strips of rows, whose height depends on the width alone. Each strip is filtered and
-// compressed separately (png_fast.c, png_best.c) and becomes one IDAT chunk with its own CRC, so any thread can process
-// any strip and the bytes do not depend on threads; only the Adler-32 of the whole is joined at the end.
+// The picture is cut into strips of rows, whose height depends only on the width. Each strip is filtered and compressed
+// separately (png_fast.c, png_best.c) and becomes one IDAT chunk with its own CRC, so any thread can process any strip
+// and the bytes do not depend on threads; only the Adler-32 of the whole is joined at the end.
 #include "codec.h"
 #include "fail.h"
 #include "png_encoding.h"

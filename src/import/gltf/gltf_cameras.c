@@ -1,4 +1,4 @@
-// gltf_cameras.c: the file's cameras (section 3.10).
+// gltf_cameras.c: reads the file's cameras (section 3.10).
 #include "gltf_cameras.h"
 
 #include "gltf_json.h"

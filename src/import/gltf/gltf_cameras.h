@@ -1,4 +1,4 @@
-// gltf_cameras.h: the file's cameras (section 3.10).
+// gltf_cameras.h: reads the file's cameras (section 3.10).
 #ifndef GLTF_CAMERAS_H
 #define GLTF_CAMERAS_H
 

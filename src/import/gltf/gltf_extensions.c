@@ -1,4 +1,4 @@
-// gltf_extensions.c: the extensions that a file names, and their support.
+// gltf_extensions.c: checks the extensions that a file names, and reports their support.
 #include "gltf_extensions.h"
 
 #include "gltf_json.h"

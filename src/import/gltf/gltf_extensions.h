@@ -1,4 +1,4 @@
-// gltf_extensions.h: the extensions that a file names, and their support.
+// gltf_extensions.h: checks the extensions that a file names, and reports their support.
 #ifndef GLTF_EXTENSIONS_H
 #define GLTF_EXTENSIONS_H
 

@@ -1,5 +1,5 @@
-// gltf_file_info.c: information about the file: names, lengths of animations, extensions. Values of a wrong type count
-// as missing: nothing of them is drawn.
+// gltf_file_info.c: collects information about the file: names, animation lengths, extensions. Values of a wrong type
+// count as missing, because they do not affect the picture.
 #include "gltf_file_info.h"
 
 #include "gltf_extensions.h"

@@ -1,4 +1,4 @@
-// gltf_file_info.h: information about the file (lam_file_info).
+// gltf_file_info.h: collects information about the file (lam_file_info).
 #ifndef GLTF_FILE_INFO_H
 #define GLTF_FILE_INFO_H
 

@@ -1,4 +1,4 @@
-// gltf_json.c: the JSON text of a glTF file: its lists, and numbers that point into them.
+// gltf_json.c: reads the JSON text of a glTF file: its lists, and indices into them.
 #include "gltf_json.h"
 
 #include "fail.h"

@@ -1,4 +1,4 @@
-// gltf_json.h: the JSON text of a glTF file: its lists, and numbers that point into them.
+// gltf_json.h: reads the JSON text of a glTF file: its lists, and indices into them.
 #ifndef GLTF_JSON_H
 #define GLTF_JSON_H
 

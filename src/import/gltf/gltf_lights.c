@@ -1,4 +1,4 @@
-// gltf_lights.c: the file's lights (KHR_lights_punctual).
+// gltf_lights.c: reads the file's lights (KHR_lights_punctual).
 #include "gltf_lights.h"
 
 #include "gltf_json.h"

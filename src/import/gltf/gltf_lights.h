@@ -1,4 +1,4 @@
-// gltf_lights.h: the file's lights (KHR_lights_punctual).
+// gltf_lights.h: reads the file's lights (KHR_lights_punctual).
 #ifndef GLTF_LIGHTS_H
 #define GLTF_LIGHTS_H
 

@@ -1,4 +1,4 @@
-// gltf_nodes.c: the tree of nodes (section 3.5): transforms, parents, and the nodes of the wanted scene.
+// gltf_nodes.c: reads the node tree (section 3.5): transforms, parents, and the nodes of the selected scene.
 #include "gltf_nodes.h"
 
 #include "gltf_json.h"

@@ -1,4 +1,4 @@
-// gltf_nodes.h: the tree of nodes (section 3.5).
+// gltf_nodes.h: reads the node tree (section 3.5).
 #ifndef GLTF_NODES_H
 #define GLTF_NODES_H
 

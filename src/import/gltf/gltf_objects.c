@@ -1,4 +1,5 @@
-// gltf_objects.c: nodes with meshes as objects of the scene, and their instances (EXT_mesh_gpu_instancing).
+// gltf_objects.c: converts nodes with meshes to objects of the scene, and adds their instances
+// (EXT_mesh_gpu_instancing).
 #include "gltf_objects.h"
 
 #include "gltf_accessors.h"

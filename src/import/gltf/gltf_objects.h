@@ -1,4 +1,4 @@
-// gltf_objects.h: nodes with meshes as objects of the scene.
+// gltf_objects.h: converts nodes with meshes to objects of the scene.
 #ifndef GLTF_OBJECTS_H
 #define GLTF_OBJECTS_H
 

@@ -1,4 +1,4 @@
-// gltf_accessors.c: accessors (section 3.6.2): their types, and their extent within the file's buffers.
+// gltf_accessors.c: reads accessors (section 3.6.2): their types, and their extent within the file's buffers.
 #include "gltf_accessors.h"
 
 #include "gltf_buffers.h"

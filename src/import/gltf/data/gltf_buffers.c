@@ -1,4 +1,4 @@
-// gltf_buffers.c: buffers (section 3.6.1): read when first used, and given to the scene where its arrays lie in them.
+// gltf_buffers.c: reads buffers (section 3.6.1) on first use, and gives them to the scene if its arrays lie in them.
 #include "gltf_buffers.h"
 
 #include "gltf_json.h"

@@ -1,5 +1,5 @@
-// gltf_meshopt.c: bufferViews compressed by meshoptimizer (EXT_meshopt_compression), decoded by its library, which is opened
-// when a file needs it. https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_meshopt_compression
+// gltf_meshopt.c: decodes bufferViews compressed by meshoptimizer (EXT_meshopt_compression), with its library, which is
+// loaded on demand. https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_meshopt_compression
 #include "gltf_meshopt.h"
 
 #include "gltf_buffers.h"

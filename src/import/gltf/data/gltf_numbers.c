@@ -1,4 +1,4 @@
-// gltf_numbers.c: the numbers of accessors as floats, as indices and as colours, in parallel pieces.
+// gltf_numbers.c: reads the numbers of accessors as floats, indices and colours, in parallel pieces.
 #include "gltf_numbers.h"
 
 #include "gltf_accessors.h"

@@ -1,4 +1,4 @@
-// gltf_numbers.h: the numbers of accessors as floats, as indices and as colours.
+// gltf_numbers.h: reads the numbers of accessors as floats, indices and colours.
 #ifndef GLTF_NUMBERS_H
 #define GLTF_NUMBERS_H
 

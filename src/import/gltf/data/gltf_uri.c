@@ -1,4 +1,4 @@
-// gltf_uri.c: names of files as URIs (RFC 3986), and data URIs (RFC 2397).
+// gltf_uri.c: decodes file names given as URIs (RFC 3986), and data URIs (RFC 2397).
 #include "gltf_uri.h"
 
 #include "companion.h"

@@ -1,4 +1,4 @@
-// gltf_uri.h: names of files as URIs, and data URIs.
+// gltf_uri.h: decodes file names given as URIs, and data URIs.
 #ifndef GLTF_URI_H
 #define GLTF_URI_H
 

@@ -1,5 +1,5 @@
-// draco_module.h: the face of lambent-draco, a shared object of its own that calls Draco's C++ library. It is opened when a file needs it
-// (gltf_draco.c), so that programs start without it. No exception leaves it.
+// draco_module.h: the interface of lambent-draco, a separate shared object that calls Draco's C++ library. gltf_draco.c
+// loads it on demand, so that programs start without it. No exception leaves it.
 #ifndef DRACO_MODULE_H
 #define DRACO_MODULE_H
 

@@ -1,6 +1,5 @@
-// gltf_layers.c: the layers of materials: KHR_materials_ior, specular, clearcoat, sheen, anisotropy, iridescence,
-// transmission and volume. Their members are rows of the tables in
-// khr_layers.h.
+// gltf_layers.c: reads material layers: KHR_materials_ior, specular, clearcoat, sheen, anisotropy, iridescence,
+// transmission and volume. Their members are rows of the tables in khr_layers.h.
 #include "gltf_layers.h"
 
 #include "gltf_json.h"

@@ -53,7 +53,6 @@ static bool resolve(const struct mesh_maker *maker, const struct threemf_propert
     }
     if (!is_group(group))
         return fail_object(maker, "properties with the id", (uint32_t)property->group);
-    const struct threemf_pair *pairs = (const struct threemf_pair *)maker->part->pairs.items + group->first;
     for (int i = 0; i < 3; i++) {
         uint32_t index = property->index[i];
         if (index >= group->count)
@@ -63,8 +62,10 @@ static bool resolve(const struct mesh_maker *maker, const struct threemf_propert
         } else if (group->kind == RESOURCE_TEXCOORDS) {
             out->texcoords[i] = group->first + index;
         } else if (group->kind == RESOURCE_MULTI) {
-            out->colors[i] = pairs[index].color;
-            out->texcoords[i] = pairs[index].texcoord;
+            const struct threemf_pair *pair =
+                (const struct threemf_pair *)maker->part->pairs.items + group->first + index;
+            out->colors[i] = pair->color;
+            out->texcoords[i] = pair->texcoord;
         }
     }
     out->material = group->kind == RESOURCE_BASE ? group->material + (int)property->index[0] : group->material;

@@ -56,6 +56,14 @@ CLASSES = {lib.LAM_BAD_ARGUMENT: BadValue, lib.LAM_CANNOT_READ: BadModel, lib.LA
            lib.LAM_CANNOT_WRITE: CannotWrite, lib.LAM_CANCELLED: Cancelled}
 
 
+def path_bytes(path):
+    """The bytes of a path. C ends a text at a zero character: such a path would name another file."""
+    data = os.fsencode(path)
+    if b"\0" in data:
+        raise BadValue("%r: found a zero character, expected a path" % path)
+    return data
+
+
 def text_of(pointer):
     """A string of the library; NULL is None."""
     return None if pointer == ffi.NULL else ffi.string(pointer).decode(errors="replace")

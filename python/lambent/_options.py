@@ -3,7 +3,7 @@ import difflib
 import math
 import os
 
-from ._core import BadValue, every, text_of
+from ._core import BadValue, every, path_bytes, text_of
 from ._fields import choose, color, range_of, words_of
 from ._members import MEMBERS
 from ._native import ffi, lib
@@ -12,6 +12,13 @@ from ._native import ffi, lib
 LEFT_OUT = {"reserved", "user", "open", "release", "cancel", "progress", "override_color", "from_angles", "normals_when_drawn", "allowed_path_count", "threads"}
 OTHER_NAMES = {"color": "color_mode", "fovy": "fov", "output": "show"}
 UNITS = ("_rad", "_s", "_bytes")
+
+# Numbers that the library takes for "the default" outside of their ranges; nan is outside of each.
+RANGES = {"zoom": (0, math.inf), "fov": (0, 180), "time_limit": (0, math.inf)}
+
+
+def range_in_words(low, high):
+    return "above %g" % low + (" and below %g" % high if high < math.inf else "") if low > -math.inf else "that is finite"
 
 
 class Member:
@@ -37,9 +44,12 @@ class Member:
             return choose(self.name, self.words, value)
         if self.type == "Color":
             return color(self.name, value, mode)
+        low, high = RANGES.get(self.name, (-math.inf, math.inf))
+        if isinstance(value, (int, float)) and self.type == "float" and not low < value < high:
+            raise BadValue("%s: found %r, expected a number %s" % (self.name, value, range_in_words(low, high)))
         try:
             if self.type in ("str", "Sequence[str]"):
-                texts = [ffi.new("char[]", os.fsencode(str(text))) for text in ([value] if self.type == "str" else value)]
+                texts = [ffi.new("char[]", path_bytes(str(text))) for text in ([value] if self.type == "str" else value)]
                 kept += texts
                 kept.append(ffi.new("char *[]", texts))
                 return texts[0] if self.type == "str" else kept[-1]

@@ -6,7 +6,7 @@ import webbrowser
 
 import numpy as np
 
-from ._core import BadValue, call
+from ._core import BadValue, call, path_bytes
 from ._fields import choose, words_of
 from ._native import ffi, lib
 
@@ -58,7 +58,7 @@ class Picture(np.ndarray):
     def save(self, path: "str | os.PathLike[str]", *, compress: str = "fast", quality: int = 0) -> None:
         """Writes a file whose ending names the format; it appears whole or not at all."""
         image, _pixels = self._image()
-        call(lib.lam_image_save, image, os.fsencode(path), self._params(compress, quality))
+        call(lib.lam_image_save, image, path_bytes(path), self._params(compress, quality))
 
     @property
     def hash(self) -> str:

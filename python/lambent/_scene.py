@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 
-from ._core import Access, BadModel, BadValue, OutOfMemory, Unsupported, call, every, run, text_of
+from ._core import Access, BadModel, BadValue, OutOfMemory, Unsupported, call, every, path_bytes, run, text_of
 from ._fields import Camera, Light, Material, color, words_of
 from ._mesh import meshes_of
 from ._native import ffi, lib
@@ -119,7 +119,7 @@ class Scene:
         if name in every(lib.lam_environment_built_in_name):
             made = call(lib.lam_environment_built_in, name.encode())
         else:
-            made = call(lib.lam_environment_load, os.fsencode(name), _mode, _control, path=name)
+            made = call(lib.lam_environment_load, path_bytes(name), _mode, _control, path=name)
         try:
             call(lib.lam_scene_set_environment, self._handle, made, np.radians(rotation))
         finally:
@@ -194,14 +194,14 @@ def load_scene(model, options, name, task, once=False):
     params.override_color = "color_mode" in options
     params.polygon_edges |= bool(options.get("wireframe") or options.get("edges"))
     params.normals_when_drawn = once and not tangents_of(options.filled("lam_draw_params"))
-    if path is not None and lib.lam_shape_find(os.fsencode(path)) >= 0:
+    if path is not None and lib.lam_shape_find(path_bytes(path)) >= 0:
         scene = Scene().add(path)
     elif path is not None:
-        scene = Scene(call(lib.lam_scene_load, os.fsencode(path), params, task.control, path=path))
+        scene = Scene(call(lib.lam_scene_load, path_bytes(path), params, task.control, path=path))
         scene._path = path
     elif isinstance(model, (bytes, bytearray, memoryview)):
         data = ffi.from_buffer(model)
-        scene = Scene(call(lib.lam_scene_load_memory, data, len(data), os.fsencode(name) if name else ffi.NULL, params, task.control))
+        scene = Scene(call(lib.lam_scene_load_memory, data, len(data), path_bytes(name) if name else ffi.NULL, params, task.control))
     else:
         scene = Scene().add(model)
     if scene._path is None and not isinstance(model, (bytes, bytearray, memoryview)): # the loader has done it for files

@@ -29,6 +29,9 @@ static void add_areas(const lam_mesh *mesh, double *all, double *facing)
     }
 }
 
+// Fewer triangles are a sheet, which may well stand upright.
+enum { TRIANGLES_MIN = 1000 };
+
 bool is_terrain_on_z(const struct lam_scene *scene)
 {
     lam_vec3 low, high;
@@ -36,7 +39,7 @@ bool is_terrain_on_z(const struct lam_scene *scene)
     if (!lam_scene_bounds(scene, &low, &high))
         return false;
     double x = high.x - low.x, y = high.y - low.y, z = high.z - low.z, smaller = x < y ? x : y;
-    if (!(z > NOT_FLAT * smaller && z < THIN * smaller))
+    if (lam_scene_triangle_count(scene) < TRIANGLES_MIN || !(z > NOT_FLAT * smaller && z < THIN * smaller))
         return false;
     for (int i = 0; i < scene->meshes.count; i++)
         if (!mesh_is_strokes(scene_mesh(scene, i)))

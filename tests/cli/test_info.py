@@ -66,7 +66,7 @@ class Info(GltfCase):
     def test_up_of_a_terrain(self):
         """A terrain in the plane of x and y is taken as Z up, and said to be; nothing else is, and --up overrides it."""
         def grid(height, floor=False):
-            n = 12
+            n = 30
             vertices = [(x, y, height(x, y)) for y in range(n) for x in range(n)]
             faces = [(k + 1, k + 2, k + n + 2, k + n + 1) for k in range(n * (n - 1)) if k % n < n - 1]
             if floor:  # seen from below, as a plate has it
@@ -78,7 +78,7 @@ class Info(GltfCase):
             return 0.3 * ((7 * x + 5 * y * y) % 4)
 
         for name, text, up in (("hills", grid(hills), "z"), ("flat", grid(lambda x, y: 0), "y"), ("plate", grid(hills, True), "y"),
-                               ("cone", grid(lambda x, y: 9 - abs(x - 5) - abs(y - 5)), "y")):
+                               ("cone", grid(lambda x, y: 30 - abs(x - 15) - abs(y - 15)), "y")):
             (self.folder / f"{name}.obj").write_text(text)
             self.assertEqual(self.info(f"{name}.obj")[0]["up"], up, name)
             self.assertEqual(b"z is taken as up" in self.good(f"{name}.obj", "-s", "32", "-o", "a.png").stderr, up == "z", name)

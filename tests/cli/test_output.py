@@ -58,6 +58,24 @@ class Names(Case):
         self.good("cube.obj", "-s", 16, "-o", "cube.png")
         read_png((self.folder / "cube.png").read_bytes())
 
+    def test_files_of_the_model_stay(self):
+        """No command replaces a file that it reads: the model, what it names, or a picture that is compared."""
+        self.good("cube.obj", "-s", 8, "-o", "skin.png", "-q")
+        (self.folder / "skin.mtl").write_text("newmtl skin\nmap_Kd skin.png\n")
+        (self.folder / "skin.obj").write_text("mtllib skin.mtl\nusemtl skin\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
+        (self.folder / "s.json").write_text(json.dumps({"lambent": 1, "objects": [{"file": "skin.obj"}]}))
+        self.good("cube.obj", "-s", 8, "-o", "other.png", "-q")
+        self.given.update({"skin.png", "skin.mtl", "skin.obj", "s.json", "other.png"})
+        kept = {name: (self.folder / name).read_bytes() for name in self.given}
+        for words in (["skin.obj", "-s", 8, "-o", "skin.png"], ["skin.obj", "-s", 8, "-o", "x.png", "--save-scene", "skin.mtl"], ["convert", "skin.obj", "skin.obj"],
+                      ["convert", "s.json", "skin.obj"], ["diff", "skin.png", "other.png", "-o", "other.png"], ["hash", "skin.obj", "-o", "skin.mtl"]):
+            done = self.run_program(*words)
+            self.assertNotEqual(done.returncode, 0, words)
+            self.assertRegex(done.stderr, b"replaced|one file", words)
+            self.assertEqual(kept, {name: (self.folder / name).read_bytes() for name in kept}, words)
+        self.good("s.json", "-s", 8, "-o", "x.png", "--save-scene", "s.json", "-q")  # a scene file may be written anew
+        self.given.add("x.png")
+
     def test_link_is_written_through_or_replaced_whole(self):
         os.symlink("target.png", self.folder / "out.png")
         self.good("cube.obj", "-s", 16, "-o", "out.png")

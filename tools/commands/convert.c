@@ -11,6 +11,7 @@
 #include "device_option.h"
 #include "interrupt.h"
 #include "job.h"
+#include "job_check.h"
 #include "json.h"
 #include "output.h"
 #include "report.h"
@@ -115,7 +116,8 @@ static bool write_files(struct convert *c, lam_error *error)
             lam_bytes bytes = lam_export_file(c->result, i);
             ok = path || complain(error, LAM_LIMIT, "out of memory");
             if (pass == 0)
-                ok = ok && (i == 0 || check_beside(c, path, error));
+                ok = ok && job_check_inputs(c->job.scene, path, false, error) &&
+                     (i == 0 || check_beside(c, path, error));
             else
                 ok = ok && writer_save(path, &bytes, false, error);
             free(path);

@@ -11,6 +11,7 @@
 
 #include "command_table.h"
 #include "console.h"
+#include "job_check.h"
 #include "job_steps.h"
 #include "output.h"
 #include "scene_settings.h"
@@ -434,7 +435,8 @@ static bool write_file(struct job *job, lam_animation *file, lam_error *error)
         *job->picture_bytes = bytes;
         job->bytes = bytes.size;
     } else {
-        ok = ok && output_save_bytes(&bytes, job->output, job->options->picture.durable, &job->bytes, error);
+        ok = ok && (output_is_stream(job->output) || job_check_inputs(job->scene, job->output, false, error)) &&
+             output_save_bytes(&bytes, job->output, job->options->picture.durable, &job->bytes, error);
         lam_bytes_free(&bytes);
     }
     job->times.encode += clock_ms() - start;

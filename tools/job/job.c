@@ -11,6 +11,7 @@
 #include "console.h"
 #include "environment_apply.h"
 #include "interrupt.h"
+#include "job_check.h"
 #include "job_scene.h"
 #include "light_markers.h"
 #include "limit_options.h"
@@ -402,7 +403,8 @@ lam_save_params job_save_params(const struct job *job, const lam_control *contro
 bool job_write(struct job *job, lam_error *error)
 {
     lam_control control;
-    if (!job_control(job, NULL, &control, error))
+    bool named = !job->picture_bytes && job->output && !output_is_stream(job->output);
+    if (!job_control(job, NULL, &control, error) || (named && !job_check_inputs(job->scene, job->output, false, error)))
         return false;
     double start = clock_ms();
     lam_save_params params = job_save_params(job, &control);

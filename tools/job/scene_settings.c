@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "job_check.h"
 #include "options.h"
 #include "environment_option.h"
 #include "output.h"
@@ -151,7 +152,8 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     }
     lam_bytes bytes = {0};
     uint64_t size;
-    bool ok = take_environment(job->options, &s, &names, error) &&
+    bool ok = job_check_inputs(job->scene, job->options->picture.save_scene, true, error) &&
+              take_environment(job->options, &s, &names, error) &&
               lam_scene_encode(job->scene, &s, job->options->picture.save_scene, &bytes, error) &&
               output_save_bytes(&bytes, job->options->picture.save_scene, false, &size, error);
     lam_bytes_free(&bytes);

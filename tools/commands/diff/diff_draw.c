@@ -69,6 +69,10 @@ static lam_scene *scene_of_box(const struct box *box, lam_up up, lam_error *erro
 // model define one.
 static bool share(struct job *old, struct job *new, struct job_shared *shared, lam_error *error)
 {
+    if (lam_scene_up(old->scene) != lam_scene_up(new->scene)) { // no camera shows both upright: each has its own
+        old->shared = new->shared = NULL;
+        return true;
+    }
     struct box box = {0};
     box_of(old->scene, new->scene, &box);
     lam_vec3 size = {box.maximum.x - box.minimum.x, box.maximum.y - box.minimum.y, box.maximum.z - box.minimum.z};

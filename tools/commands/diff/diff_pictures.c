@@ -10,6 +10,7 @@
 #include "exit_codes.h"
 #include "json.h"
 #include "limit_options.h"
+#include "job_check.h"
 #include "output.h"
 #include "report.h"
 #include "sandbox_start.h"
@@ -130,7 +131,10 @@ int diff_pictures(char **operands, const struct options *options)
              !(pair.output = output_path(options->picture.output, pair.name[0], "-difference.png")))
         ok = complain(&error, LAM_LIMIT, "out of memory");
     else if (options->picture.output && !to_stdout)
-        ok = output_check(pair.output, pair.name[0], output_is_named(options->picture.output), &error);
+        ok = output_check(pair.output, pair.name[0], output_is_named(options->picture.output), &error) &&
+             ((!job_is_same_file(pair.output, operands[0]) && !job_is_same_file(pair.output, operands[1])) ||
+              complain(&error, LAM_BAD_ARGUMENT,
+                       "%.300s: this picture is compared, and would be replaced; name another output", pair.output));
     if (ok) {
         struct sandbox_paths paths = {0};
         for (int i = 0; i < 2; i++)

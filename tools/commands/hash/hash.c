@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "batch_key.h"
 #include "batch_run.h"
@@ -315,6 +316,13 @@ static bool prepare(struct hash_run *run, int count, char **operands, lam_error 
     run->path = run->checks ? o->hash.check : o->picture.output;
     if (run->checks && !say_head(run, error))
         return false;
+    lam_error ignored;
+    struct hash_file other = {0};
+    bool replaces = !run->checks && access(run->path, F_OK) == 0 && !hash_file_read(&other, run->path, &ignored);
+    hash_file_free(&other);
+    if (replaces)
+        return complain(error, LAM_CANNOT_WRITE, "%.300s: this file would be replaced, and is no file of lambent hash",
+                        run->path);
     if ((!run->checks || o->hash.update) && strcmp(run->path, "-") != 0 &&
         !output_check(run->path, "", OUTPUT_NAMED, error))
         return false;

@@ -93,6 +93,14 @@ class Hash(Case):
             (self.folder / "p.hash").write_text(text.replace(head, line))
             self.bad(2, "hash", "--check", "p.hash", says=says)
 
+    def test_update_of_some(self):
+        """--update of one model keeps the hashes of others that exist, and drops those of files that are gone."""
+        self.write()
+        before = self.lines()
+        os.remove(self.folder / "m/sub/cube.obj")
+        self.check("m/a.stl", "--check", "p.hash", "--update", code=0)
+        self.assertEqual(self.lines(), [line for line in before if "cube.obj" not in line])
+
     def test_update(self):
         self.write("--pictures", "kept")
         self.assertEqual(xxh64(read_png((self.folder / "kept/m/a.stl.png").read_bytes())[2]), self.lines()[3].split()[0])

@@ -41,7 +41,7 @@ class Sentences(Case):
         self.check({
             "cube.obj -o t.mp4": (3, "lambent cannot write .mp4", ANIMATION), "cube.obj -o t.GIF": (3, ANIMATION),
             "cube.obj -o t.pdf": (3, "use .png"), "cube.obj -o t.hdr": (3, "use .exr"), "cube.obj -o t.pgn": (3, "use .png"),
-            "cube.obj -o t.glb": (3, "does not convert them"), "shape cube -o t.glb": (3, ".obj, .stl or .ply"),
+            "cube.obj -o t.glb": (3, "to write a model: lambent convert"), "shape cube -o t.glb": (3, ".obj, .stl or .ply"),
             "cube.obj --output=~/t.png": (1, "--output ~/t.png"), "cube.obj --out-dir x": (1, "'--output'"),
             "-w 640 -h 480 cube.obj": (1, SIZE), "cube.obj -w640": (1, SIZE), "cube.obj -h480": (1, SIZE),
         })

@@ -840,7 +840,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"tolerance", 0, GROUP_DIFF, "STEPS", "0",
      "The largest allowed difference of a channel, in steps of 1/255; above it the exit code is 6.", NULL,
      .store = store_number, .others = "threshold epsilon", FIELD(diff.tolerance), .min = 0, .max = 1e9},
-    {"gain", 0, GROUP_DIFF, "FACTOR", "16", "The factor that amplifies the picture of the difference.", NULL,
+    {"gain", 0, GROUP_DIFF, "FACTOR", "16", "Amplify the difference picture by this factor.", NULL,
      .store = store_number, .others = "amplify", FIELD(diff.gain), .min = 0.001, .max = 1e6},
 
     {"check", 0, GROUP_HASH, "FILE", NULL, "Compare with the hashes in FILE; the exit code is 6 if they differ.",
@@ -910,7 +910,7 @@ struct option option_table[OPTIONS_MAX] = {
      term_words, .store = store_words, FIELD(check.terms)},
     {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to use, separated by commas: all,gate,near.", NULL,
      .store = store_text, FIELD(check.scenes)},
-    {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "The limit of a shader's processor time, for all scenes.",
+    {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "Limit a shader's processor time, for all scenes.",
      "Lambent adds the processor time of all threads, so other programs on the machine do not affect it. The elapsed "
      "time may be up to 20 times as long.",
      .store = store_number, FIELD(check.stop_after_s), .min = 0.1, .max = 1e6},

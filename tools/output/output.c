@@ -127,7 +127,7 @@ bool output_format(const char *path, lam_pixel_format *format, lam_error *error)
         return true;
     size_t used = strlen(error->text);
     if (is_model_name(path))
-        snprintf(error->text + used, sizeof error->text - used, "; lambent draws models and does not convert them");
+        snprintf(error->text + used, sizeof error->text - used, "; to write a model: lambent convert MODEL OUT");
     return false;
 }
 

@@ -86,6 +86,23 @@ static bool name_models(struct hash_run *run, lam_error *error)
     return ok;
 }
 
+// Finds the models of the file that the command line does not name although they exist: --update keeps their hashes.
+static bool find_kept(struct hash_run *run, lam_error *error)
+{
+    run->kept = calloc(run->then.count + 1, sizeof *run->kept);
+    bool ok = run->kept != NULL;
+    for (size_t i = 0; ok && run->options->hash.update && i < run->then.count; i++) {
+        char *model = hash_file_model(run->path, run->then.entries[i].name);
+        ok = model != NULL;
+        bool named = false;
+        for (size_t k = 0; ok && !named && k < run->plan.count; k++)
+            named = strcmp(run->names[k], run->then.entries[i].name) == 0;
+        run->kept[i] = ok && !named && (lam_shape_find(model) >= 0 || access(model, F_OK) == 0);
+        free(model);
+    }
+    return ok || complain(error, LAM_LIMIT, "out of memory");
+}
+
 // --- drawing
 
 static bool save_picture(const struct hash_run *run, const char *name, const struct job *job, lam_error *error)
@@ -181,7 +198,7 @@ static bool write_file(struct hash_run *run, json_t *const *records, char *optio
 {
     struct hash_file out = {.version = (char *)(uintptr_t)lam_version(), // are only read
                             .options = options_text,
-                            .entries = calloc(run->plan.count + 1, sizeof *out.entries)};
+                            .entries = calloc(run->plan.count + run->then.count + 1, sizeof *out.entries)};
     bool ok = out.entries || complain(error, LAM_LIMIT, "out of memory");
     for (size_t i = 0; ok && i < run->plan.count; i++) {
         const char *text = json_string_value(json_object_get(records[i], "pixels"));
@@ -189,6 +206,9 @@ static bool write_file(struct hash_run *run, json_t *const *records, char *optio
         if (text && xxh64_parse(text, &entry.hash))
             out.entries[out.count++] = entry;
     }
+    for (size_t i = 0; ok && i < run->then.count; i++) // models that were not drawn, and are still there
+        if (run->kept[i])
+            out.entries[out.count++] = run->then.entries[i];
     hash_file_sort(&out);
     char *text = ok ? hash_file_text(&out) : NULL;
     ok = ok && (text || complain(error, LAM_LIMIT, "out of memory"));
@@ -328,7 +348,7 @@ static bool prepare(struct hash_run *run, int count, char **operands, lam_error 
         return false;
     if (o->hash.update && (!(run->sheet = hash_sheet_path(run->path)) || !(run->rows = shared_count_make())))
         return complain(error, LAM_LIMIT, "out of memory");
-    return add_models(run, count, operands, error) && name_models(run, error);
+    return add_models(run, count, operands, error) && name_models(run, error) && find_kept(run, error);
 }
 
 // Draws and compares with the options of the command line and of the file.
@@ -362,6 +382,7 @@ int run_hash(int operand_count, char **operands, const struct options *options)
     for (size_t i = 0; run.names && i < run.plan.count; i++)
         free(run.names[i]);
     free(run.names);
+    free(run.kept);
     free(run.sheet);
     shared_count_free(run.rows);
     hash_file_free(&run.then);

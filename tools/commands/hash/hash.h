@@ -17,6 +17,7 @@ struct hash_run {
     struct hash_file now;   // as it is
     struct batch_plan plan; // the models
     char **names;           // of the models, as they stand in the file; from malloc
+    bool *kept;             // of the file's entries: not among the models, and they exist; from malloc
     char *sheet;            // --update: the path of the sheet, from malloc
     atomic_int *rows;       // --update: pictures that were kept for it
 };

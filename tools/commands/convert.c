@@ -11,7 +11,7 @@
 #include "device_option.h"
 #include "interrupt.h"
 #include "job.h"
-#include "job_check.h"
+#include "job_inputs.h"
 #include "json.h"
 #include "output.h"
 #include "report.h"

@@ -11,7 +11,7 @@
 
 #include "command_table.h"
 #include "console.h"
-#include "job_check.h"
+#include "job_inputs.h"
 #include "job_steps.h"
 #include "output.h"
 #include "scene_settings.h"

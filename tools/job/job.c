@@ -11,7 +11,7 @@
 #include "console.h"
 #include "environment_apply.h"
 #include "interrupt.h"
-#include "job_check.h"
+#include "job_inputs.h"
 #include "job_scene.h"
 #include "light_markers.h"
 #include "limit_options.h"

@@ -2,7 +2,6 @@
 #include "job_check.h"
 
 #include <string.h>
-#include <sys/stat.h>
 
 #include "animate.h"
 #include "console.h"
@@ -70,22 +69,5 @@ bool job_check_formula(const char *model, const struct options *o, lam_error *er
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (rows[i].stray)
             return complain(error, LAM_BAD_ARGUMENT, "option '--%s' belongs to %s", rows[i].name, rows[i].kind);
-    return true;
-}
-
-bool job_is_same_file(const char *a, const char *b)
-{
-    struct stat one, other;
-    return stat(a, &one) == 0 && stat(b, &other) == 0 && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
-}
-
-bool job_check_inputs(const lam_scene *scene, const char *path, bool own, lam_error *error)
-{
-    bool may = own && strcmp(lam_scene_format(scene), "scene") == 0;
-    for (int i = may ? 1 : 0; lam_scene_file(scene, i); i++)
-        if (job_is_same_file(path, lam_scene_file(scene, i)))
-            return complain(error, LAM_BAD_ARGUMENT,
-                            "%.300s: the model was read from this file, which would be replaced; name another output",
-                            path);
     return true;
 }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "job_check.h"
+#include "job_inputs.h"
 #include "options.h"
 #include "environment_option.h"
 #include "output.h"

@@ -10,7 +10,7 @@
 #include "exit_codes.h"
 #include "json.h"
 #include "limit_options.h"
-#include "job_check.h"
+#include "job_inputs.h"
 #include "output.h"
 #include "report.h"
 #include "sandbox_start.h"

@@ -19,7 +19,7 @@ typedef struct lam_explained_light_layers {
     float S;            // of the base: π D V max(n·l, 0)
     float base_diffuse; // max(n·l, 0) (1 − max F) matt
     lam_rgb base;       // F S, F the mix of dielectric and metal
-    float sheen_left;   // the fraction of light that passes the sheen to the base; 1: no sheen
+    float sheen_left;   // the fraction of light that passes the sheen; 1: no sheen
     lam_rgb sheen;      // sheen_color π D V n·l of its fibres
     float coat;         // share S of the coat; 0: no coat
     LAM_RESERVED(4);

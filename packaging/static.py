@@ -108,9 +108,8 @@ def main():
         sys.exit("static: found the machine %s, expected %s" % (machine, " or ".join(DEBIAN_NAMES)))
     prefix = machine + "-linux-gnu-" if is_cross else ""
     folder.mkdir(parents=True, exist_ok=True)
-    libraries.LIBRARIES = SOURCES
     if not all((folder / "root" / "pkgconfig" / ("%s.pc" % row["library"])).exists() for row in SOURCES):
-        libraries.fetch(str(folder))
+        libraries.fetch(str(folder), [row["source"] for row in SOURCES])
         check_sums(folder)
         if is_cross:
             unpack_packages(folder, machine)

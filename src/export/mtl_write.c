@@ -137,8 +137,10 @@ static void lose(struct exporting *e, const lam_material *m)
                         m->iridescence > 0 || m->transmission > 0 || m->thickness > 0 || m->specular_glossiness > 0 ||
                         m->sheen_color.r > 0 || m->sheen_color.g > 0 || m->sheen_color.b > 0))
         export_lose(e, "layers of physical materials are left out (coats, sheen, films, glass): MTL has none");
-    if (m->alpha_mode != LAM_ALPHA_BLEND &&
-        (m->diffuse.a < 1 || m->maps[LAM_MAP_OPACITY] || m->maps[LAM_MAP_DIFFUSE]) && m->alpha_mode == LAM_ALPHA_MASK)
+    const lam_texture_map *color = m->maps[LAM_MAP_DIFFUSE];
+    if (m->alpha_mode == LAM_ALPHA_OPAQUE && color && !color->texture->opaque)
+        export_lose(e, "the alpha of pictures of opaque materials becomes opacity: MTL cannot ignore it");
+    if (m->alpha_mode == LAM_ALPHA_MASK && (m->diffuse.a < 1 || m->maps[LAM_MAP_OPACITY] || color))
         export_lose(e, "cut-outs by opacity become blended: MTL has no threshold");
     if (kr.r > 0 || kr.g > 0 || kr.b > 0 || m->roughness_angle_rad != d.roughness_angle_rad || m->fibre)
         export_lose(e, "reflectivity, Oren-Nayar's roughness and fibres of materials are left out: MTL has none");

@@ -161,6 +161,14 @@ class Gltf(GltfCase):
             self.assertEqual((self.folder / "t0.png").read_bytes(), (self.folder / "t1.png").read_bytes())
             self.given.update(["a.png", "b.png", "a.json", "front.png", "back.png", "t0.png", "t1.png"])
 
+    def test_glass_that_is_not_shown(self):
+        """A warning says that glass is opaque under methods that do not show it."""
+        model = self.model(materials=[{"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}, {}, {}])
+        for words, said in (((), False), (("--reflection", "phong"), True), (("--shading", "gouraud"), True)):
+            text = self.good(model, "-s", "16", "-b", "white", "-o", "a.png", *words).stderr
+            self.assertEqual(b"glass is drawn opaque" in text, said, (words, text))
+        self.given.add("a.png")
+
     def test_moved_lights(self):
         """A scene file that places a model places its lights and cameras too."""
         light = {"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 30, "name": "lamp"}]}}

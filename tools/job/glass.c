@@ -1,4 +1,4 @@
-// glass.c: a note about coloured glass over a transparent background.
+// glass.c: notes about glass: coloured over a transparent background, and drawn by a method that does not show it.
 #include "job_steps.h"
 
 static bool is_grey(float r, float g, float b) { return r == g && g == b; }
@@ -11,8 +11,20 @@ static bool colors_light(const lam_material *m)
              !is_grey(m->attenuation_color.r, m->attenuation_color.g, m->attenuation_color.b)));
 }
 
+static bool is_shown(const lam_draw_params *draw)
+{
+    bool other = draw->reflection != LAM_REFLECTION_AUTO && !lam_reflection_describe(draw->reflection)->microfacet;
+    return draw->shading == LAM_SHADING_PHONG && !other;
+}
+
 void job_note_glass(struct job *job, const lam_draw_params *draw)
 {
+    for (int i = 0; !is_shown(draw) && i < lam_scene_material_count(job->scene); i++)
+        if (lam_scene_material(job->scene, i)->physical && lam_scene_material(job->scene, i)->transmission > 0) {
+            lam_scene_add_warning(
+                job->scene, "glass is drawn opaque: only Phong shading with a physical reflection model shows it");
+            return;
+        }
     if (draw->background.a > 0 || draw->output != LAM_OUTPUT_PICTURE)
         return;
     for (int i = 0; i < lam_scene_material_count(job->scene); i++)

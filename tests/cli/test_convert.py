@@ -249,6 +249,13 @@ end_header
         self.given.add("bad.obj")
         self.bad(2, "convert", "bad.obj", "x.glb", says="bad.obj")
 
+    def test_endings_in_capitals(self):
+        """The format of .STL is that of .stl, and the file has the name that was given."""
+        for ending in ("STL", "GLB", "Obj", "PLY", "3MF"):
+            self.good("convert", "cube.obj", f"c.{ending}", "-q")
+            self.good(f"c.{ending}", "-s", 16, "-o", "x.png", "-q")
+        self.given.update({"c.STL", "c.GLB", "c.Obj", "c.PLY", "c.3MF", "c.mtl", "x.png"})
+
     def test_names(self):
         """Names of materials and objects with every kind of character become names that are read again."""
         (self.folder / "m.mtl").write_text("newmtl a b\nKd 1 0 0\nnewmtl <&\">\nKd 0 1 0\n")

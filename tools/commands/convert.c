@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 #include "console.h"
@@ -22,6 +23,7 @@ enum { THUMBNAIL = 512 };
 struct convert {
     const struct options *options;
     const char *model, *output;
+    const char *format;
     bool replaces; // the output was there before: so may be the files beside it
     struct job job;
     lam_export *result;
@@ -39,27 +41,31 @@ static const char *ending(const char *path)
     return dot ? dot + 1 : "";
 }
 
-// Returns the path of a file of the result, from malloc. Returns NULL if memory runs out.
-static char *path_of(const struct convert *c, const char *name)
+// Returns the path of file `i` of the result, from malloc: 0 is the output, as it was named. Returns NULL if memory runs out.
+static char *path_of(const struct convert *c, int i)
 {
     char *path = NULL;
     int folder = (int)(file_name(c->output) - c->output);
-    return asprintf(&path, "%.*s%s", folder, c->output, name) < 0 ? NULL : path;
+    if (i == 0)
+        return strdup(c->output);
+    return asprintf(&path, "%.*s%s", folder, c->output, lam_export_file_name(c->result, i)) < 0 ? NULL : path;
 }
 
-static bool check_ending(const char *path, lam_error *error)
+// Returns the format that the ending of a path names, in capitals too. Returns NULL if there is none; see `error`.
+static const char *find_format(const char *path, lam_error *error)
 {
     char list[100] = "";
     for (int i = 0; lam_export_format(i); i++) {
-        if (strcmp(ending(path), lam_export_format(i)) == 0)
-            return true;
+        if (strcasecmp(ending(path), lam_export_format(i)) == 0)
+            return lam_export_format(i);
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s.%s",
                  i == 0                      ? ""
                  : !lam_export_format(i + 1) ? " or "
                                              : ", ",
                  lam_export_format(i));
     }
-    return complain(error, LAM_UNSUPPORTED, "%.300s: lambent cannot write this format of models; write %s", path, list);
+    complain(error, LAM_UNSUPPORTED, "%.300s: lambent cannot write this format of models; write %s", path, list);
+    return NULL;
 }
 
 static bool check(struct convert *c, lam_error *error)
@@ -67,12 +73,12 @@ static bool check(struct convert *c, lam_error *error)
     struct stat in, out;
     if (strcmp(c->output, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "convert writes a file whose ending names its format, found '-'");
-    if (c->options->convert.thumbnail && strcmp(ending(c->output), "glb") != 0)
+    if (c->options->convert.thumbnail && strcasecmp(ending(c->output), "glb") != 0)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--thumbnail' goes with an output that ends in .glb, found %.200s", c->output);
     if (c->options->convert.thumbnail && strcmp(c->model, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--thumbnail' reads the model twice, so it cannot read '-'");
-    if (!check_ending(c->output, error) || !output_check(c->output, "", OUTPUT_NAMED, error))
+    if (!(c->format = find_format(c->output, error)) || !output_check(c->output, "", OUTPUT_NAMED, error))
         return false;
     c->replaces = stat(c->output, &out) == 0;
     bool same = c->replaces && stat(c->model, &in) == 0 && in.st_dev == out.st_dev && in.st_ino == out.st_ino;
@@ -112,7 +118,7 @@ static bool write_files(struct convert *c, lam_error *error)
         count++;
     for (int pass = 0; pass < 2; pass++)
         for (int i = count - 1; ok && i >= 0; i--) {
-            char *path = path_of(c, lam_export_file_name(c->result, i));
+            char *path = path_of(c, i);
             lam_bytes bytes = lam_export_file(c->result, i);
             ok = path || complain(error, LAM_LIMIT, "out of memory");
             if (pass == 0)
@@ -154,7 +160,7 @@ static bool convert(struct convert *c, struct progress *progress, lam_error *err
     if (c->options->convert.thumbnail && !draw_thumbnail(c, progress, &thumbnail, error))
         return false;
     params.thumbnail = c->options->convert.thumbnail ? &thumbnail : NULL;
-    c->result = lam_scene_export(c->job.scene, ending(c->output), &params, error);
+    c->result = lam_scene_export(c->job.scene, c->format, &params, error);
     lam_image_free(&thumbnail);
     return c->result && write_files(c, error);
 }
@@ -171,7 +177,7 @@ static void print_json(const struct convert *c)
     json_count(&json, "points", c->job.model_counts.points);
     json_open(&json, "files", '[');
     for (int i = 0; lam_export_file_name(c->result, i); i++) {
-        char *path = path_of(c, lam_export_file_name(c->result, i));
+        char *path = path_of(c, i);
         json_open(&json, NULL, '{');
         json_text(&json, "path", path);
         json_count(&json, "bytes", lam_export_file(c->result, i).size);
@@ -201,7 +207,7 @@ static void print_text(const struct convert *c)
     say_plain("%s  %s  %zu bytes\n", c->output, model_counts_text(&c->job.model_counts, counts),
               lam_export_file(c->result, 0).size);
     for (int i = 1; lam_export_file_name(c->result, i); i++) {
-        char *path = path_of(c, lam_export_file_name(c->result, i));
+        char *path = path_of(c, i);
         say_plain("%s  %zu bytes\n", path ? path : "", lam_export_file(c->result, i).size);
         free(path);
     }

@@ -36,7 +36,7 @@ void print_help(const struct command *command)
 static void brief_option(const struct option *o, const struct command *command)
 {
     char left[64], text[512], letter[8] = "    ";
-    const char *standard = default_of(command, o), *brief = o->brief ? o->brief : o->summary, *value = o->value;
+    const char *standard = default_of(command, o), *brief = brief_of(command, o), *value = o->value;
     if (o->letter)
         snprintf(letter, sizeof letter, "-%c, ", o->letter);
     bool long_value = value && strlen("  -x, --") + strlen(o->name) + 1 + strlen(value) >= BRIEF_COLUMN;

@@ -11,22 +11,34 @@
        1ull << GROUP_SHADER | 1ull << GROUP_SHAPE | 1ull << GROUP_VIEWER | 1ull << GROUP_HASH |                        \
        1ull << GROUP_CONVERT | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION))
 
-static const struct own_default compare_defaults[] = {
-    {"output", "MODEL-SHEET.png"}, {"size", "480x400 each"}, {"background", SHEET_BACKGROUND}, {NULL, NULL}};
-static const struct own_default batch_defaults[] = {{"output", "{stem}.png"}, {NULL, NULL}};
-static const struct own_default journal_defaults[] = {{"output", "no merged journal"}, {NULL, NULL}};
-static const struct own_default explain_defaults[] = {{"output", "no figure"}, {NULL, NULL}};
-static const struct own_default check_defaults[] = {
-    {"output", "no sheet"}, {"size", "128"}, {"tolerance", "2"}, {"memory-limit", "1Gi"}, {NULL, NULL}};
-static const struct own_default shader_defaults[] = {{"output", "standard output"}, {NULL, NULL}};
-static const struct own_default shape_defaults[] = {{"output", "NAME.png, parametric.png or implicit.png"},
-                                                    {NULL, NULL}};
+static const struct own_default compare_defaults[] = {{"output", "MODEL-SHEET.png", NULL},
+                                                      {"size", "480x400 each", NULL},
+                                                      {"background", SHEET_BACKGROUND, NULL},
+                                                      {NULL, NULL, NULL}};
+static const struct own_default batch_defaults[] = {{"output", "{stem}.png", NULL}, {NULL, NULL, NULL}};
+static const struct own_default journal_defaults[] = {{"output", "no merged journal", NULL}, {NULL, NULL, NULL}};
+static const struct own_default explain_defaults[] = {{"output", "no figure", NULL}, {NULL, NULL, NULL}};
+static const struct own_default check_defaults[] = {{"output", "no sheet", NULL},
+                                                    {"size", "128", NULL},
+                                                    {"tolerance", "2", NULL},
+                                                    {"memory-limit", "1Gi", NULL},
+                                                    {NULL, NULL, NULL}};
+static const struct own_default shader_defaults[] = {{"output", "standard output", NULL}, {NULL, NULL, NULL}};
+static const struct own_default shape_defaults[] = {{"output", "NAME.png, parametric.png or implicit.png", NULL},
+                                                    {NULL, NULL, NULL}};
 static const struct own_default diff_defaults[] = {
-    {"output", "no picture, no page"}, {"size", "384x384"}, {NULL, NULL}};
-static const struct own_default hash_defaults[] = {{"output", "none: --check compares"}, {NULL, NULL}};
-static const struct own_default plot_defaults[] = {{"output", "KIND.png"}, {"size", "1600x1000"}, {NULL, NULL}};
-static const struct own_default materials_defaults[] = {
-    {"output", "no sheet"}, {"size", "1024x593"}, {"background", SHEET_BACKGROUND}, {NULL, NULL}};
+    {"output", "no picture, no page", "a picture of two pictures' difference, or a page: FILE.html"},
+    {"size", "384x384", "of the pictures of models: 800 or 1920x1080"},
+    {NULL, NULL, NULL}};
+static const struct own_default hash_defaults[] = {{"output", "none: --check compares", "the text file of hashes"},
+                                                   {"size", NULL, "of the pictures: 800 or 1920x1080"},
+                                                   {NULL, NULL, NULL}};
+static const struct own_default plot_defaults[] = {
+    {"output", "KIND.png", NULL}, {"size", "1600x1000", NULL}, {NULL, NULL, NULL}};
+static const struct own_default materials_defaults[] = {{"output", "no sheet", NULL},
+                                                        {"size", "1024x593", NULL},
+                                                        {"background", SHEET_BACKGROUND, NULL},
+                                                        {NULL, NULL, NULL}};
 
 const struct command command_table[] = {
     [COMMAND_render] = {"render", "MODEL...",
@@ -148,8 +160,16 @@ const char *default_of(const struct command *command, const struct option *optio
 {
     for (const struct own_default *d = command->defaults; d && d->option; d++)
         if (strcmp(d->option, option->name) == 0)
-            return d->standard;
+            return d->standard ? d->standard : option->standard;
     return option->standard;
+}
+
+const char *brief_of(const struct command *command, const struct option *option)
+{
+    for (const struct own_default *d = command->defaults; d && d->option; d++)
+        if (strcmp(d->option, option->name) == 0 && d->brief)
+            return d->brief;
+    return option->brief ? option->brief : option->summary;
 }
 
 uint64_t find_groups(const char *name)

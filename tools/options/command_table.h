@@ -15,7 +15,9 @@ enum command_index { COMMANDS(COMMAND_INDEX) COMMAND_COUNT };
 
 // A command's own default of an option that others take too. Ends with a NULL option.
 struct own_default {
-    const char *option, *standard;
+    const char *option;
+    const char *standard; // NULL: the option's
+    const char *brief;    // for -h, in place of the option's; NULL: the option's
 };
 
 struct command {
@@ -30,6 +32,9 @@ struct command {
 };
 
 extern const struct command command_table[]; // in the order of COMMANDS; ends with a NULL name
+
+// Returns the text of an option for the command's -h.
+const char *brief_of(const struct command *command, const struct option *option);
 
 const struct command *find_command(const char *name); // NULL: no such command
 uint64_t find_groups(const char *name);               // of a command; 0: no such command

@@ -121,7 +121,7 @@ class Described:
 class Material(type("Fields", (Described,), fields_of(lib.lam_material_field))):
     """A material: `Material("ruby")`, `Material("gold,opacity=0.5")`, `Material(diffuse="#ff8800", shininess=80)`.
 
-    The words are those of the program's option --material: a name of the classic table, then keys with values. Colours are linear
+    The words follow the program's option --material: a name of the classic table, then keys with values. Colours are linear
     reflectances as three or four numbers, one number, or a text, which is decoded from sRGB: "#ff8800", "orange"."""
 
     def __init__(self, words="", **fields):
@@ -162,7 +162,7 @@ class Material(type("Fields", (Described,), fields_of(lib.lam_material_field))):
 class Light(type("Fields", (Described,), fields_of(lib.lam_light_field))):
     """A light: `Light("point", position=(2, 3, 1), color="orange", intensity=2)`, `Light("spot:position=2r/3r/1r,cutoff=20")`.
 
-    `type` is ambient, hemisphere, point, directional or spot; keywords are those of the program's option --light, so also color, intensity,
+    `type` is ambient, hemisphere, point, directional or spot; keywords follow the program's option --light, so also color, intensity,
     target, frame and name. Without a position a point or spot light stands at 1r/2r/3r, where r is the radius of the scene."""
 
     def __init__(self, type="point", **fields):

@@ -124,18 +124,18 @@ def find_keywords():
 
 KEYWORDS = find_keywords()
 STRUCTS = {"lam_draw_params", "lam_view", "lam_control"} # of a scene that exists
-# What a picture needs besides, with type and meaning.
+# Keywords outside the tables, with type and meaning.
 OTHERS = {
     "view": ("Literal", "The side to look from: a name; azimuth and elevation replace its angles."),
     "camera": ("Camera | str", "The camera, or its words (\"eye=2/1/4,fovy=40\"), or the name of a camera of the file."),
     "floats": ("bool", "Linear floats, premultiplied by alpha, in place of 8 bits."),
     "threads": ("int", "Threads that load and draw; 0: one for each processor."),
 }
-# What changes the scene: for models that are loaded by the call.
+# Keywords that change the scene: only for models that the call loads.
 CHANGES = {
     "material": ("Material | str", "For all surfaces: a material, or words such as \"ruby\" and \"roughness=0.3\", which change the file's."),
     "light": ("Light | str | Sequence[Light | str]", "Lights in place of the file's and the studio's, which `rig` names."),
-    "ambient": ("Color", "Light from everywhere, added to that of the lights."),
+    "ambient": ("Color", "Light from everywhere, in addition to the lights."),
     "environment": ("str", "A picture, or a built-in environment, that surfaces mirror and that lights physical materials."),
     "environment_rotation": ("float", "Its angle about the up axis, in degrees."),
 }

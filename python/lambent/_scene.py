@@ -67,7 +67,7 @@ class Scene:
         return made
 
     def set_material(self, material: "Material | str", index: "int | None" = None, _mode=lib.LAM_COLOR_SRGB) -> None:
-        """Replaces the material with this number. None: all of them, and that of surfaces without one; words such as "shininess=9" change them."""
+        """Replaces the material with this number. None: all materials, and the default one of surfaces without a material; words such as "shininess=9" change them."""
         indices = range(lib.lam_scene_material_count(self._handle)) if index is None else [index]
         for at in indices:
             old = lib.lam_scene_material(self._handle, at)
@@ -94,7 +94,7 @@ class Scene:
 
     @property
     def ambient(self) -> "tuple[float, float, float]":
-        """Light from everywhere, added to that of the lights: a linear colour, default 0."""
+        """Light from everywhere, in addition to the lights: a linear colour, default 0."""
         found = lib.lam_scene_ambient(self._handle)
         return found.r, found.g, found.b
 
@@ -143,7 +143,7 @@ class Scene:
         return tuple(every(lib.lam_scene_warning, self._handle))
 
     def render(self, size=None, *, progress=None, **options):
-        """Draws the scene, which stays as it is. `rig` adds lights to those of the scene. `size` and `progress` are those of `lambent.render`.
+        """Draws the scene, which stays as it is. `rig` adds lights to those of the scene. `size` and `progress` work as in `lambent.render`.
 
     Keyword arguments:
 """
@@ -327,7 +327,7 @@ def paint(scene, options, camera, params, size, task, fitted):
 
 
 def load(model, *, name=None, progress=None, **options):
-    """Reads a model into a Scene; `model`, `name` and `progress` are those of `render`.
+    """Reads a model into a Scene; `model`, `name` and `progress` work as in `render`.
 
     Keyword arguments:
 """
@@ -339,8 +339,8 @@ def render(model, size=None, *, name=None, progress=None, **options):
     """Turns a model into a Picture, the one that `lambent MODEL` draws.
 
     model     the path of a model or scene file, the name of a built-in shape, the bytes of a file, a Scene, a Mesh, arrays (vertices, faces), or an
-              object with vertices and faces, such as those of trimesh, meshio and Open3D
-    size      pixels: one number or (width, height); None: those of a scene file, or 1024
+              object with vertices and faces, such as the meshes of trimesh, meshio and Open3D
+    size      pixels: one number or (width, height); None: the size in a scene file, or 1024
     name      of bytes: stands for the file in errors, and its ending helps to find the format
     progress  is called with the share done, 0 to 1, and the name of the step; if it returns False, the call raises Cancelled
 

@@ -184,7 +184,7 @@ def readme_section(result):
     for kind in ("ply", "stl", "obj"):
         row, default = rows.get("whole 1M " + kind), rows.get("whole 1M %s, default" % kind)
         if row and default and "cpu_ms" in row:
-            lines.append(("A %s file of a million triangles to a PNG of 1024×1024 pixels" % kind.upper(), ms(row["ms"][isa]["median"]) + " ms", ms(row["ms"]["f3d"]["median"]) + " ms",
+            lines.append(("%s file of a million triangles to a PNG of 1024×1024 pixels" % kind.upper(), ms(row["ms"][isa]["median"]) + " ms", ms(row["ms"]["f3d"]["median"]) + " ms",
                           times(row["ratio"][isa]["median"]), ms(default["ms"][isa]["median"]) + " ms"))
             numbers += [row["number"], default["number"]]
     if result["frames"].get(isa):

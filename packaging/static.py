@@ -32,6 +32,10 @@ INSIDE = [*PACKAGES, "fonts-dejavu-core", "libc6-dev", "libgcc-*-dev"]
 DEBIAN_NAMES = {"x86_64": "amd64", "aarch64": "arm64"}
 
 
+# The linker leaves out the functions that nothing calls, for the sake of size.
+SECTIONS, UNUSED = "-ffunction-sections -fdata-sections", "-Wl,--gc-sections"
+
+
 def call(*command, **more):
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **more)
     if done.returncode:
@@ -83,10 +87,10 @@ def unpack_packages(folder, machine):
 def cross_file(folder, machine, prefix):
     path = folder / "cross.ini"
     headers, files = next(folder.glob("debian/usr/include/*-linux-gnu")), next(folder.glob("debian/usr/lib/*/pkgconfig"))
-    path.write_text("[binaries]\nc = '%sgcc'\nar = '%sar'\nstrip = '%sstrip'\npkgconfig = 'pkg-config'\n[built-in options]\nc_args = ['-I%s']\nc_link_args = ['-L%s']\n"
+    path.write_text("[binaries]\nc = '%sgcc'\nar = '%sar'\nstrip = '%sstrip'\npkgconfig = 'pkg-config'\n[built-in options]\nc_args = ['-I%s', '%s']\nc_link_args = ['-L%s', '%s']\n"
                     "[properties]\npkg_config_libdir = ['%s', '%s']\nneeds_exe_wrapper = true\n[host_machine]\nsystem = 'linux'\ncpu_family = '%s'\n"
                     "cpu = '%s'\nendian = 'little'\n" % (
-                        prefix, prefix, prefix, headers, files.parent, folder / "root" / "pkgconfig", files, machine, machine))
+                        prefix, prefix, prefix, headers, "', '".join(SECTIONS.split()), files.parent, UNUSED, folder / "root" / "pkgconfig", files, machine, machine))
     return path
 
 
@@ -120,7 +124,7 @@ def main():
     if not (build / "build.ninja").exists():
         cross = ["--cross-file", str(cross_file(folder, machine, prefix))] if is_cross else []
         call("meson", "setup", str(build), str(ROOT), "--buildtype=release", "--prefix=/usr/local", "-Dtests=false", "-Dstatic_program=true",
-             *cross, env=environment)
+             *cross, *([] if is_cross else ["-Dc_args=" + SECTIONS, "-Dc_link_args=" + UNUSED]), env=environment)
     call("ninja", "-C", str(build), "lambent", env=environment)
     call(prefix + "strip", "-o", str(folder / "lambent"), str(build / "lambent"))
     write_licences(folder)

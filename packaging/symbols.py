@@ -23,7 +23,7 @@ def main():
         path = ROOT / "packaging" / "debian" / (package + ".symbols")
         text = path.read_text()
         since = dict(re.findall(r"^ (\w+)@Base (\S+)$", text, re.M))
-        found = next(build.glob("src/**/" + library))
+        found = next(build.glob("**/" + library))
         rows = "".join(" %s@Base %s\n" % (name, since.get(name, version)) for name in exported(found))
         wanted = text[:text.index("\n ") + 1] + rows
         if wanted != text and "--check" in sys.argv:

@@ -177,9 +177,9 @@ the course's own program, rewritten with the same mistakes. [Checking a shader](
 files](contract-file.md) how to write your own contract.
 """
     yield from glance()
-    order = re.findall(r'\{"([\w-]+)", text_\w+_json\}', read("src", "check", "contract", "contract.c"))
+    order = re.findall(r'\{"([\w-]+)", text_\w+_json\}', read("classroom", "check", "contract", "contract.c"))
     for name in order:
-        yield "\n".join(section(program if runs else None, json.loads(read("src", "check", "contracts", name + ".json")), meaning)) + "\n"
+        yield "\n".join(section(program if runs else None, json.loads(read("classroom", "check", "contracts", name + ".json")), meaning)) + "\n"
 
 
 def without_reports(text):

@@ -147,7 +147,7 @@ def check_library(folder, environment):
 
 
 def exported(name):
-    library = glob.glob(os.path.join(BUILD, "src", name + ".so.*.*.*"))
+    library = glob.glob(os.path.join(BUILD, "*", name + ".so.*.*.*"))
     lines = run(["nm", "-D", "--defined-only", library[0]]).stdout.split("\n") if library else []
     return [line.split()[2] for line in lines if len(line.split()) == 3]
 

@@ -17,31 +17,31 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 def library_folders():
-    """The folders in their order: the base's own, then the subdir() lines of src/meson.build."""
+    """The folders in their order: the base's own, the subdir() lines of src/meson.build, and the classroom's library."""
     text = open(os.path.join(ROOT, "src", "meson.build")).read()
     inner = re.findall(r"'(\w+)'", re.search(r"^base_folders = \[(.*)\]", text, re.M)[1])
-    return ["base/" + name for name in inner] + [name for name in re.findall(r"^subdir\('(\w+)'\)", text, re.M) if name != "base"]
+    return ["base/" + name for name in inner] + [name for name in re.findall(r"^subdir\('(\w+)'\)", text, re.M) if name != "base"] + ["classroom/check"]
 
 
 def floors():
     """The folders of the program in their order: the list in tools/meson.build. main.c may use all of them."""
     text = open(os.path.join(ROOT, "tools", "meson.build")).read()
-    folders = re.findall(r"'([\w/]+)'", re.search(r"^floors = \[(.*?)\]", text, re.M | re.S)[1])
-    return ["tools/" + name for name in folders] + ["tools"]
+    folders = re.findall(r"'([\w/.]+)'", re.search(r"^floors = \[(.*?)\]", text, re.M | re.S)[1])
+    return [os.path.normpath("tools/" + name) for name in folders] + ["tools"]
 
 
 def folder_of(file):
     """base/text/number -> base/text; gl/loader -> gl; import/obj/obj -> import; tools/many/jobs/job_words -> tools/many/jobs."""
-    if file.startswith("tools/"):
+    if file.startswith(("tools/", "classroom/commands/")):
         return os.path.dirname(file)
-    return "/".join(file.split("/")[:2 if file.startswith("base/") else 1])
+    return "/".join(file.split("/")[:2 if file.startswith(("base/", "classroom/")) else 1])
 
 
 @functools.cache
 def program_files():
-    """The C files and headers of tools/, as paths from the root."""
-    return sorted(os.path.relpath(os.path.join(path, name), ROOT) for path, _, names in os.walk(os.path.join(ROOT, "tools"))
-                  for name in names if name.endswith((".c", ".h")))
+    """The C files and headers of the program, as paths from the root."""
+    return sorted(os.path.relpath(os.path.join(path, name), ROOT) for top in ("tools", "classroom/commands")
+                  for path, _, names in os.walk(os.path.join(ROOT, top)) for name in names if name.endswith((".c", ".h")))
 
 
 def headers_back(order):
@@ -55,7 +55,7 @@ def headers_back(order):
 
 
 def objects(build):
-    for top in ("src", "lambent.p"):
+    for top in ("src", "classroom", "lambent.p"):
         for path, _, names in os.walk(os.path.join(build, top)):
             yield from (os.path.join(path, name) for name in names if name.endswith(".o"))
 
@@ -66,10 +66,11 @@ def source_of(build, path):
     if os.path.dirname(path) == os.path.join(build, "lambent.p"):
         name = os.path.basename(path)[:-2]
         return next(file[:-2] for file in program_files() if file.replace("/", "_") == name)
-    folder = os.path.relpath(os.path.dirname(path), os.path.join(build, "src")).split(os.sep)[0]
-    name = re.sub(r"\.c\.o$", "", os.path.basename(path))
-    for inner in sorted(os.listdir(os.path.join(ROOT, "src", folder))):
-        if name.startswith(inner + "_") and os.path.exists(os.path.join(ROOT, "src", folder, inner, name[len(inner) + 1:] + ".c")):
+    top, folder = os.path.relpath(path, build).split(os.sep)[:2]
+    name, inside = re.sub(r"\.c\.o$", "", os.path.basename(path)), os.path.join(ROOT, top, folder)
+    folder = folder if top == "src" else "%s/%s" % (top, folder)
+    for inner in sorted(os.listdir(inside)):
+        if name.startswith(inner + "_") and os.path.exists(os.path.join(inside, inner, name[len(inner) + 1:] + ".c")):
             return "%s/%s/%s" % (folder, inner, name[len(inner) + 1:])
     return "%s/%s" % (folder, name)
 
@@ -124,7 +125,7 @@ def circles(edges):
     return found
 
 
-TOPS = "src|tools|tests|include|web|scripts|bench|scenes|examples|docs"
+TOPS = "src|classroom|tools|tests|include|web|scripts|bench|scenes|examples|docs"
 NAMED = re.compile(r"(?<![\w./-])((?:%s)/[\w./-]*\w)" % TOPS)  # a path from the root
 BARE = re.compile(r"(?<![\w./<-])([a-z][a-z_0-9]+\.(?:c|inc|h))(?!\w)")  # a file without its folder, in a comment of the library
 ELSEWHERE = {"jpeglib.h", "teapots.c", "docs/turning"}  # a library's, a program's that is cited, a program that is built
@@ -144,12 +145,12 @@ def missing_files():
                 if not (os.path.exists(os.path.join(ROOT, name)) or glob.glob(os.path.join(ROOT, name) + "*") or
                         "DATE" in name or name in ELSEWHERE):
                     yield file, name
-            if file.startswith("src/") and not file.endswith(".md") and "//" in line:
+            if file.startswith(("src/", "classroom/")) and not file.endswith(".md") and "//" in line:
                 yield from ((file, name) for name in BARE.findall(line.split("//", 1)[1]) if name not in known | ELSEWHERE)
 
 
 NAMED_LOBE = re.compile(r"[!=]= *LAM_REFLECTION_(?!NONE\b|AUTO\b)\w+")
-STYLES = ("check/", "glsl/lecture.")  # programs of courses: which model they print, or which of its known mistakes
+STYLES = ("glsl/lecture.",)  # programs of courses: which model they print
 
 
 def lobes_asked_by_name():

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # run.py: runs tests of the program.  run.py PROGRAM [unittest's arguments; without them all but `check` and `known`]
 # run.py --modules prints the names of those test files: tests/meson.build makes a test of each, which run beside one another.
+# run.py --modules-without-classroom prints those that hold for a program that was built with -Dclassroom=false.
 # run.py --long prints those that have tests marked with harness.long. These run where LAMBENT_LONG is set: to "only" they alone,
 # to "all" with the others. A test that is named runs in any case.
 import os
@@ -12,6 +13,11 @@ suite = sorted(path.stem for path in pathlib.Path(__file__).parent.glob("test_*.
                if path.stem not in ("test_check", "test_check_class", "test_check_teaching", "test_known"))
 if sys.argv[1:] == ["--modules"]:
     print("\n".join(suite))
+    sys.exit()
+NEED_CLASSROOM = ("test_attack", "test_completion", "test_docs", "test_explain", "test_limits", "test_numbers", "test_output", "test_plot", "test_release",
+                  "test_resources", "test_terminal")
+if sys.argv[1:] == ["--modules-without-classroom"]:
+    print("\n".join(name for name in suite if name not in NEED_CLASSROOM))
     sys.exit()
 if sys.argv[1:] == ["--long"]:
     print("\n".join(name for name in suite if "    @long\n" in (pathlib.Path(__file__).parent / f"{name}.py").read_text()))

@@ -81,9 +81,9 @@ SPHERE = constant("src/environment/cube_map.h", "CUBE_SIDE_MOST")
 PERCENT_FILL = counted("100 times " + FILL.what, lambda: 100 * FILL.look_up())
 TEAPOT = counted("the triangles of `lambent teapot`", lambda: json.loads(subprocess.run(
     [PROGRAM, "teapot", "-s", "8", "-o", "/dev/null", "--json"], stdout=subprocess.PIPE, check=True).stdout)["model"]["triangles"])
-OVER_CHECK = code("src/check", r"share_over <= ([\d.]+)")
+OVER_CHECK = code("classroom/check", r"share_over <= ([\d.]+)")
 PIXELS_OVER_CHECK = counted("1 divided by " + OVER_CHECK.what, lambda: 1 / OVER_CHECK.look_up())
-TOLERANCE = code("src/check/check.c", r"p->tolerance : ([\d.]+) / 255")
+TOLERANCE = code("classroom/check/check.c", r"p->tolerance : ([\d.]+) / 255")
 
 SAMPLES = [constant("src/frame/frame.c", name) for name in ("TINY_SAMPLES", "TINY_SIDE", "SMALL_SAMPLES", "SMALL_SIDE", "LARGE_SAMPLES")]
 BLOCK = constant("src/cpu/lights/light_cull_blocks.inc", "BLOCK_SHIFT")
@@ -115,7 +115,7 @@ ROWS = [
     ("docs/internals/cpu.md", "over up to {} points", constant("src/cpu/shade/shading_batch.h", "LIGHT_BATCH")),
     ("docs/internals/cpu.md", "With more than {} lights ({} for Gouraud and flat shading)",
      code("src/cpu/lights/light_bounds.h", r"LAM_SHADING_PHONG \? (\d+) :"), FEW_LIGHTS),
-    ("include/lambent/check.h", "32..1024 pixels; 0: {}", code("src/check/check.c", r"p->size : (\d+);")),
+    ("include/lambent/check.h", "32..1024 pixels; 0: {}", code("classroom/check/check.c", r"p->size : (\d+);")),
     ("docs/internals/cpu.md", "with more than {} lights the weakest", FEW_LIGHTS),
     ("docs/internals/cpu.md", "in groups of {} that are tested first", constant("src/cpu/lights/light_bounds.h", "LIGHTS_IN_GROUP")),
     ("docs/internals/cpu.md", "one block of {}×{} pixels", *2 * [counted("1 << BLOCK_SHIFT of light_cull_blocks.inc", lambda: 2 ** BLOCK.look_up())]),
@@ -125,9 +125,9 @@ ROWS = [
     ("docs/show.md", "no channel below {}", LEAST_ID),
     ("docs/show.md", "c/(c + {}): 1 is {}, 2 is {}, 3 is {}", OVERDRAW, *[counted(f"the byte of {n} of {n} + OVERDRAW",
      lambda n=n: math.floor(255 * n / (n + OVERDRAW.look_up()) + 0.5)) for n in (1, 2, 3)]),
-    ("docs/check.md", "exponent {}; attenuation 1/(1 + {} d + {} d²)", code("src/check/contracts/nyu.json", r'"shininess": (\d+)'),
-     code("src/check/contracts/nyu.json", r'"attenuation": \[1, ([\d.]+),'),
-     code("src/check/contracts/nyu.json", r'"attenuation": \[1, [\d.]+, ([\d.]+)\]')),
+    ("docs/check.md", "exponent {}; attenuation 1/(1 + {} d + {} d²)", code("classroom/check/contracts/nyu.json", r'"shininess": (\d+)'),
+     code("classroom/check/contracts/nyu.json", r'"attenuation": \[1, ([\d.]+),'),
+     code("classroom/check/contracts/nyu.json", r'"attenuation": \[1, [\d.]+, ([\d.]+)\]')),
     ("tools/options/option_table.c", "the number of triangles over a pixel: c/(c + {})", OVERDRAW),
     ("include/lambent/device.h", "no channel below {}", LEAST_ID),
     ("docs/opengl.md", "drawn in parts of {}×{}", *2 * [constant("src/gl/gl_device.h", "PART_SIZE_MAX")]),

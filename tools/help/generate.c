@@ -7,6 +7,7 @@
 #include <lambent/check.h>
 
 #include "console.h"
+#include "contract_schema.h"
 #include "exit_codes.h"
 #include "suggest.h"
 

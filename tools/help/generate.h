@@ -9,8 +9,7 @@ void generate_markdown(void); // manual.c
 void generate_bash(void);     // completions.c
 void generate_zsh(void);
 void generate_fish(void);
-void generate_scene_schema(void);    // scene_schema.c
-void generate_contract_schema(void); // contract_schema.c
+void generate_scene_schema(void); // scene_schema.c
 
 // Returns the texts that can be generated, from 0, or NULL if the index is out of range.
 const char *generate_kind(int index);

@@ -5,8 +5,6 @@
 #include "interrupt.h"
 #include "sandbox_start.h"
 
-#include <lambent/check.h>
-
 static lam_cancel wanted;
 
 lam_cancel *web_cancel_flag(void) { return &wanted; }
@@ -19,11 +17,4 @@ const char *sandbox_advice(const lam_error *error)
 {
     (void)error;
     return "";
-}
-
-// The checker of shaders is no part of the module: it has no contracts.
-const char *lam_check_contract_shipped(int index)
-{
-    (void)index;
-    return NULL;
 }

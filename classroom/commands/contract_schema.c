@@ -1,12 +1,12 @@
 // contract_schema.c: prints the JSON Schema of shader contracts: contract.schema.json.in with the roles inserted.
-#include "generate.h"
+#include "contract_schema.h"
 
 #include <stdio.h>
 #include <string.h>
 
 #include <lambent/check.h>
 
-#include "schema.inc"
+#include "contract_schema.inc"
 
 static void print_roles(bool attribute, bool uniform, bool constant)
 {

@@ -1,5 +1,5 @@
 // lecture_style.h: the lighting of a shader printed by `lambent shader --style lecture`, read from its words. It reads
-// the lines of ../../glsl/lecture.glsl, also with one of the known mistakes in them.
+// the lines of src/glsl/lecture.glsl, also with one of the known mistakes in them.
 #ifndef LECTURE_STYLE_H
 #define LECTURE_STYLE_H
 

@@ -1,0 +1,29 @@
+// without_check.c: the functions of the check of shaders that tables and help call, for programs that are built without it
+// (-Dclassroom=false, and the page's module): there are no contracts and no mistakes.
+#include <lambent/check.h>
+
+#include <stddef.h>
+
+const char *lam_check_contract_shipped(int index)
+{
+    (void)index;
+    return NULL;
+}
+
+const char *lam_check_contract_text(const char *name)
+{
+    (void)name;
+    return NULL;
+}
+
+const char *lam_check_mistake(int index)
+{
+    (void)index;
+    return NULL;
+}
+
+const char *lam_check_mistake_explanation(int index)
+{
+    (void)index;
+    return NULL;
+}

@@ -136,7 +136,7 @@ static int make_files(void **state)
                                                      "libmeshoptimizer.so.2d", "libfreetype.so.6"};
     for (int i = 0; i < LIBRARIES; i++)
         dlopen(libraries[i], RTLD_NOW | RTLD_NODELETE);
-    // libwebp 1.2 follows a null pointer in some places where it finds no memory (src/image/webp.c).
+    // libwebp 1.2 follows a null pointer in some places where it finds no memory (src/image/formats/webp.c).
     memory_spare("libwebp");
     return 0;
 }

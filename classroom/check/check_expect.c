@@ -47,9 +47,8 @@ static bool draw_by_shader(struct run *r, struct scene_comparison *scene, lam_er
     const fault_set none = {0};
     if (!r->shader && !(r->shader = render_cache_take_shader(p->cache, &r->painter, r->size, 1, error)))
         return false;
-    return fault_shader_draw(r->shader, &scene->reference_scene, &r->interface,
-                             shader_interface_light_count(&r->interface), r->frame, r->reflection, &none,
-                             scene->reference, error);
+    struct fault_model model = {&r->interface, r->frame, r->reflection};
+    return fault_shader_draw(r->shader, &scene->reference_scene, &model, &none, scene->reference, error);
 }
 
 // The surfaces of a scene alone: whether both of their sides are drawn.

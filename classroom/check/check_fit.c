@@ -38,9 +38,8 @@ struct fit {
 static bool draw_terms(struct run *r, struct fault_shader *shader, int scene, const struct reading *g, float *pixels,
                        lam_error *error)
 {
-    return fault_shader_draw(shader, &r->scenes[scene].reference_scene, &r->interface,
-                             shader_interface_light_count(&r->interface), r->interface.light_frame, g->reflection,
-                             &g->set, pixels, error);
+    struct fault_model model = {&r->interface, r->interface.light_frame, g->reflection};
+    return fault_shader_draw(shader, &r->scenes[scene].reference_scene, &model, &g->set, pixels, error);
 }
 
 static double decode(double x, bool decoded) { return decoded && x > 0 ? math_pow(x, 2.2) : x; }

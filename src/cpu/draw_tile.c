@@ -59,8 +59,9 @@ static void draw_layers(const struct cpu_frame *cpu, struct thread_state *thread
     if (!work_continues(&cpu->work))
         return;
     uint64_t shaded = now_ns();
-    thread->pixels_covered += blend_layers(pattern, &thread->fragments, &thread->layers, &thread->blend,
-                                           thread->samples.ids, tile, area, &thread->sums, cpu->shade.recorder);
+    struct tile_part part = {tile, area, thread->samples.ids};
+    thread->pixels_covered += blend_layers(pattern, &thread->fragments, &thread->layers, &thread->blend, &part,
+                                           &thread->sums, cpu->shade.recorder);
     thread->coverage_ns += covered - start;
     thread->lighting_ns += shaded - covered;
     thread->resolve_ns += now_ns() - shaded;

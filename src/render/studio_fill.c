@@ -32,9 +32,10 @@ static double black_share(const lam_image *lit, const lam_image *surfaces, bool 
     return counted ? (double)black / (double)counted : 0;
 }
 
-// Draws the two pictures that are measured: the lit one, and the colours of the surfaces.
-static bool measure(lam_device *device, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
-                    int width, int height, const lam_control *control, double *share, lam_error *error)
+// Draws two pictures, the lit one and the colours of the surfaces, and returns the share that is black; −1: see `error`.
+static double measure(lam_device *device, const lam_scene *scene, const lam_camera *camera,
+                      const lam_draw_params *params, int width, int height, const lam_control *control,
+                      lam_error *error)
 {
     bool ground = params->ground != LAM_GROUND_NONE;
     lam_draw_params drawn = *params;
@@ -53,10 +54,10 @@ static bool measure(lam_device *device, const lam_scene *scene, const lam_camera
     drawn.background = (lam_rgba){0, 0, 0, 0};
     drawn.ground = LAM_GROUND_NONE;
     ok = ok && lam_draw(device, scene, camera, &drawn, &surfaces, control, error);
-    *share = ok ? black_share(&lit, &surfaces, ground) : 0;
+    double share = ok ? black_share(&lit, &surfaces, ground) : -1;
     lam_image_free(&lit);
     lam_image_free(&surfaces);
-    return ok;
+    return share;
 }
 
 static lam_rgb times(lam_rgb c, double factor)
@@ -86,10 +87,10 @@ bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *cam
     *light_scale = 0;
     bool classic = params->reflection != LAM_REFLECTION_AUTO && params->reflection < LAM_REFLECTION_COUNT &&
                    !lam_reflection_describe(params->reflection)->microfacet; // which an environment does not light
-    double share;
     if (classic || params->output != LAM_OUTPUT_PICTURE || lam_scene_environment(scene))
         return true;
-    if (!measure(device, scene, camera, params, width, height, control, &share, error))
+    double share = measure(device, scene, camera, params, width, height, control, error);
+    if (share < 0)
         return false;
     if (share <= 0.1)
         return true;

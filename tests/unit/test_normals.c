@@ -56,7 +56,8 @@ static bool make_some(const lam_mesh *mesh, uint32_t first, uint32_t take, int l
     if (scratch.memory && scratch.capacity)
         memset(scratch.memory, 0xa5, scratch.capacity);
     scratch.capacity = scratch.memory ? scratch.capacity : 0;
-    return make_visible_normals(mesh, first, crease_rad, visible, scratch, lanes, pool, NULL, error);
+    return make_visible_normals(mesh, first, crease_rad, visible, &(struct normals_work){scratch, lanes, pool, NULL},
+                                error);
 }
 
 // The normals of any subset of the triangles are those of the whole mesh, and corners that share one there do here.

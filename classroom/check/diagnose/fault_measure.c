@@ -86,8 +86,8 @@ bool fault_measure_draw(struct fault_measure *t, int index, const fault_set *set
     struct fault_search *s = t->s;
     if (!t->shader && !(t->shader = render_cache_take_shader(s->cache, s->painter, s->size, t->stride, error)))
         return false;
-    if (!fault_shader_draw(t->shader, &t->scenes[index].reference_scene, s->interface, s->light_capacity, s->frame,
-                           s->reflection, set, pixels, error))
+    struct fault_model model = {s->interface, s->frame, s->reflection};
+    if (!fault_shader_draw(t->shader, &t->scenes[index].reference_scene, &model, set, pixels, error))
         return false;
     scene_comparison_apply_tone(s->interface->printed_tone, pixels, (size_t)t->size * (size_t)t->size);
     return true;

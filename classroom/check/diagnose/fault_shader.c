@@ -318,9 +318,11 @@ static void set_maps(struct fault_shader *m, const struct reference_scene *s)
 }
 
 bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *reference_scene,
-                       const struct shader_interface *interface, int light_capacity, lam_light_frame frame,
-                       lam_reflection reflection, const fault_set *set_of_faults, float *pixels, lam_error *error)
+                       const struct fault_model *model, const fault_set *set_of_faults, float *pixels, lam_error *error)
 {
+    const struct shader_interface *interface = model->interface;
+    lam_light_frame frame = model->light_frame;
+    lam_reflection reflection = model->reflection;
     struct reference_matrices matrices;
     reference_matrices(reference_scene, &matrices);
     bool smooth = fault_set_has(set_of_faults, BIT_SMOOTH_FOR_FLAT);
@@ -397,7 +399,7 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     set_color(m, "ks_with_kd", apart ? reference_scene->specular : reference_scene->diffuse, reference_scene->kd);
     set_color(m, "specular_as_diffuse", reference_scene->diffuse, apart ? reference_scene->ks : reference_scene->kd);
     set_color(m, "tint", reference_scene->diffuse, apart ? 1 : reference_scene->kd);
-    set_number(m, "light_capacity", (float)light_capacity);
+    set_number(m, "light_capacity", (float)shader_interface_light_count(interface));
     set_number(m, "opacity", reference_scene->alpha);
     set_number(m, "shininess", reference_scene->shininess);
     set_number(m, "exponent_factor", set_of_faults->factor);

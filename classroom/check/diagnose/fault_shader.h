@@ -20,10 +20,15 @@ bool fault_shader_wake(struct fault_shader *shader, lam_error *error);
 
 static inline int fault_shader_size(int size, int stride) { return (size + stride - 1) / stride; }
 
-// Draws a scene from shader_interface_scene. `light_capacity`: of the shaders under test. `pixels`: RGBA, rows
-// top-down.
+// Properties of the shaders under test that reference pictures share.
+struct fault_model {
+    const struct shader_interface *interface;
+    lam_light_frame light_frame;
+    lam_reflection reflection;
+};
+
+// Draws a scene from shader_interface_scene. `pixels`: RGBA, rows top-down.
 bool fault_shader_draw(struct fault_shader *shader, const struct reference_scene *reference_scene,
-                       const struct shader_interface *interface, int light_capacity, lam_light_frame frame,
-                       lam_reflection reflection, const fault_set *set, float *pixels, lam_error *error);
+                       const struct fault_model *model, const fault_set *set, float *pixels, lam_error *error);
 
 #endif

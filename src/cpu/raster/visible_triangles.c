@@ -177,10 +177,10 @@ static bool make_normals(struct cpu_frame *cpu, struct visible_buffers *buffers,
         return true; // no triangle is visible
     if (!place_normals(buffers, visible, corners, &scratch, cpu->call, error))
         return false;
+    struct normals_work work = {scratch, cpu->kernels->lanes, cpu->pool, cpu->call};
     for (int i = 0; i < frame->draw_count; i++)
-        if (frame->draws[i].crease_rad > 0 &&
-            !make_visible_normals(frame->draws[i].mesh, frame->draws[i].first_id, frame->draws[i].crease_rad, visible,
-                                  scratch, cpu->kernels->lanes, cpu->pool, cpu->call, error))
+        if (frame->draws[i].crease_rad > 0 && !make_visible_normals(frame->draws[i].mesh, frame->draws[i].first_id,
+                                                                    frame->draws[i].crease_rad, visible, &work, error))
             return false;
     return true;
 }

@@ -306,10 +306,10 @@ void sort_layers(const struct sample_pattern *pattern, struct fragments *fragmen
 }
 
 uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragments *fragments,
-                      const struct layer_rows *rows, struct blend_scratch *scratch, const uint32_t *ids,
-                      const struct tile *tile, const struct rectangle *area, struct pixel_sums *sums,
-                      struct recorder *recorder)
+                      const struct layer_rows *rows, struct blend_scratch *scratch, const struct tile_part *part,
+                      struct pixel_sums *sums, struct recorder *recorder)
 {
+    const struct rectangle *area = part->area;
     struct cells cells = cells_of(pattern->count);
     uint64_t uncovered = 0;
     for (int y = area->top; y <= area->bottom; y++)
@@ -317,12 +317,12 @@ uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragmen
             int pixel = y * TILE + x;
             if (scratch->start[pixel] == scratch->start[pixel + 1])
                 continue;
-            const uint32_t *own = ids + pixel_index(&cells, x, y);
+            const uint32_t *own = part->ids + pixel_index(&cells, x, y);
             if (sums->tint[0])
                 blend_tinted_pixel(fragments, rows, scratch, own,
                                    &(struct tinted_pixel){.number = pixel,
-                                                          .x = (float)(tile->x * TILE + x) + 0.5f,
-                                                          .y = (float)(tile->y * TILE + y) + 0.5f,
+                                                          .x = (float)(part->tile->x * TILE + x) + 0.5f,
+                                                          .y = (float)(part->tile->y * TILE + y) + 0.5f,
                                                           .samples = pattern->count},
                                    sums, recorder);
             else

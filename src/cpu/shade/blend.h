@@ -28,13 +28,18 @@ struct blend_scratch {
 void sort_layers(const struct sample_pattern *pattern, struct fragments *fragments, struct layer_rows *rows,
                  struct blend_scratch *scratch);
 
-// Blends the sorted and shaded fragments of the pixels in `area` of a tile into their sums and `transmittance`. `ids`: the tile's
-// visibility buffer. Returns how many of the pixels have no opaque fragment. `recorder`: NULL, or gets the numbers of
+// A rectangle of a tile's pixels, and the tile's visibility buffer.
+struct tile_part {
+    const struct tile *tile;
+    const struct rectangle *area;
+    const uint32_t *ids;
+};
+
+// Blends the sorted and shaded fragments of a part of a tile into the sums and `transmittance` of its pixels. Returns how many of the pixels have no opaque fragment. `recorder`: NULL, or gets the numbers of
 // its pixel.
 uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragments *fragments,
-                      const struct layer_rows *rows, struct blend_scratch *scratch, const uint32_t *ids,
-                      const struct tile *tile, const struct rectangle *area, struct pixel_sums *sums,
-                      struct recorder *recorder);
+                      const struct layer_rows *rows, struct blend_scratch *scratch, const struct tile_part *part,
+                      struct pixel_sums *sums, struct recorder *recorder);
 
 // In place of sorting and blending: puts the nearest fragment of each sample into the tile's visibility buffer.
 void show_layers(const struct sample_pattern *pattern, const struct fragments *fragments, const struct layer_rows *rows,

@@ -107,8 +107,8 @@ bool normals_smooth(lam_mesh *mesh, double crease_angle_rad, struct arena *arena
               make_set(&n.made.triangles, mesh->triangle_count, true, &scratch);
     if (!ok)
         call_memory_error(call, corners * 20, error);
-    ok = ok && make_visible_normals(mesh, 0, crease_angle_rad, &n.made, (struct scratch_memory){0}, LANES_MAX, pool,
-                                    call, error);
+    struct normals_work work = {.lanes = LANES_MAX, .pool = pool, .call = call};
+    ok = ok && make_visible_normals(mesh, 0, crease_angle_rad, &n.made, &work, error);
     if (ok && !number(&n, &scratch, arena, pool))
         ok = call_memory_error(call, n.made.used * sizeof *n.normals, error);
     if (ok) {

@@ -300,23 +300,24 @@ static bool make_others(struct fan_loop *l, lam_error *error)
 }
 
 bool make_visible_normals(const lam_mesh *mesh, uint32_t first, double crease_angle_rad,
-                          struct visible_normals *visible, struct scratch_memory scratch, int lanes, struct pool *pool,
-                          struct call_control *call, lam_error *error)
+                          struct visible_normals *visible, const struct normals_work *work, lam_error *error)
 {
+    struct pool *pool = work->pool;
+    struct call_control *call = work->call;
     if (crease_angle_rad <= FACET_CREASE_RAD)
         return make_visible_facets(mesh, first, visible, pool, call, error);
     size_t corners = 3 * (size_t)mesh->triangle_count;
     struct position_search s = {.mesh = mesh,
                                 .triangles = &visible->triangles,
                                 .first = first,
-                                .simd = position_simd_for(lanes),
+                                .simd = position_simd_for(work->lanes),
                                 .pool = pool,
                                 .loop = {.call = call},
-                                .scratch = scratch,
+                                .scratch = work->scratch,
                                 .vertices = mesh->indices ? mesh->vertex_count : corners,
                                 .corners = corners};
     struct fan_loop l = {.search = &s,
-                         .simd = corner_fan_simd_for(lanes),
+                         .simd = corner_fan_simd_for(work->lanes),
                          .min_cosine = min_crease_cosine(crease_angle_rad),
                          .visible = visible};
     arena_start(&s.arena, call);

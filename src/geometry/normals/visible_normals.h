@@ -29,11 +29,17 @@ static inline uint32_t visible_element(const struct visible_normals *visible, si
     return visible->elements[3 * (size_t)rank_bitset_rank(&visible->triangles, triangle) + k];
 }
 
+// The means of the work. No bit of the result depends on them.
+struct normals_work {
+    struct scratch_memory scratch; // saves fresh memory; all zero: there is none
+    int lanes;                     // floats at a time, at most
+    struct pool *pool;
+    struct call_control *call;
+};
+
 // Makes the normals of one mesh, whose triangle t has the number first + t in the set, by the rule in normals.h. The set
-// is finished (rank_bitset_finish). `scratch` saves fresh memory; all zero: there is none. Works on at most `lanes` floats
-// at a time; the bits do not depend on it. Errors: LAM_LIMIT, LAM_CANCELLED.
+// is finished (rank_bitset_finish). Errors: LAM_LIMIT, LAM_CANCELLED.
 bool make_visible_normals(const lam_mesh *mesh, uint32_t first, double crease_angle_rad,
-                          struct visible_normals *visible, struct scratch_memory scratch, int lanes, struct pool *pool,
-                          struct call_control *call, lam_error *error);
+                          struct visible_normals *visible, const struct normals_work *work, lam_error *error);
 
 #endif

@@ -112,11 +112,11 @@ static bool read_element(struct reader *reader, const struct ply_element *elemen
     struct ply_request request = {.list = -1};
     if (table)
         request = request_for(reader, kind, positions);
+    request.keep = &reader->scene->arena;
+    request.scratch = reader->scratch;
     if (reader->header.format == PLY_ASCII)
-        return ply_read_ascii(reader->source, element, &request, &reader->scene->arena, reader->scratch, at, table,
-                              error);
-    return ply_read_binary(reader->source, &reader->header, element, &request, &reader->scene->arena, reader->scratch,
-                           at, table, error);
+        return ply_read_ascii(reader->source, element, &request, at, table, error);
+    return ply_read_binary(reader->source, &reader->header, element, &request, at, table, error);
 }
 
 // Warns of text after the last row of the last element.

@@ -86,17 +86,17 @@ struct ply_request {
     uint32_t item_limit; // items must be below it
     bool restarts;       // item −1 is valid and becomes PLY_RESTART
     enum ply_positions_as positions;
+    struct arena *keep, *scratch; // of items of lists; of the rest
 };
 #define PLY_RESTART UINT32_MAX
 
-// Read the element at offset *at of the file, or skip it (`table` is NULL), and set *at to the byte after it. Items of
-// lists are allocated from `keep`, the rest from `scratch`; tables may point into the file.
+// Read the element at offset *at of the file, or skip it (`table` is NULL), and set *at to the byte after it. Tables
+// may point into the file.
 bool ply_read_binary(const struct import_source *source, const struct ply_header *header,
-                     const struct ply_element *element, const struct ply_request *request, struct arena *keep,
-                     struct arena *scratch, size_t *at, struct ply_table *table, lam_error *error);
+                     const struct ply_element *element, const struct ply_request *request, size_t *at,
+                     struct ply_table *table, lam_error *error);
 bool ply_read_ascii(const struct import_source *source, const struct ply_element *element,
-                    const struct ply_request *request, struct arena *keep, struct arena *scratch, size_t *at,
-                    struct ply_table *table, lam_error *error);
+                    const struct ply_request *request, size_t *at, struct ply_table *table, lam_error *error);
 
 // ply_rows.c. Sets offsets, types and stride for rows without their lists.
 bool ply_plan_rows(const struct import_source *source, const struct ply_request *request, struct arena *scratch,

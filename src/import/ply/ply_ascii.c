@@ -215,8 +215,7 @@ static bool read_rows(struct ply_reader *reader, struct arena *keep, struct aren
 }
 
 bool ply_read_ascii(const struct import_source *source, const struct ply_element *element,
-                    const struct ply_request *request, struct arena *keep, struct arena *scratch, size_t *at,
-                    struct ply_table *table, lam_error *error)
+                    const struct ply_request *request, size_t *at, struct ply_table *table, lam_error *error)
 {
     // Check the file's size before any allocation: a number takes at least two bytes, a digit and white space, which
     // only the last number can lack.
@@ -232,7 +231,7 @@ bool ply_read_ascii(const struct import_source *source, const struct ply_element
     const uint8_t *end = reader.first;
     if (table) {
         *table = (struct ply_table){.element = element, .count = (size_t)element->count};
-        if (!read_rows(&reader, keep, scratch, &end, error))
+        if (!read_rows(&reader, request->keep, request->scratch, &end, error))
             return false;
     } else if (!index_rows(&reader, &end, error)) {
         return false;

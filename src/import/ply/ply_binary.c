@@ -198,9 +198,10 @@ static bool read_piece(void *user, size_t index, lam_error *error)
 }
 
 bool ply_read_binary(const struct import_source *source, const struct ply_header *header,
-                     const struct ply_element *element, const struct ply_request *request, struct arena *keep,
-                     struct arena *scratch, size_t *at, struct ply_table *table, lam_error *error)
+                     const struct ply_element *element, const struct ply_request *request, size_t *at,
+                     struct ply_table *table, lam_error *error)
 {
+    struct arena *keep = request->keep, *scratch = request->scratch;
     // Check the file's size before any allocation.
     uint64_t left = source->size - *at;
     if (element->min_bytes > 0 && element->count > left / element->min_bytes)

@@ -46,14 +46,26 @@ static bool add_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-// Adds one target's attribute to an array, which becomes the mesh's own with the first addition.
-static bool add_target(struct gltf *gltf, const struct place *place, const json_t *target, const char *name,
-                       double weight, int width, int base_width, size_t count, const float **values, bool *own)
+// A morph target that is added to a mesh.
+struct morph_target {
+    struct gltf *gltf;
+    const struct place *place; // of the target
+    const json_t *target;
+    double weight;
+    size_t count; // of vertices
+};
+
+// Adds one attribute of a target to an array, which becomes the mesh's own with the first addition. `width` and
+// `base_width`: numbers for each vertex, in the target and in the mesh.
+static bool add_target(const struct morph_target *t, const char *name, int width, int base_width, const float **values,
+                       bool *own)
 {
+    struct gltf *gltf = t->gltf;
+    size_t count = t->count;
     struct gltf_accessor *accessor;
     char words[64];
-    const struct place *here = KEY_OF(place, name);
-    if (!gltf_take_accessor(gltf, place, target, name, &accessor))
+    const struct place *here = KEY_OF(t->place, name);
+    if (!gltf_take_accessor(gltf, t->place, t->target, name, &accessor))
         return false;
     if (!accessor || !*values)
         return true;
@@ -74,7 +86,7 @@ static bool add_target(struct gltf *gltf, const struct place *place, const json_
                                 .base_width = base_width,
                                 .width = width,
                                 .count = count,
-                                .weight = weight};
+                                .weight = t->weight};
     if (!addition.target)
         return false;
     if (!*own && !(addition.out = arena_array(&gltf->scene->arena, count * (size_t)base_width, sizeof(float))))
@@ -90,16 +102,15 @@ struct owned {
 };
 
 // The sets that the mesh has.
-static bool morph_texcoords(struct gltf *gltf, const struct place *place, const json_t *target, double weight,
-                            lam_mesh *mesh, struct owned *own)
+static bool morph_texcoords(const struct morph_target *target, lam_mesh *mesh, struct owned *own)
 {
     bool ok = true;
     for (int which = 0; ok && which < 2; which++) {
         char name[32];
-        int set = gltf_texcoord_set(gltf, mesh->parts->material, which);
+        int set = gltf_texcoord_set(target->gltf, mesh->parts->material, which);
         snprintf(name, sizeof name, "TEXCOORD_%d", set);
-        ok = set < 0 || add_target(gltf, place, target, name, weight, 2, 2, mesh->vertex_count,
-                                   which ? &mesh->second_texcoords : &mesh->texcoords, &own->texcoords[which]);
+        ok = set < 0 ||
+             add_target(target, name, 2, 2, which ? &mesh->second_texcoords : &mesh->texcoords, &own->texcoords[which]);
     }
     return ok;
 }
@@ -109,16 +120,16 @@ static bool morph(struct gltf *gltf, const struct place *place, const json_t *pr
 {
     bool ok = true;
     const json_t *targets = gltf_take_list(gltf, place, primitive, "targets", &ok);
-    size_t count = mesh->vertex_count;
     for (size_t i = 0; ok && i < json_array_size(targets) && i < deformation->weight_count; i++) {
-        double weight = deformation->weights[i];
-        const json_t *target = json_array_get(targets, i);
-        const struct place *here = ELEMENT_OF(KEY_OF(place, "targets"), i);
-        ok = weight == 0 ||
-             (add_target(gltf, here, target, "POSITION", weight, 3, 3, count, &mesh->positions, &own->positions) &&
-              add_target(gltf, here, target, "NORMAL", weight, 3, 3, count, &mesh->normals, &own->normals) &&
-              add_target(gltf, here, target, "TANGENT", weight, 3, 4, count, &mesh->tangents, &own->tangents) &&
-              morph_texcoords(gltf, here, target, weight, mesh, own));
+        struct morph_target target = {.gltf = gltf,
+                                      .place = ELEMENT_OF(KEY_OF(place, "targets"), i),
+                                      .target = json_array_get(targets, i),
+                                      .weight = deformation->weights[i],
+                                      .count = mesh->vertex_count};
+        ok = target.weight == 0 || (add_target(&target, "POSITION", 3, 3, &mesh->positions, &own->positions) &&
+                                    add_target(&target, "NORMAL", 3, 3, &mesh->normals, &own->normals) &&
+                                    add_target(&target, "TANGENT", 3, 4, &mesh->tangents, &own->tangents) &&
+                                    morph_texcoords(&target, mesh, own));
     }
     return ok;
 }

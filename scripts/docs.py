@@ -26,6 +26,9 @@ def commands():
                 yield shlex.split(line, comments=True)
 
 
+os.environ["CI"] = "docs"  # pages do not show the settings of the user who makes them
+
+
 def output(program, *words):
     return subprocess.run([program, *words], stdout=subprocess.PIPE, check=True).stdout.decode()
 

@@ -9,8 +9,11 @@
 #include "console.h"
 #include "exit_codes.h"
 #include "help.h"
+#include "page_file.h"
 #include "report.h"
 #include "sandbox.h"
+#include "settings_file.h"
+#include "settings_json.h"
 
 // Scans a command line for --json and -o -, so that an error while reading it is reported where the user expects it.
 static struct options scan_report_options(int count, char **words)
@@ -55,6 +58,13 @@ static bool check_operands(const struct command *command, int count, char **oper
     return true;
 }
 
+// Pictures of a page do not depend on the user who made it.
+static bool reads_settings(const struct command *command, const struct options *options)
+{
+    return command->groups & 1ull << GROUP_SETTINGS && command != &command_table[COMMAND_config] &&
+           !page_is_named(options->picture.output);
+}
+
 static int execute(const struct command *command, int operands, char **words, struct options *options)
 {
     lam_error error = {0};
@@ -72,10 +82,17 @@ static int execute(const struct command *command, int operands, char **words, st
         options->picture.output = "-"; // nothing but the picture may be written there
     if (!check_operands(command, operands, words, options, &error))
         return report_failure(&error, options);
+    struct settings_source source;
+    struct options before;
+    if (reads_settings(command, options) && !settings_apply(options, &before, &source, &error))
+        return report_failure(&error, options);
     options->limits.files_inside |= options->limits.sandbox == SANDBOX_REQUIRE && !options->limits.allow_paths.count;
 #define RUN(name) run_##name,
     static command_fn *const functions[] = {COMMANDS(RUN)};
-    return functions[command - command_table](operands, words, options);
+    int code = functions[command - command_table](operands, words, options);
+    if (code == exit_code_of(LAM_BAD_ARGUMENT)->code && settings_are_used(options) && !options->report.quiet)
+        say_plain("The settings of %s are in force; --no-config ignores them.\n", source.path);
+    return code;
 }
 
 // Parses the options, except for a command whose words are none. Returns the number of operands; −1 with the error.

@@ -45,8 +45,8 @@ static bool check_options(const struct options *o, lam_error *error)
     static const char *const others[] = {"output", "segments", "up", "normals", "crease-angle", "durable"};
     for (int i = 0; option_table[i].name; i++) {
         enum option_group group = option_table[i].group;
-        bool fits = group == GROUP_SHAPE || group == GROUP_ABOUT || group == GROUP_WORK || group == GROUP_LIMITS ||
-                    group == GROUP_REPORT;
+        bool fits = group == GROUP_SHAPE || group == GROUP_ABOUT || group == GROUP_SETTINGS || group == GROUP_WORK ||
+                    group == GROUP_LIMITS || group == GROUP_REPORT;
         for (size_t k = 0; k < sizeof others / sizeof *others; k++)
             fits |= strcmp(option_table[i].name, others[k]) == 0;
         if (o->given[i] && !fits)

@@ -127,6 +127,13 @@ const struct topic topics[] = {
      "the version and the options. Pictures are identical on every machine, so a repository can store this file "
      "instead of the pictures. `lambent hash models/ --check pictures.hash` lists the models whose pictures changed. "
      "`docs/pull-requests.md` has the details."},
+    {"settings", "The user's own defaults", BIT(SETTINGS), TOPIC_NO_TABLE,
+     "The file `lambent.json` in the folder `~/.config/lambent` replaces defaults of the picture. Its keys are keys of "
+     "scene files: `{\"image\": {\"background\": \"white\"}, \"shadows\": true}`. Options of the command line and "
+     "looks "
+     "override it; scene files, `batch`, `hash`, `diff`, `check` and pages ignore it, and so does every command if the "
+     "environment variable `CI` is set. `lambent config` prints the settings in force. `docs/settings.md` has the "
+     "details."},
     {"convert", "Models in another format", BIT(CONVERT), TOPIC_NO_TABLE,
      "`lambent convert MODEL OUT.glb` writes any model or scene file as GLB, OBJ (with MTL and PNG beside it), STL, "
      "PLY or 3MF: geometry, materials with their textures, lights and cameras, as far as the format supports them. For "

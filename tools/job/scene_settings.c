@@ -36,6 +36,7 @@ void scene_settings_apply(struct job *job)
         return;
     struct options *own = &job->own;
     const lam_picture_settings *s = &job->settings;
+    options_drop_settings(own);
     if (takes_setting(job, LAM_SETTING_SIZE, "size") && !own->picture.has_size) { // a sheet decides its pictures' size
         own->picture.width = s->width;
         own->picture.height = s->height;

@@ -9,7 +9,7 @@
     (((1ull << GROUP_COUNT) - 1) &                                                                                     \
      ~(1ull << GROUP_DIFF | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | 1ull << GROUP_SHEET | 1ull << GROUP_CHECK |  \
        1ull << GROUP_SHADER | 1ull << GROUP_SHAPE | 1ull << GROUP_VIEWER | 1ull << GROUP_HASH |                        \
-       1ull << GROUP_CONVERT | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION))
+       1ull << GROUP_CONVERT | 1ull << GROUP_SETTINGS | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION))
 
 static const struct own_default compare_defaults[] = {{"output", "MODEL-SHEET.png", NULL},
                                                       {"size", "480x400 each", NULL},
@@ -43,7 +43,8 @@ static const struct own_default materials_defaults[] = {{"output", "no sheet", N
 const struct command command_table[] = {
     [COMMAND_render] = {"render", "MODEL...",
                         "Light models and write a picture of each. The word `render` may be omitted.",
-                        ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION, .min_operands = 1, .max_operands = -1},
+                        ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION | 1ull << GROUP_SETTINGS, .min_operands = 1,
+                        .max_operands = -1},
     [COMMAND_batch] =
         {"batch", "[MODEL|FOLDER|@LIST|-]...",
          "Draw many models, from folders with their sub-folders, lists or standard input, and keep a journal.",
@@ -65,8 +66,9 @@ const struct command command_table[] = {
                          "Print the calculation of one pixel: vectors, angles and terms of each light, the sum, the "
                          "byte. -o FILE (SVG, PNG) draws a figure: arrows over the picture, the point's coordinates, "
                          "the terms. Lambent ignores --save-scene.",
-                         ALL | 1ull << GROUP_CAPTIONS | TAKES_TITLE, .min_operands = 2, .max_operands = 2,
-                         .one_more = "write the pixel as one word, such as 512,400", .defaults = explain_defaults},
+                         ALL | 1ull << GROUP_CAPTIONS | 1ull << GROUP_SETTINGS | TAKES_TITLE, .min_operands = 2,
+                         .max_operands = 2, .one_more = "write the pixel as one word, such as 512,400",
+                         .defaults = explain_defaults},
     [COMMAND_info] =
         {"info", "MODEL...",
          "Print the contents of models: size, triangles, materials, pictures, lights, cameras, animations, extensions.",
@@ -113,8 +115,8 @@ const struct command command_table[] = {
     [COMMAND_shape] = {"shape", "[NAME]",
                        "Draw a built-in shape or a surface given by formulas (--parametric, --implicit), or save it as "
                        "OBJ, STL or PLY.",
-                       ALL | 1ull << GROUP_SHAPE | 1ull << GROUP_ANIMATION, .min_operands = 0, .max_operands = 1,
-                       .defaults = shape_defaults},
+                       ALL | 1ull << GROUP_SHAPE | 1ull << GROUP_ANIMATION | 1ull << GROUP_SETTINGS, .min_operands = 0,
+                       .max_operands = 1, .defaults = shape_defaults},
     [COMMAND_view] =
         {"view", "MODEL|FOLDER",
          "Show a model in the browser, and update the picture when its file changes; or show the gallery of a folder.",
@@ -134,6 +136,9 @@ const struct command command_table[] = {
                            .max_operands = 0,
                            .one_more = "it lists all materials; lambent teapot --material gold shows one",
                            .defaults = materials_defaults},
+    [COMMAND_config] = {"config", NULL, "Print the settings in force, and the file that they come from.",
+                        ABOUT | 1ull << GROUP_SETTINGS | TAKES_JSON, .min_operands = 0, .max_operands = 0,
+                        .one_more = "it prints the settings; write them to the file that it names"},
     [COMMAND_devices] = {"devices", NULL,
                          "List the devices that can draw on this machine, and the reasons why others cannot.",
                          ABOUT | TAKES_JSON, .min_operands = 0, .max_operands = 0},

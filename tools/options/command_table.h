@@ -8,7 +8,7 @@
 #define COMMANDS(row)                                                                                                  \
     row(render) row(batch) row(journal) row(compare) row(explain) row(info) row(check) row(shader) row(diff) row(hash) \
         row(convert) row(plot) row(lights) row(shape) row(view) row(shapes) row(formats) row(looks) row(materials)     \
-            row(devices) row(help) row(complete) row(generate)
+            row(config) row(devices) row(help) row(complete) row(generate)
 
 #define COMMAND_INDEX(name) COMMAND_##name,
 enum command_index { COMMANDS(COMMAND_INDEX) COMMAND_COUNT };

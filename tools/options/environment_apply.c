@@ -68,6 +68,8 @@ static void warn_unseen(const struct options *options, lam_scene *scene)
             lam_scene_add_warning(scene, "option '--environment-rotation' has no effect: there is no environment");
         return;
     }
+    if (options->shading.environment && !option_given(options, "environment"))
+        return; // the user's settings name it, for all models
     for (int i = 0; i < lam_scene_object_count(scene); i++)
         if (object_mirrors(scene, lam_scene_object(scene, i)))
             return;

@@ -249,6 +249,14 @@ struct shader_options {
     bool has_object;
 };
 
+// The user's own defaults (settings_file.h).
+struct settings_options {
+    const char *file; // NULL: the user's
+    bool none;
+    char *values; // texts that `values` of struct options points to; from malloc; of the options that read them
+    const struct options *without; // the same options without the settings; NULL: there are none
+};
+
 // Printed output.
 struct report_options {
     bool json, quiet, verbose, dry_run, version, help;

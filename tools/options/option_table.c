@@ -25,6 +25,7 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_DIFF] = "Comparing pictures (diff, check)",
     [GROUP_HASH] = "Hashes of pictures (hash)",
     [GROUP_CONVERT] = "Models in another format (convert)",
+    [GROUP_SETTINGS] = "Settings (render, explain, shape, config)",
     [GROUP_PLOT] = "Plots (plot)",
     [GROUP_CAPTIONS] = "Captions (compare, plot, materials, check, explain)",
     [GROUP_ABOUT] = "About",
@@ -1019,6 +1020,18 @@ struct option option_table[OPTIONS_MAX] = {
      .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(captions.font)},
     {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw without text; no font is needed.", NULL, .store = store_switch,
      .others = "no-text no-labels", FIELD(captions.no_captions)},
+
+    {"config", 0, GROUP_SETTINGS, "FILE", "lambent.json in the user's configuration folder",
+     "The settings file: keys of scene files that replace defaults of the picture.",
+     "Lambent reads `$XDG_CONFIG_HOME/lambent/lambent.json` or `~/.config/lambent/lambent.json`, if it exists and the "
+     "environment variable `CI` is not set. It never reads a settings file beside a model. Options of the command line "
+     "and looks override settings; scene files ignore them. `lambent config` prints the settings in force, and "
+     "`docs/settings.md` "
+     "describes the file.",
+     .kind = VALUE_FILE, .store = store_text, .others = "settings preferences rc conf configuration",
+     FIELD(settings.file)},
+    {"no-config", 0, GROUP_SETTINGS, NULL, NULL, "Ignore the user's settings file.", NULL, .store = store_switch,
+     .others = "no-settings norc defaults", FIELD(settings.none)},
 
     {"version", 0, GROUP_ABOUT, NULL, NULL, "Print the version and the build information.", NULL, .store = store_switch,
      .others = "V", FIELD(report.version)},

@@ -37,6 +37,7 @@ void options_free(struct options *options)
     free(options->animation.sweeps.items);
     free(options->captions.texts.items);
     free(options->lighting.look_text);
+    free(options->settings.values);
 }
 
 static bool texts_copy(struct texts *texts)
@@ -51,7 +52,7 @@ static bool texts_copy(struct texts *texts)
 bool options_copy(struct options *to, const struct options *from)
 {
     *to = *from;
-    to->lighting.look_text = NULL; // free a copy before its original
+    to->lighting.look_text = to->settings.values = NULL; // free a copy before its original
     bool ok = texts_copy(&to->lighting.lights);
     ok = texts_copy(&to->material.materials) && ok;
     ok = texts_copy(&to->material.back_materials) && ok;
@@ -175,6 +176,38 @@ static void option_mark(struct options *options, const struct option *option, co
     options->given[option - option_table] = true;
     options->values[option - option_table] = value;
     options->by_look[option - option_table] = by_look;
+    options->by_config[option - option_table] = 0;
+}
+
+// --- the user's settings
+
+static size_t field_size(const struct option *option)
+{
+    if (option->store == store_switch || option->store == store_word_flag)
+        return sizeof(bool);
+    if (option->store == store_number || option->store == store_exposure)
+        return sizeof(double);
+    if (option->store == store_text || option->store == store_color)
+        return sizeof(const char *);
+    return option->store == store_size ? 2 * sizeof(int) : sizeof(int); // a float is as long
+}
+
+void options_drop_settings(struct options *options)
+{
+    const struct options *from = options->settings.without;
+    for (int i = 0; from && option_table[i].name; i++) {
+        const struct option *o = &option_table[i];
+        if (!options->by_config[i])
+            continue;
+        options->by_config[i] = 0;
+        memcpy((char *)options + o->field, (const char *)from + o->field, field_size(o));
+        if (o->has_field)
+            *(bool *)((char *)options + o->has_field) = false;
+        if (o->store == store_exposure)
+            options->picture.exposure_kind = from->picture.exposure_kind;
+        if (o->store == store_ground)
+            options->shading.ground_color = NULL;
+    }
 }
 
 // --- looks

@@ -35,9 +35,12 @@ struct options {
     struct check_options check;
     struct shader_options shader;
     struct report_options report;
+    struct settings_options settings;
 
-    bool given[OPTIONS_MAX];         // for each row of the table: the option is on the command line
-    bool by_look[OPTIONS_MAX];       // and it comes from --look
+    bool given[OPTIONS_MAX];   // for each row of the table: the option is on the command line
+    bool by_look[OPTIONS_MAX]; // and it comes from --look
+    int by_config
+        [OPTIONS_MAX]; // the line of the settings file that it comes from; then it is not given. 0: it does not
     const char *values[OPTIONS_MAX]; // its last value there; NULL: it takes none
 };
 
@@ -83,6 +86,7 @@ enum option_group {
     GROUP_VIEWER,
     GROUP_HASH,
     GROUP_CONVERT,
+    GROUP_SETTINGS,
     GROUP_ABOUT, // accepted by every command
     GROUP_COUNT,
 };
@@ -152,6 +156,9 @@ void options_free(struct options *options);
 
 // Makes an independent copy. False: out of memory; there is nothing to free.
 bool options_copy(struct options *to, const struct options *from);
+
+// Takes back what the user's settings file changed, for a scene file: it describes its picture itself.
+void options_drop_settings(struct options *options);
 
 // Returns the option of a long name, or NULL if there is no such option.
 const struct option *option_find(const char *name);

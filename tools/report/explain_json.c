@@ -3,6 +3,7 @@
 
 #include "explain_words.h"
 #include "json.h"
+#include "settings_json.h"
 
 static void color(struct json *json, const char *key, lam_rgb c)
 {
@@ -378,12 +379,13 @@ static void write_fragment(struct json *json, const lam_explanation *e, const la
     json_close(json, '}');
 }
 
-void explain_json(FILE *file, const lam_explanation *e, const char *model)
+void explain_json(FILE *file, const lam_explanation *e, const struct job *job)
 {
     struct json json = {.file = file};
     json_open(&json, NULL, '{');
     json_text(&json, "lambent", lam_version());
-    json_text(&json, "model", model);
+    json_text(&json, "model", job->model);
+    settings_json(&json, job->options);
     json_count(&json, "x", (uint64_t)e->x);
     json_count(&json, "y", (uint64_t)e->y);
     json_count(&json, "width", (uint64_t)e->width);

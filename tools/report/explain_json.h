@@ -4,8 +4,8 @@
 
 #include <stdio.h>
 
-#include <lambent/lambent.h>
+#include "job.h"
 
-void explain_json(FILE *file, const lam_explanation *explanation, const char *model);
+void explain_json(FILE *file, const lam_explanation *explanation, const struct job *job);
 
 #endif

@@ -6,6 +6,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "settings_json.h"
+
 int planned_samples(const struct options *options)
 {
     return options->draw.samples ? options->draw.samples
@@ -30,7 +32,8 @@ void each_given_option(const struct options *options, option_visit *visit, void 
     for (const struct option *option = option_table; option->name; option++) {
         size_t row = (size_t)(option - option_table);
         const struct texts *texts = texts_of(option, options);
-        if (!options->given[row])
+        bool replaced = option->group == GROUP_SETTINGS; // by what the file says
+        if ((!options->given[row] && !options->by_config[row]) || replaced)
             continue;
         for (int i = 0; texts && i < texts->count; i++)
             visit(user, option->name, texts->items[i]);
@@ -70,5 +73,5 @@ void report_plan(FILE *out, const struct job *job)
     fprintf(out, "  device    %s\n", lam_device_name(job->device));
     fprintf(out, "  options  ");
     each_given_option(o, print_option, out);
-    fprintf(out, "\n");
+    fprintf(out, settings_are_used(o) ? " --no-config\n" : "\n");
 }

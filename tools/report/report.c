@@ -11,6 +11,7 @@
 #include "json.h"
 #include "plan.h"
 #include "sandbox_start.h"
+#include "settings_json.h"
 
 // Returns the model's format; "shape" for a built-in shape.
 static const char *format_of(const lam_scene *scene)
@@ -73,6 +74,14 @@ void report_table(const struct job *job)
     char sandbox[SANDBOX_TEXT_SIZE];
     say_plain("device   %s\n", lam_device_name(job->device));
     say_plain("sandbox  %s\n", sandbox_text(sandbox_active(), sandbox));
+    if (settings_are_used(job->options)) {
+        say_plain("settings");
+        for (int i = 0; option_table[i].name; i++)
+            if (job->options->by_config[i])
+                say_plain(" --%s%s%s", option_table[i].name, job->options->values[i] ? " " : "",
+                          job->options->values[i] ? job->options->values[i] : "");
+        say_plain("\n");
+    }
     say_plain("picture  ");
     say_output(job);
     say_plain(", %dx%d, %" PRIu64 " bytes\n", job->image.width, job->image.height, job->bytes);
@@ -277,14 +286,7 @@ static void json_counts(struct json *json, const lam_frame_report *frame)
     json_close(json, '}');
 }
 
-static void json_option(void *user, const char *name, const char *value)
-{
-    struct json *json = user;
-    json_open(json, NULL, '{');
-    json_text(json, "name", name);
-    json_text(json, "value", value);
-    json_close(json, '}');
-}
+static void json_option(void *user, const char *name, const char *value) { option_json(user, name, value); }
 
 static void json_plan(struct json *json, const struct job *job)
 {
@@ -298,6 +300,8 @@ static void json_plan(struct json *json, const struct job *job)
     json_frames(json, job);
     json_open(json, "options", '[');
     each_given_option(job->options, json_option, json);
+    if (settings_are_used(job->options))
+        option_json(json, "no-config", NULL);
     json_close(json, ']');
     json_close(json, '}');
 }
@@ -334,6 +338,8 @@ void report_json(FILE *file, const struct job *job, const lam_error *error)
     } else {
         json_none(&json, "model");
     }
+    if (job)
+        settings_json(&json, job->options);
     if (job && job->planned) {
         json_plan(&json, job);
         json_camera(&json, &job->camera);

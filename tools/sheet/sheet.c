@@ -107,8 +107,8 @@ static const struct sheet sheets[] = {
 bool sheet_varies(const struct option *o)
 {
     bool of_model = o->value && find_groups("render") & 1ull << o->group && o->group != GROUP_PICTURE &&
-                    o->group != GROUP_REPORT && o->group != GROUP_ABOUT && o->group != GROUP_WORK &&
-                    o->group != GROUP_LIMITS;
+                    o->group != GROUP_REPORT && o->group != GROUP_ABOUT && o->group != GROUP_SETTINGS &&
+                    o->group != GROUP_WORK && o->group != GROUP_LIMITS;
     return of_model || strcmp(o->name, "samples") == 0 || strcmp(o->name, "color-mode") == 0 ||
            strcmp(o->name, "background") == 0 || strcmp(o->name, "show") == 0;
 }

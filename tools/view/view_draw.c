@@ -246,7 +246,7 @@ static bool tell_explanation(struct drawer *d, struct job *job, const struct vie
         return false;
     if (!out)
         _exit(1);
-    explain_json(out, explanation, job->model);
+    explain_json(out, explanation, job);
     if (fclose(out) != 0)
         _exit(1);
     lam_explanation_free(explanation);

@@ -163,7 +163,7 @@ int web_explain(int count, int x, int y)
         explanation = job_explain(&job, x, y, NULL, &error);
     int code = 0;
     if (explanation) {
-        explain_json(stdout, explanation, job.model);
+        explain_json(stdout, explanation, &job);
         fflush(stdout);
         lam_explanation_free(explanation);
         job.scene = NULL;

@@ -116,7 +116,7 @@ static bool write_figure(struct job *job, const lam_explanation *e, const char *
 static void print(const lam_explanation *explanation, const struct job *job)
 {
     if (job->options->report.json)
-        explain_json(stdout, explanation, job->model);
+        explain_json(stdout, explanation, job);
     else
         explain_text(explanation, job->model);
 }

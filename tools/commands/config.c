@@ -1,0 +1,57 @@
+// config.c: the command `config`: prints the settings in force and the file that they come from.
+#include "command.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "json.h"
+#include "report.h"
+#include "settings_file.h"
+
+static const char *const states[][2] = {[SETTINGS_READ] = {"read", "read"},
+                                        [SETTINGS_MISSING] = {"missing", "no such file"},
+                                        [SETTINGS_CI] = {"ci", "not read: the environment variable CI is set"},
+                                        [SETTINGS_OFF] = {"off", "not read: --no-config"}};
+
+static void print_json(const struct options *options, const struct settings_source *source)
+{
+    struct json json = {.file = stdout};
+    json_open(&json, NULL, '{');
+    json_text(&json, "lambent", lam_version());
+    json_text(&json, "file", *source->path ? source->path : NULL);
+    json_text(&json, "state", states[source->state][0]);
+    json_open(&json, "settings", '[');
+    for (int i = 0; option_table[i].name; i++) {
+        if (!options->by_config[i])
+            continue;
+        json_open(&json, NULL, '{');
+        json_text(&json, "name", option_table[i].name);
+        json_text(&json, "value", options->values[i]);
+        json_count(&json, "line", (uint64_t)options->by_config[i]);
+        json_close(&json, '}');
+    }
+    json_close(&json, ']');
+    json_close(&json, '}');
+    putchar('\n');
+}
+
+int run_config(int operand_count, char **operands, const struct options *options)
+{
+    (void)operand_count, (void)operands;
+    struct options own = *options, before; // they share the lists of the original
+    struct settings_source source;
+    lam_error error = {0};
+    bool ok = settings_apply(&own, &before, &source, &error);
+    if (ok && options->report.json) {
+        print_json(&own, &source);
+    } else if (ok) {
+        printf("%s: %s\n", *source.path ? source.path : "lambent.json", states[source.state][1]);
+        for (int i = 0; option_table[i].name; i++)
+            if (own.by_config[i])
+                printf("  line %-4d --%s%s%s\n", own.by_config[i], option_table[i].name, own.values[i] ? " " : "",
+                       own.values[i] ? own.values[i] : "");
+    }
+    int code = ok ? 0 : report_failure(&error, options);
+    free(own.settings.values);
+    return code;
+}

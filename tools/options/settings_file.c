@@ -1,0 +1,378 @@
+// settings_file.c: reads lambent.json, the user's own defaults. Its keys are keys of scene files; each becomes the value of the option
+// that has the same row in the table of settings.
+#include "settings_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "console.h"
+#include "environment_option.h"
+#include "json.h"
+#include "suggest.h"
+
+enum { FILE_MAX = 1 << 16, NAME_SIZE = 40, KEYS_MAX = 6 };
+
+// The keys of scene files that belong to a group there, or whose option has another name.
+static const struct {
+    const char *group, *key, *option;
+} grouped[] = {{"image", "size", "size"},
+               {"image", "samples", "samples"},
+               {"image", "background", "background"},
+               {"image", "color_mode", "color-mode"},
+               {"image", "exposure", "exposure"},
+               {"image", "tone", "tone"},
+               {"environment", "builtin", "environment"},
+               {"environment", "rotation", "environment-rotation"}};
+
+enum { GROUPED = sizeof grouped / sizeof *grouped };
+
+struct reader {
+    struct options *options;
+    const struct options *before; // as the command line and the look left them
+    const char *path, *text;
+    const json_t *ground_color; // which belongs to the option of "ground"; NULL: none
+    char *values;               // the end of the values' texts
+    lam_error *error;
+};
+
+// --- the place of a key
+
+// Returns the line of a key; `group`: the object that contains it, NULL: the outermost. The text is valid JSON. 1: the key is spelled with
+// escapes.
+static int line_of(const char *text, const char *group, const char *key)
+{
+    int line = 1, depth = 0;
+    bool inside = false; // of the group
+    for (const char *at = text; *at; at++) {
+        line += *at == '\n';
+        depth += (*at == '{' || *at == '[') - (*at == '}' || *at == ']');
+        if (*at != '"')
+            continue;
+        const char *name = ++at;
+        while (*at != '"')
+            at += *at == '\\' ? 2 : 1;
+        size_t length = (size_t)(at - name);
+        if (at[1 + strspn(at + 1, " \t\r\n")] != ':')
+            continue;
+        if (depth == 1 && group)
+            inside = strlen(group) == length && memcmp(group, name, length) == 0;
+        if ((group ? depth == 2 && inside : depth == 1) && strlen(key) == length && memcmp(key, name, length) == 0)
+            return line;
+    }
+    return 1;
+}
+
+static bool wrong(struct reader *r, const char *group, const char *key, const char *reason)
+{
+    return complain(r->error, LAM_CANNOT_READ, "%.300s:%d: %s%s%.60s: %.300s", r->path, line_of(r->text, group, key),
+                    group ? group : "", group ? "." : "", key, reason);
+}
+
+static bool unknown_key(struct reader *r, const char *group, const char *key)
+{
+    const lam_setting *setting;
+    char text[200];
+    struct suggestion nearest = suggest_start(key);
+    for (int i = 0; i < GROUPED; i++)
+        if (group && strcmp(grouped[i].group, group) == 0)
+            suggest_try(&nearest, grouped[i].key);
+    for (int i = 0; !group && (setting = lam_draw_setting(i)); i++)
+        suggest_try(&nearest, setting->key);
+    if (nearest.best)
+        snprintf(text, sizeof text, "unknown key; did you mean '%s'?", nearest.best);
+    else
+        snprintf(text, sizeof text, "unknown key, expected the %s of a scene file (docs/settings.md lists them)",
+                 group ? group : "image, environment or a setting");
+    return wrong(r, group, key, text);
+}
+
+// --- values as texts of options
+
+static const char *kind_of(const json_t *value)
+{
+    static const char *const kinds[] = {"an object", "a list", "a text", "a number",
+                                        "a number",  "true",   "false",  "null"};
+    return kinds[json_typeof(value)];
+}
+
+static void put_number(FILE *out, const json_t *value)
+{
+    char text[32];
+    shortest_number(json_number_value(value), text);
+    fputs(text, out);
+}
+
+// A list of words, or of numbers: the size of a picture, or a linear colour.
+static bool put_list(FILE *out, const json_t *list, char between)
+{
+    size_t i;
+    json_t *item;
+    bool numbers = between != ',';
+    json_array_foreach(list, i, item)
+    {
+        if (numbers ? !json_is_number(item) : !json_is_string(item))
+            return false;
+        if (i)
+            putc(between, out);
+        if (numbers)
+            put_number(out, item);
+        else
+            fputs(json_string_value(item), out);
+    }
+    if (!numbers && json_array_size(list) == 0)
+        fputs("none", out);
+    return numbers ? json_array_size(list) >= 2 && json_array_size(list) <= 4 : true;
+}
+
+// The form that a scene file has for the value of an option.
+static const char *expected_of(const struct option *option)
+{
+    static const char *const of_type[] = {[LAM_SETTING_WORD] = "a text",
+                                          [LAM_SETTING_FLAG] = "true or false",
+                                          [LAM_SETTING_NOT_FLAG] = "true or false",
+                                          [LAM_SETTING_WHOLE] = "a number",
+                                          [LAM_SETTING_NUMBER] = "a number",
+                                          [LAM_SETTING_ANGLE] = "a number",
+                                          [LAM_SETTING_WORDS] = "a list of texts"};
+    if (option->store == store_size)
+        return "a list of two numbers";
+    if (option->store == store_color)
+        return "a colour: a text, or a list of numbers";
+    if (option->setting)
+        return of_type[option->setting->type];
+    if (option->kind == VALUE_ENVIRONMENT)
+        return "a text";
+    return option->words && strcmp(option->name, "samples") != 0 ? "a text" : "a number";
+}
+
+// Writes the value as it would be on a command line. False: its type is wrong.
+static bool put_value(FILE *out, const struct option *option, const json_t *value)
+{
+    const char *expected = expected_of(option);
+    if (json_is_array(value) && strstr(expected, "list"))
+        return put_list(out, value, option->store == store_size ? 'x' : option->store == store_color ? '/' : ',');
+    if (json_is_string(value) && (strncmp(expected, "a text", 6) == 0 || option->store == store_color)) {
+        fputs(json_string_value(value), out);
+        return json_string_length(value) == strlen(json_string_value(value));
+    }
+    if (json_is_number(value) && strcmp(expected, "a number") == 0)
+        put_number(out, value);
+    else if (json_is_boolean(value) && option->setting && option->setting->type == LAM_SETTING_NOT_FLAG)
+        fputs(json_is_true(value) ? "on" : "off", out);
+    else
+        return json_is_boolean(value) && strcmp(expected, "true or false") == 0;
+    return true;
+}
+
+// --- one key
+
+// Returns whether the command line or a look decides the option, or the option that must fit it.
+static bool is_decided(const struct reader *r, const struct option *option)
+{
+    const char *name = option->name, *pair = strcmp(name, "shading") == 0 ? "stage"
+                                             : strcmp(name, "stage") == 0 ? "shading"
+                                                                          : name;
+    return option_given(r->before, name) || option_given(r->before, pair) ||
+           (strcmp(name, "size") == 0 && r->before->batch.size_count);
+}
+
+static bool take_value(struct reader *r, const char *group, const char *key, const struct option *option,
+                       const json_t *value)
+{
+    char reason[400], *text = r->values;
+    FILE *out = fmemopen(text, FILE_MAX, "w");
+    bool ok = out && put_value(out, option, value);
+    if (out) {
+        putc(0, out);
+        fclose(out);
+    }
+    if (!ok) {
+        snprintf(reason, sizeof reason, "found %s, expected %s", kind_of(value), expected_of(option));
+        return wrong(r, group, key, reason);
+    }
+    if (option->kind == VALUE_ENVIRONMENT && !environment_option_built_in(text))
+        return wrong(r, group, key, "found a file, expected \"sky\" or \"studio\"");
+    const char *given = option->value ? text : NULL;
+    bool decided = is_decided(r, option) || (!given && json_is_false(value));
+    struct options scratch = *r->options; // a decided value is checked too
+    lam_error found = {0};
+    if (given || !decided)
+        if (!option->store(option, given, decided ? &scratch : r->options, &found))
+            return wrong(r, group, key, found.text);
+    if (decided)
+        return true;
+    size_t row = (size_t)(option - option_table);
+    r->options->by_config[row] = line_of(r->text, group, key);
+    r->options->values[row] = given;
+    r->values += strlen(text) + 1;
+    return true;
+}
+
+// "ground": "color" names a colour by its own key, and the option is that colour.
+static bool take_ground(struct reader *r, const json_t *value)
+{
+    const struct option *option = option_find("ground");
+    bool color = json_is_string(value) && strcmp(json_string_value(value), "color") == 0;
+    if (color && !json_is_string(r->ground_color))
+        return wrong(r, NULL, "ground",
+                     "found 'color', expected a text \"ground_color\" beside it, such as \"#888888\"");
+    if (!color && r->ground_color)
+        return wrong(r, NULL, "ground_color", "expected \"ground\": \"color\" beside it");
+    return take_value(r, NULL, "ground", option, color ? r->ground_color : value);
+}
+
+// Returns whether the value is a word for the default that options do not have.
+static bool is_plain_default(const lam_setting *setting, const json_t *value)
+{
+    const char *word;
+    int number;
+    for (int i = 0; setting->word && setting->word_summary && (word = setting->word(i, &number)); i++)
+        if (json_is_string(value) && strcmp(word, json_string_value(value)) == 0)
+            return number == 0 && !setting->word_summary(i);
+    return false;
+}
+
+static bool take_key(struct reader *r, const char *group, const char *key, const json_t *value)
+{
+    char name[NAME_SIZE];
+    for (int i = 0; group && i < GROUPED; i++)
+        if (strcmp(grouped[i].group, group) == 0 && strcmp(grouped[i].key, key) == 0)
+            return take_value(r, group, key, option_find(grouped[i].option), value);
+    if (group || lam_draw_setting_find(key) < 0)
+        return unknown_key(r, group, key);
+    if (strcmp(key, "ground") == 0)
+        return take_ground(r, value);
+    if (strcmp(key, "ground_color") == 0) // it has been taken with "ground"
+        return r->ground_color != NULL;
+    if (is_plain_default(lam_draw_setting(lam_draw_setting_find(key)), value))
+        return true;
+    snprintf(name, sizeof name, "%s", key);
+    for (char *c = name; *c; c++)
+        *c = *c == '_' ? '-' : *c;
+    return take_value(r, NULL, key, option_find(name), value);
+}
+
+static bool take_group(struct reader *r, const char *group, json_t *object)
+{
+    const char *key;
+    json_t *value;
+    json_object_foreach(object, key, value)
+    {
+        if (!take_key(r, group, key, value))
+            return false;
+    }
+    return true;
+}
+
+static bool take_root(struct reader *r, json_t *root)
+{
+    const char *key;
+    json_t *value;
+    r->ground_color = json_object_get(root, "ground_color");
+    if (r->ground_color && !json_object_get(root, "ground"))
+        return wrong(r, NULL, "ground_color", "expected \"ground\": \"color\" beside it");
+    json_object_foreach(root, key, value)
+    {
+        bool is_group = strcmp(key, "image") == 0 || strcmp(key, "environment") == 0;
+        if (is_group && !json_is_object(value))
+            return wrong(r, NULL, key, "expected an object, as in scene files");
+        if (strcmp(key, "lambent") == 0 && !(json_is_integer(value) && json_integer_value(value) == 1))
+            return wrong(r, NULL, key, "expected 1, the version of the format");
+        if (strcmp(key, "lambent") != 0 && !(is_group ? take_group(r, key, value) : take_key(r, NULL, key, value)))
+            return false;
+    }
+    return true;
+}
+
+// --- the file
+
+// Only an absolute path counts: a relative one would be beside a model.
+static void default_path(char *path, size_t size)
+{
+    const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
+    int length = 0;
+    if (config && *config == '/')
+        length = snprintf(path, size, "%s/lambent/lambent.json", config);
+    else if (home && *home == '/')
+        length = snprintf(path, size, "%s/.config/lambent/lambent.json", home);
+    if (length <= 0 || (size_t)length >= size)
+        *path = 0;
+}
+
+// Reads a regular file; folders, pipes and devices are never opened. Returns the text, from malloc.
+static char *read_text(const char *path, size_t *length, lam_error *error)
+{
+    struct stat about;
+    if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) {
+        complain(error, LAM_CANNOT_READ, "%.300s: not a regular file, expected settings (JSON)", path);
+        return NULL;
+    }
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    char *text = file >= 0 && fstat(file, &about) == 0 && S_ISREG(about.st_mode) ? malloc(FILE_MAX + 2) : NULL;
+    ssize_t got = text ? 1 : -1;
+    for (*length = 0; got > 0 && *length <= FILE_MAX; *length += got > 0 ? (size_t)got : 0)
+        got = read(file, text + *length, FILE_MAX + 1 - *length);
+    if (got < 0)
+        complain(error, LAM_CANNOT_READ, "%.300s: cannot read: %s", path, strerror(errno));
+    else if (*length > FILE_MAX)
+        complain(error, LAM_CANNOT_READ, "%.300s: longer than 64 KiB, expected settings", path);
+    if (file >= 0)
+        close(file);
+    if (got >= 0 && *length <= FILE_MAX) {
+        text[*length] = 0;
+        return text;
+    }
+    free(text);
+    return NULL;
+}
+
+static bool apply_text(struct reader *r, size_t length)
+{
+    json_error_t reason;
+    json_t *root = json_loadb(r->text, length, JSON_REJECT_DUPLICATES, &reason);
+    bool ok = json_is_object(root);
+    if (!root)
+        complain(r->error, LAM_CANNOT_READ, "%.300s:%d: not valid JSON: %.150s", r->path, reason.line, reason.text);
+    else if (!ok)
+        complain(r->error, LAM_CANNOT_READ, "%.300s:1: found %s, expected an object: { ... }", r->path, kind_of(root));
+    ok = ok && take_root(r, root);
+    json_decref(root);
+    return ok;
+}
+
+bool settings_apply(struct options *options, struct options *before, struct settings_source *source, lam_error *error)
+{
+    const char *ci = getenv("CI"), *named = options->settings.file;
+    struct stat about;
+    source->path[0] = 0;
+    if (named)
+        snprintf(source->path, sizeof source->path, "%s", named);
+    else
+        default_path(source->path, sizeof source->path);
+    if (named && options->settings.none)
+        return complain(error, LAM_BAD_ARGUMENT, "found --config and --no-config, expected one of them");
+    source->state = options->settings.none            ? SETTINGS_OFF
+                    : named                           ? SETTINGS_READ
+                    : ci && *ci                       ? SETTINGS_CI
+                    : stat(source->path, &about) != 0 ? SETTINGS_MISSING
+                                                      : SETTINGS_READ;
+    if (source->state != SETTINGS_READ)
+        return true;
+    size_t length;
+    *before = *options;
+    options->settings.without = before;
+    char *text = read_text(source->path, &length, error);
+    options->settings.values = text ? malloc(3 * FILE_MAX) : NULL;
+    struct reader reader = {options, before, source->path, text, NULL, options->settings.values, error};
+    bool ok = text && (options->settings.values || complain(error, LAM_LIMIT, "out of memory")) &&
+              apply_text(&reader, length);
+    free(text);
+    options->picture.has_size = before->picture.has_size; // a sheet and a scene file have sizes of their own
+    return ok;
+}

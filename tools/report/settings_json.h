@@ -1,0 +1,17 @@
+// settings_json.h: the values of the user's settings file that a report contains.
+#ifndef SETTINGS_JSON_H
+#define SETTINGS_JSON_H
+
+#include "json.h"
+#include "options.h"
+
+// Returns whether the settings file changed an option.
+bool settings_are_used(const struct options *options);
+
+// Prints "settings": the options that come from the settings file, with their values; nothing if there are none.
+void settings_json(struct json *json, const struct options *options);
+
+// Prints the name and the value of an option.
+void option_json(struct json *json, const char *name, const char *value);
+
+#endif

@@ -39,6 +39,7 @@ GL = {**VARIANTS[0], "env": {"LAMBENT_LONG": "1"}, "tell": r"^gl .*OpenGL.*|.*fa
       "only": ["gl-context", "gl-classic", "gl-device", "gl-caller", "gl-state", "gl-parity", "glsl"]}
 
 ENVIRONMENT = {
+    "XDG_CONFIG_HOME": "/nonexistent",  # not the settings of the user who runs the tests
     # A sanitizer's report fails its test. Following the storage that OpenGL's libraries have for each
     # thread, clang 14's search for leaks takes them for glibc 2.19's and may read where nothing is ("Tracer caught signal 11").
     "ASAN_OPTIONS": "detect_leaks=1:abort_on_error=0:allocator_may_return_null=1:intercept_tls_get_addr=0",

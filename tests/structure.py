@@ -163,10 +163,35 @@ def lobes_asked_by_name():
                 yield from ((file, found) for found in NAMED_LOBE.findall(open(os.path.join(src, file), encoding="utf-8").read()))
 
 
+LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
+FIELD = re.compile(r"\blam_(?:control|load_params|draw_params|shader_params|object)\.\w+|\blam_scene_set_environment\b")
+
+
+def options_in_messages():
+    """(file, complaint) for each text of the library that names an option of the program, or a field for which the program knows no option or
+    which no header has. The library of checks (classroom/check) belongs to the command `check`: its hints name its options."""
+    def read(path):
+        return open(os.path.join(ROOT, path), encoding="utf-8").read()
+    known = set(re.findall(r'\{"(lam_\w+(?:\.\w+)?)", "--', read("tools/base/option_names.c")))
+    known |= {"lam_draw_params." + member for member in re.findall(r"MEMBER\(\w+, (\w+)\)", read("src/scene/settings.c"))}
+    headers = "".join(read("include/lambent/" + name) for name in os.listdir(os.path.join(ROOT, "include/lambent")))
+    for field in sorted(known):
+        if not re.search(r"\b%s\b" % field.split(".")[-1], headers):
+            yield "tools/base/option_names.c", field + " is in no header"
+    for path, _, names in os.walk(os.path.join(ROOT, "src")):
+        for name in sorted(names):
+            file = os.path.relpath(os.path.join(path, name), ROOT)
+            if not file.endswith((".c", ".h", ".inc")):
+                continue
+            for text in LITERAL.findall(re.sub(r"(?m)^\s*//.*", "", read(file))):
+                yield from ((file, "names the option " + option) for option in re.findall(r"(?<![\w-])--[a-z][\w-]*", text))
+                yield from ((file, "no option is known for " + field) for field in FIELD.findall(text) if field not in known)
+
+
 def main():
     edges, order = graph(sys.argv[1]), library_folders() + floors()
     bad = 0
-    print("1..5")
+    print("1..6")
     found = circles(edges)
     print("%s 1 - no circle between files" % ("not ok" if found else "ok"))
     for part in found:
@@ -196,6 +221,11 @@ def main():
     for file, header in headers:
         bad += 1
         print("#   %s includes %s" % (file, header))
+    options = list(options_in_messages())
+    print("%s 6 - no text of the library names an option of the program" % ("not ok" if options else "ok"))
+    for file, complaint in options:
+        bad += 1
+        print("#   %s: %s" % (file, complaint))
     if not edges:
         print("# no objects were found in %s" % sys.argv[1])
     return 1 if bad or not edges else 0

@@ -137,7 +137,8 @@ static bool step_done(const struct cpu_frame *cpu, lam_error *error)
                     "more than %d translucent triangles cover one pixel, the maximum that can be sorted", LAYERS_MAX);
     if (failure == FAILED_WORK)
         return fail(error, LAM_LIMIT,
-                    "more than %llu layers cover a pixel on average, the most for files of %llu bytes (--layer-limit)",
+                    "more than %llu layers cover a pixel on average, the most for files of %llu bytes "
+                    "(lam_control.layer_limit)",
                     (unsigned long long)call_layer_limit(cpu->call), (unsigned long long)call_input_bytes(cpu->call));
     if (failure)
         return call_memory_error(cpu->call, 2 << 20, error);

@@ -253,8 +253,9 @@ char *lecture_application(const struct glsl_choices *choices, const struct frame
         return NULL;
     if (f.has_environment) {
         fail(error, LAM_UNSUPPORTED,
-             "'--style lecture' does not have '--environment' with '--stage application'; expected '--stage vertex', "
-             "'--stage fragment' or '--style full'");
+             "'lam_shader_params.style lecture' does not have 'lam_scene_set_environment' with 'lam_draw_params.stage "
+             "application'; expected 'lam_draw_params.stage vertex', "
+             "'lam_draw_params.stage fragment' or 'lam_shader_params.style full'");
         return NULL;
     }
     bool origin = false;

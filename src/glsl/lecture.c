@@ -17,26 +17,29 @@ bool lecture_check(const struct glsl_choices *c, const struct glsl_facts *f, lam
         bool asked;
         const char *what, *instead;
     } missing[] = {
-        {!output_is_picture(c->output), "'--show'", ""},
-        {other, NULL, "'--reflection lambert', 'phong', 'blinn-phong' or 'kajiya-kay', or "},
+        {!output_is_picture(c->output), "'lam_draw_params.output'", ""},
+        {other, NULL, "'lam_draw_params.reflection lambert', 'phong', 'blinn-phong' or 'kajiya-kay', or "},
         {f->has_maps || masked, "textures", ""},
-        {c->storage == GLSL_TEXTURE, "'--lights-in texture'", "'--lights-in array' or "},
-        {c->shadows || c->passed || c->catches, "'--shadows'", ""},
-        {c->occlusion, "'--ao'", "'--ao off' or "},
-        {c->gl1, "'--gl1'", ""},
-        {f->back_material, "'--back-material'", ""},
-        {c->exposes, "'--exposure'", ""},
-        {c->tone > LAM_TONE_NONE, "'--tone'", "'--tone none' or "},
-        {f->has_environment && (f->environment_light || c->environment != GLSL_CUBE), "'--environment'", ""},
+        {c->storage == GLSL_TEXTURE, "'lam_shader_params.lights texture'", "'lam_shader_params.lights array' or "},
+        {c->shadows || c->passed || c->catches, "'lam_draw_params.shadows'", ""},
+        {c->occlusion, "'lam_draw_params.occlusion'", "'lam_draw_params.occlusion off' or "},
+        {c->gl1, "'lam_draw_params.gl1'", ""},
+        {f->back_material, "'lam_object.back_material'", ""},
+        {c->exposes, "'lam_draw_params.exposure'", ""},
+        {c->tone > LAM_TONE_NONE, "'lam_draw_params.tone'", "'lam_draw_params.tone none' or "},
+        {f->has_environment && (f->environment_light || c->environment != GLSL_CUBE), "'lam_scene_set_environment'",
+         ""},
         {c->layer != GLSL_NO_LAYERS, "translucent surfaces on this device", ""},
     };
     for (size_t i = 0; i < sizeof missing / sizeof *missing; i++)
         if (missing[i].asked && missing[i].what)
-            return fail(error, LAM_UNSUPPORTED, "'--style lecture' does not have %s; expected %s'--style full'",
+            return fail(error, LAM_UNSUPPORTED,
+                        "'lam_shader_params.style lecture' does not have %s; expected %s'lam_shader_params.style full'",
                         missing[i].what, missing[i].instead);
         else if (missing[i].asked)
             return fail(error, LAM_UNSUPPORTED,
-                        "'--style lecture' does not have '--reflection %s'; expected %s'--style full'",
+                        "'lam_shader_params.style lecture' does not have 'lam_draw_params.reflection %s'; expected "
+                        "%s'lam_shader_params.style full'",
                         lobe ? lobe->word : "none", missing[i].instead);
     return true;
 }

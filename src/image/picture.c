@@ -16,7 +16,7 @@ bool picture_size_check(const struct picture_file *file, uint32_t width, uint32_
                     height);
     return pixels <= limit || fail(error, LAM_LIMIT,
                                    "%s: a picture of %u×%u pixels, which are %llu, expected at most %llu "
-                                   "(--pixel-limit)",
+                                   "(lam_control.pixel_limit)",
                                    file->name, width, height, (unsigned long long)pixels, (unsigned long long)limit);
 }
 

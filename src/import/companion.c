@@ -168,7 +168,7 @@ static void explain_cut(const char *name, lam_error *error)
     char shown[SHOWN_NAME_SIZE];
     size_t used = strlen(error->text);
     snprintf(error->text + used, sizeof error->text - used, " (the name is '%s', outside of this folder%s)",
-             shown_name(name, shown), name[1] == ':' ? "" : "; --allow-path FOLDER lets it be read");
+             shown_name(name, shown), name[1] == ':' ? "" : "; lam_load_params.allowed_paths lets it be read");
 }
 
 bool companion_open(const struct import_source *source, const char *name, struct arena *arena, struct companion *out,
@@ -200,7 +200,8 @@ bool companion_open_of_scene(const struct import_source *source, const char *nam
         return open_by_caller(source, inside, arena, out, error);
     }
     return open_beside(source, name, !source->params->models_anywhere,
-                       ", which must contain the files of a scene (--files-inside)", arena, out, error);
+                       ", which must contain the files of a scene (lam_load_params.models_anywhere)", arena, out,
+                       error);
 }
 
 bool companions_of_model(const struct import_source *scene, const char *name, const struct companion *model,

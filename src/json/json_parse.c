@@ -42,7 +42,7 @@ static bool fail_at(const struct parser *p, const char *at, const char *sentence
 static bool fail_depth(const struct parser *p)
 {
     char sentence[120];
-    snprintf(sentence, sizeof sentence, "values are nested %d deep, expected at most %d (--json-depth-limit)",
+    snprintf(sentence, sizeof sentence, "values are nested %d deep, expected at most %d (lam_control.json_depth_limit)",
              p->depth_limit + 1, p->depth_limit);
     return fail_as(p, LAM_LIMIT, p->at, sentence);
 }

@@ -58,7 +58,7 @@ static bool fail_ended(const struct implicit *s, lam_error *error)
         return call_error(s->call, error);
     return fail(error, LAM_LIMIT,
                 "formula: the implicit surfaces of the file need more than %llu operations; expected fewer segments, "
-                "ranges of x, y and z, or simpler expressions (`lambent shape --implicit` has no such limit)",
+                "ranges of x, y and z, or simpler expressions (only formulas in scene files have this limit)",
                 (unsigned long long)s->call->operation_limit);
 }
 

@@ -258,12 +258,12 @@ static void test_limits(void **state)
     assert_true(call_check_triangles(&call, "a", LAM_TRIANGLE_LIMIT, "triangles", &error));
     assert_false(call_check_triangles(&call, "a", LAM_TRIANGLE_LIMIT + 1, "triangles", &error));
     assert_int_equal(error.code, LAM_LIMIT);
-    assert_string_equal(error.text, "a: 200000001 triangles, expected at most 200000000 (--triangle-limit)");
+    assert_string_equal(error.text, "a: 200000001 triangles, expected at most 200000000 (lam_control.triangle_limit)");
     call_start(&call, &(lam_control){.file_limit_bytes = 10, .json_depth_limit = 1000000, .pixel_limit = 7});
     assert_true(call_pixel_limit(&call) == 7 && call_json_depth_limit(&call) == LAM_JSON_DEPTH_MAX);
     assert_true(call_check_file(&call, "f", 10, &error));
     assert_false(call_check_file(&call, "f", 11, &error));
-    assert_string_equal(error.text, "f: 11 bytes, expected at most 10 (--file-limit)");
+    assert_string_equal(error.text, "f: 11 bytes, expected at most 10 (lam_control.file_limit_bytes)");
 }
 
 // Waits for the other thread, so that each takes one task, and stores the size of its thread's stack.

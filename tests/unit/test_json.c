@@ -249,7 +249,7 @@ static void test_depth_and_limits(void **state)
         assert_int_equal(tree == NULL, extra);
         if (!tree)
             assert_string_equal(error.text, "t.json:1: column 257: values are nested 257 deep, expected at most 256 "
-                                            "(--json-depth-limit)");
+                                            "(lam_control.json_depth_limit)");
         json_decref(tree);
     }
     enum { NUMBERS = 10000 };

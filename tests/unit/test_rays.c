@@ -280,7 +280,7 @@ static bool fits(size_t limit, size_t *used)
     bool ok = hierarchy_of_frame(&memory, &soup.frame, pool, &call, &built, &error) != NULL;
     if (!ok) {
         assert_int_equal(error.code, LAM_LIMIT);
-        assert_non_null(strstr(error.text, "--memory-limit"));
+        assert_non_null(strstr(error.text, "lam_control.memory_limit_bytes"));
     }
     assert_int_equal(call.memory_used, hierarchy_bytes(&memory)); // what was for the call alone is given back
     *used = call.memory_used;

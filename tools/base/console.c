@@ -8,6 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "option_names.h"
+
 static bool terminal, colors;
 static _Thread_local FILE *captured; // NULL: standard error
 
@@ -28,12 +30,16 @@ static FILE *stream_of(void) { return captured ? captured : stderr; }
 
 void say_error(const char *text)
 {
-    fprintf(stream_of(), "%slambent:%s %s\n", colors ? "\033[1;31m" : "", colors ? "\033[0m" : "", text);
+    char shown[MESSAGE_SIZE];
+    fprintf(stream_of(), "%slambent:%s %s\n", colors ? "\033[1;31m" : "", colors ? "\033[0m" : "",
+            name_options(text, shown));
 }
 
 void say_warning(const char *text)
 {
-    fprintf(stream_of(), "%slambent: warning:%s %s\n", colors ? "\033[1;33m" : "", colors ? "\033[0m" : "", text);
+    char shown[MESSAGE_SIZE];
+    fprintf(stream_of(), "%slambent: warning:%s %s\n", colors ? "\033[1;33m" : "", colors ? "\033[0m" : "",
+            name_options(text, shown));
 }
 
 void say_plain(const char *format, ...)

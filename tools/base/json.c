@@ -7,6 +7,8 @@
 
 #include <string.h>
 
+#include "option_names.h"
+
 static void quoted(FILE *file, const char *text)
 {
     putc('"', file);
@@ -111,4 +113,10 @@ void json_numbers(struct json *json, const char *key, const double *values, int 
 void json_vector(struct json *json, const char *key, lam_vec3 v)
 {
     json_numbers(json, key, (double[]){v.x, v.y, v.z}, 3);
+}
+
+void json_message(struct json *json, const char *key, const char *text)
+{
+    char shown[MESSAGE_SIZE];
+    json_text(json, key, text ? name_options(text, shown) : NULL);
 }

@@ -191,7 +191,7 @@ static void print_json(const struct convert *c)
     json_close(&json, ']');
     json_open(&json, "warnings", '[');
     for (int i = 0; lam_scene_warning(c->job.scene, i); i++)
-        json_text(&json, NULL, lam_scene_warning(c->job.scene, i));
+        json_message(&json, NULL, lam_scene_warning(c->job.scene, i));
     json_close(&json, ']');
     json_close(&json, '}');
     putchar('\n');

@@ -13,6 +13,7 @@
 #include "exit_codes.h"
 #include "interrupt.h"
 #include "journal.h"
+#include "option_names.h"
 
 // Bytes that a pipe takes without waiting where poll() finds room in it (PIPE_BUF).
 enum { PIECE = 4096 };
@@ -108,7 +109,8 @@ static void set_class(json_t *answer, const struct exit_code *code, const char *
 {
     set(answer, "class", json_string(code->name));
     set(answer, "exit", json_integer(code->code));
-    set_text(answer, "error", error);
+    char shown[MESSAGE_SIZE];
+    set_text(answer, "error", error ? name_options(error, shown) : NULL);
 }
 
 void job_answer_error(struct job_answers *answers, json_t *id, uint64_t line, const char *outcome,

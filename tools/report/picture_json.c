@@ -34,6 +34,6 @@ void picture_json(struct json *json, const struct job *job, double read_ms)
     answer_camera(json, job);
     json_open(json, "warnings", '[');
     for (int i = 0; lam_scene_warning(job->scene, i); i++)
-        json_text(json, NULL, lam_scene_warning(job->scene, i));
+        json_message(json, NULL, lam_scene_warning(job->scene, i));
     json_close(json, ']');
 }

@@ -315,7 +315,7 @@ static void json_error(struct json *json, const lam_error *error)
     json_open(json, "error", '{');
     json_text(json, "code", exit_code_of(error->code)->name);
     json_count(json, "exit", (uint64_t)exit_code_of(error->code)->code);
-    json_text(json, "text", error->text);
+    json_message(json, "text", error->text);
     json_close(json, '}');
 }
 
@@ -355,7 +355,7 @@ void report_json(FILE *file, const struct job *job, const lam_error *error)
     }
     json_open(&json, "warnings", '[');
     for (int i = 0; job && job->scene && lam_scene_warning(job->scene, i); i++)
-        json_text(&json, NULL, lam_scene_warning(job->scene, i));
+        json_message(&json, NULL, lam_scene_warning(job->scene, i));
     json_close(&json, ']');
     json_error(&json, error);
     json_close(&json, '}');

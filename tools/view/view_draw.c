@@ -16,6 +16,7 @@
 #include "explain_json.h"
 #include "job_check.h"
 #include "kept_model.h"
+#include "option_names.h"
 #include "page_model.h"
 #include "page_write.h"
 #include "picture_json.h"
@@ -68,7 +69,9 @@ static void answer(const struct drawer *d, int status, bool keeps, const char *n
 
 static void answer_error(const struct drawer *d, const lam_error *error)
 {
-    answer(d, error->code == LAM_CANCELLED ? 409 : 422, true, error->text, strlen(error->text), NULL, 0);
+    char shown[MESSAGE_SIZE];
+    const char *text = name_options(error->text, shown);
+    answer(d, error->code == LAM_CANCELLED ? 409 : 422, true, text, strlen(text), NULL, 0);
 }
 
 // --- the model

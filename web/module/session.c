@@ -106,7 +106,7 @@ static int answer(struct job *job, bool ok, const lam_error *error)
     json_open(&json, NULL, '{');
     json_flag(&json, "ok", ok);
     if (!ok) {
-        json_text(&json, "error", error->text);
+        json_message(&json, "error", error->text);
         json_flag(&json, "cancelled", error->code == LAM_CANCELLED);
     }
     if (ok)

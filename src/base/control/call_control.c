@@ -120,13 +120,14 @@ bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error
 {
     if (call && __atomic_load_n(&call->over_memory, __ATOMIC_RELAXED))
         return fail(error, LAM_LIMIT,
-                    "the memory limit of %.1f MB is reached: %.1f MB in use, %.1f MB more needed (--memory-limit)",
+                    "the memory limit of %.1f MB is reached: %.1f MB in use, %.1f MB more needed "
+                    "(lam_control.memory_limit_bytes)",
                     (double)call->control.memory_limit_bytes / 1e6, (double)call->memory_used / 1e6,
                     (double)bytes / 1e6);
     if (call && __atomic_load_n(&call->over_expansion, __ATOMIC_RELAXED))
         return fail(error, LAM_LIMIT,
                     "%.1f MB of memory are needed, expected at most %.1f MB for files of %llu bytes "
-                    "(--expansion-limit)",
+                    "(lam_control.expansion_limit)",
                     (double)(call->memory_used + bytes) / 1e6, (double)expansion_bytes(call) / 1e6,
                     (unsigned long long)call_input_bytes(call));
     return fail_memory(error, bytes);
@@ -176,8 +177,9 @@ bool call_check_objects(const struct call_control *call, const char *name, uint6
     uint64_t given = call ? call->control.object_limit : 0, bytes = call_input_bytes(call);
     uint64_t limit = or_default(given, bytes ? grown(LAM_OBJECTS_BASE, bytes, 1) : UINT64_MAX);
     char text[48];
-    return count <= limit || fail(error, LAM_LIMIT, "%s: %llu objects, expected at most %llu%s (--object-limit)", name,
-                                  (unsigned long long)count, (unsigned long long)limit, for_files(call, given, text));
+    return count <= limit ||
+           fail(error, LAM_LIMIT, "%s: %llu objects, expected at most %llu%s (lam_control.object_limit)", name,
+                (unsigned long long)count, (unsigned long long)limit, for_files(call, given, text));
 }
 
 bool call_check_triangles(const struct call_control *call, const char *name, uint64_t count, const char *items,
@@ -185,25 +187,26 @@ bool call_check_triangles(const struct call_control *call, const char *name, uin
 {
     uint64_t limit = call_triangle_limit(call), given = call ? call->control.triangle_limit : 0;
     char text[48];
-    return count <= limit || fail(error, LAM_LIMIT, "%s: %llu %s, expected at most %llu%s (--triangle-limit)", name,
-                                  (unsigned long long)count, items, (unsigned long long)limit,
+    return count <= limit || fail(error, LAM_LIMIT, "%s: %llu %s, expected at most %llu%s (lam_control.triangle_limit)",
+                                  name, (unsigned long long)count, items, (unsigned long long)limit,
                                   for_files(call, limit < LAM_TRIANGLE_LIMIT ? given : 1, text));
 }
 
 bool call_check_expanded(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error)
 {
     uint64_t limit = expansion_bytes(call);
-    return bytes <= limit ||
-           fail(error, LAM_LIMIT,
-                "%s: unpacks to more than %.1f MB, expected at most that for files of %llu bytes (--expansion-limit)",
-                name, (double)limit / 1e6, (unsigned long long)call_input_bytes(call));
+    return bytes <= limit || fail(error, LAM_LIMIT,
+                                  "%s: unpacks to more than %.1f MB, expected at most that for files of %llu bytes "
+                                  "(lam_control.expansion_limit)",
+                                  name, (double)limit / 1e6, (unsigned long long)call_input_bytes(call));
 }
 
 bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error)
 {
     uint64_t limit = call_file_limit(call);
-    return bytes <= limit || fail(error, LAM_LIMIT, "%s: %llu bytes, expected at most %llu (--file-limit)", name,
-                                  (unsigned long long)bytes, (unsigned long long)limit);
+    return bytes <= limit ||
+           fail(error, LAM_LIMIT, "%s: %llu bytes, expected at most %llu (lam_control.file_limit_bytes)", name,
+                (unsigned long long)bytes, (unsigned long long)limit);
 }
 
 void call_progress(struct call_control *call, double share, const char *step)

@@ -123,9 +123,10 @@ static bool read_with(const struct webp_library *webp, const struct picture_file
     uint64_t more = call_expansion_limit(file->call);
     uint64_t most = PLAIN_PIXELS + (more < UINT32_MAX ? file->size * more : UINT32_MAX);
     if (pixels > most)
-        return fail(error, LAM_LIMIT,
-                    "%s: %d×%d pixels, expected at most %llu for a WebP file of %zu bytes (--expansion-limit)",
-                    file->name, features.width, features.height, (unsigned long long)most, file->size);
+        return fail(
+            error, LAM_LIMIT,
+            "%s: %d×%d pixels, expected at most %llu for a WebP file of %zu bytes (lam_control.expansion_limit)",
+            file->name, features.width, features.height, (unsigned long long)most, file->size);
     if (!picture_make(file, (uint32_t)features.width, (uint32_t)features.height, LAM_RGBA8, image, error))
         return false;
     // libwebp reads these itself: all pixels of a lossless picture, and the alpha of a lossy one.
@@ -286,7 +287,7 @@ static bool webp_read(const struct picture_file *file, lam_image *image, lam_err
 const struct codec codec_webp = {
     .name = "webp",
     .title = "WebP",
-    .written = "8 bits, sRGB, with alpha, lossless unless --quality is below 100; needs libwebp",
+    .written = "8 bits, sRGB, with alpha, lossless or lossy; needs libwebp",
     .pixels = LAM_RGBA8,
     .write = webp_write,
     .probe = webp_probe,

@@ -76,9 +76,10 @@ static bool check_required(struct threemf_xml *xml, const lam_file_extension *ex
                            ? extension->name + strlen(extension->name) - (SHOWN_CHARACTERS - 1)
                            : extension->name;
     if (extension->support == LAM_EXTENSION_UNKNOWN && !file->source->params->lenient)
-        return fail(file->error, LAM_UNSUPPORTED,
-                    "%s: requires the extension …%s, which this version does not know (--lenient ignores it)",
-                    file->source->name, shown_name(name, shown));
+        return fail(
+            file->error, LAM_UNSUPPORTED,
+            "%s: requires the extension …%s, which this version does not know (lam_load_params.lenient ignores it)",
+            file->source->name, shown_name(name, shown));
     if (extension->support >= LAM_EXTENSION_IGNORED)
         scene_warn(file->scene, "%s: requires the extension …%s, which is not drawn", file->source->name,
                    shown_name(name, shown));

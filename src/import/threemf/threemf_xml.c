@@ -171,7 +171,7 @@ static bool find_space(const struct xml_parser *parser, const char *name, enum t
 static bool refuse_prefix(struct threemf_xml *xml, const char *name)
 {
     char shown[SHOWN_NAME_SIZE];
-    return threemf_xml_fail(xml, "found the name %s, whose prefix is not declared (--lenient reads on)",
+    return threemf_xml_fail(xml, "found the name %s, whose prefix is not declared (lam_load_params.lenient reads on)",
                             shown_name(name, shown));
 }
 

@@ -41,14 +41,13 @@ WORDS(viewer_words, {"local", LAM_VIEWER_LOCAL, "the eye is at the camera"},
       {"infinite", LAM_VIEWER_INFINITE, "the eye is infinitely far away: one direction for every point"})
 WORDS(flat_normal_words, {"face", LAM_FLAT_NORMAL_FACE, "the normal of the triangle"},
       {"vertex", LAM_FLAT_NORMAL_VERTEX, "the normal of its last vertex, as in OpenGL"})
-WORDS(
-    occlusion_words,
-    {"auto", LAM_OCCLUSION_AUTO, "`screen` with the studio's lights or environment light, otherwise `off`"},
-    {"off", LAM_OCCLUSION_OFF, "no occlusion"},
-    {"screen", LAM_OCCLUSION_SCREEN, "computed from the depths of visible surfaces around each pixel"},
-    {"rays", LAM_OCCLUSION_RAYS,
-     "computed by `--ao-samples` rays from each point, which also hit hidden surfaces: slower, only on the CPU device"})
-WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if `--ao auto` selects screen"},
+WORDS(occlusion_words,
+      {"auto", LAM_OCCLUSION_AUTO, "`screen` with the studio's lights or environment light, otherwise `off`"},
+      {"off", LAM_OCCLUSION_OFF, "no occlusion"},
+      {"screen", LAM_OCCLUSION_SCREEN, "computed from the depths of visible surfaces around each pixel"},
+      {"rays", LAM_OCCLUSION_RAYS,
+       "computed by rays from each point, which also hit hidden surfaces: slower, only on the CPU device"})
+WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if ambient occlusion is `auto` and selects `screen`"},
       {"off", LAM_CAVITY_OFF, "valleys and ridges unchanged"},
       {"on", LAM_CAVITY_ON, "valleys are darker; ridges of models without textures are lighter"})
 WORDS(ground_words, {"off", LAM_GROUND_NONE, "no ground"},
@@ -122,7 +121,7 @@ static const lam_setting rows[] = {
      .expected = "more than 0, up to 10",
      .summary = "The largest distance at which surfaces occlude, relative to half the diagonal of the scene's box."},
     {"ao_samples", MEMBER(WHOLE, occlusion_samples), .min = 1, .max = 1024, .standard = 64, .expected = "0 to 1024",
-     .summary = "Rays from each lit point with `--ao rays`; more rays reduce noise."},
+     .summary = "Rays of ambient occlusion (`rays`) from each lit point; more rays reduce noise."},
     {"light_cutoff", MEMBER(NUMBER, light_cutoff), .max = 1, .standard = 0.5 / 255, .zero_is_negative = true,
      .expected = "at most 1",
      .summary = "The largest error from skipping weak lights; 0 evaluates every light everywhere."},
@@ -134,7 +133,7 @@ static const lam_setting rows[] = {
     {"wireframe_width", MEMBER(NUMBER, wireframe_width), .min = 0.01, .max = 1000, .standard = 1,
      .expected = "pixels from 0 to 1000", .summary = "The width of the wireframe's lines."},
     {"wireframe_color", MEMBER(RGBA, wireframe_color),
-     .summary = "The colour of the wireframe: by default black; white with `--surfaces off` over a dark background."},
+     .summary = "The colour of the wireframe: by default black; white over a dark background if surfaces are off."},
     {"edges", MEMBER(WORDS, edges), WORDS_OF(edges_words), .expected = "edges or hidden_lines",
      .summary = "Draw feature edges as lines: all, none, or some of crease,boundary,silhouette."},
     {"edge_angle", MEMBER(ANGLE, edge_angle_rad), .min = 0.001, .max = 180, .standard = 40, .expected = "0° to 180°",
@@ -142,7 +141,7 @@ static const lam_setting rows[] = {
     {"edge_width", MEMBER(NUMBER, edge_width), .min = 0.01, .max = 1000, .standard = 1.5,
      .expected = "pixels from 0 to 1000", .summary = "The width of feature edges."},
     {"edge_color", MEMBER(RGBA, edge_color),
-     .summary = "The colour of feature edges: by default black; white with `--surfaces off` over a dark background."},
+     .summary = "The colour of feature edges: by default black; white over a dark background if surfaces are off."},
     {"hidden_lines", MEMBER(WORD, hidden_lines), WORDS_OF(hidden_lines_words), .expected = "edges or hidden_lines",
      .summary = "Edges behind surfaces: remove, dash or show."},
     {"surfaces", MEMBER(NOT_FLAG, no_surfaces), WORDS_OF(surfaces_words),

@@ -274,13 +274,13 @@ void info_json(const struct info *info)
         write_model(&json, info);
     json_open(&json, "warnings", '[');
     for (int i = 0; job->scene && lam_scene_warning(job->scene, i); i++)
-        json_text(&json, NULL, lam_scene_warning(job->scene, i));
+        json_message(&json, NULL, lam_scene_warning(job->scene, i));
     json_close(&json, ']');
     if (info->error->code) {
         json_open(&json, "error", '{');
         json_text(&json, "code", exit_code_of(info->error->code)->name);
         json_count(&json, "exit", (uint64_t)exit_code_of(info->error->code)->code);
-        json_text(&json, "text", info->error->text);
+        json_message(&json, "text", info->error->text);
         json_close(&json, '}');
     } else {
         json_none(&json, "error");

@@ -5,6 +5,8 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "option_names.h"
+
 enum { ROWS = 8, NAME_BYTES = 40, LINE_BYTES = 120 };
 
 // Returns a text from a file: control characters shown as '?', cut after `bytes`. NULL: "".
@@ -284,9 +286,10 @@ void info_text(const struct info *info)
     print_file(file);
     if (info->needs_lenient)
         printf("%-12sdrawing it needs --lenient: it requires an extension that is not known\n", "note");
+    char shown[MESSAGE_SIZE];
     int count = 0;
     while (lam_scene_warning(scene, count))
         count++;
     for (int i = 0; i < count && !omitted(i, count); i++)
-        printf("%-12s%s\n", label("warnings", i), lam_scene_warning(scene, i));
+        printf("%-12s%s\n", label("warnings", i), name_options(lam_scene_warning(scene, i), shown));
 }

@@ -14,6 +14,7 @@
 #include "interrupt.h"
 #include "journal.h"
 #include "limit_options.h"
+#include "option_names.h"
 #include "output.h"
 #include "plan.h"
 #include "page_write.h"
@@ -140,7 +141,8 @@ static json_t *start_record(const struct batch_item *item, int view, const char 
     set_text(record, "view", lam_side_name((lam_side)(v->side >= 0 ? v->side : item->options->view.side)));
     set_text(record, "class", class);
     set(record, "exit", json_integer(exit));
-    set_text(record, "error", error);
+    char shown[MESSAGE_SIZE];
+    set_text(record, "error", error ? name_options(error, shown) : NULL);
     set(record, "attempt", json_integer(item->attempts[view]));
     return record;
 }
@@ -153,8 +155,9 @@ json_t *batch_record_failed(const struct batch_item *item, int view, const char 
 static json_t *warnings_of(const struct job *job)
 {
     json_t *list = json_array();
+    char shown[MESSAGE_SIZE];
     for (int i = 0; job->scene && lam_scene_warning(job->scene, i); i++) {
-        char *clean = journal_text(lam_scene_warning(job->scene, i));
+        char *clean = journal_text(name_options(lam_scene_warning(job->scene, i), shown));
         json_array_append_new(list, json_string(clean ? clean : ""));
         free(clean);
     }

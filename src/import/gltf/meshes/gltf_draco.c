@@ -173,7 +173,7 @@ static bool charge_claim(const struct decoding *d, const struct gltf_view *view,
     uint64_t points_max = 3 * call_triangle_limit(gltf->source->call);
     if (claim.points > points_max)
         return fail(gltf->json.error, LAM_LIMIT,
-                    "%s: %u vertices, expected at most %llu, three for each triangle (--triangle-limit)",
+                    "%s: %u vertices, expected at most %llu, three for each triangle (lam_control.triangle_limit)",
                     gltf->source->name, claim.points, (unsigned long long)points_max);
     uint64_t bytes = draco_claim_bytes(&claim);
     if (bytes > SIZE_MAX || !call_charge(gltf->source->call, (size_t)bytes))

@@ -21,7 +21,7 @@ struct json {
 void json_open(struct json *json, const char *key, char bracket); // '{' or '['
 void json_close(struct json *json, char bracket);                 // '}' or ']'
 void json_text(struct json *json, const char *key,
-               const char *text);                                   // NULL: null; bytes that are not UTF-8: U+FFFD
+               const char *text); // NULL: null; bytes that are not UTF-8: U+FFFD
 // A sentence of the library, with options in place of its fields (option_names.h); NULL: null.
 void json_message(struct json *json, const char *key, const char *text);
 void json_number(struct json *json, const char *key, double value); // not finite: null

@@ -11,8 +11,11 @@ LIBRARIES = {"liblambent0": "liblambent.so", "liblambent-check0": "liblambent-ch
 
 
 def exported(library):
+    """The symbols with their versions, as dpkg-gensymbols writes them: "lam_draw@LAMBENT_0"."""
     text = subprocess.run(["nm", "-D", "--defined-only", "--format=posix", library], stdout=subprocess.PIPE, text=True, check=True).stdout
-    return sorted(line.split()[0] for line in text.splitlines())
+    # "lam_draw@@LAMBENT_0 T ..."; "LAMBENT_0 A" is the version itself, whose version is itself.
+    names = [line.split()[0].replace("@@", "@") for line in text.splitlines()]
+    return sorted(name if "@" in name else name + "@" + name for name in names)
 
 
 def main():
@@ -22,9 +25,9 @@ def main():
     for package, library in LIBRARIES.items():
         path = ROOT / "packaging" / "debian" / (package + ".symbols")
         text = path.read_text()
-        since = dict(re.findall(r"^ (\w+)@Base (\S+)$", text, re.M))
+        since = dict(re.findall(r"^ (\S+) (\S+)$", text, re.M))
         found = next(build.glob("**/" + library))
-        rows = "".join(" %s@Base %s\n" % (name, since.get(name, version)) for name in exported(found))
+        rows = "".join(" %s %s\n" % (name, since.get(name, version)) for name in exported(found))
         wanted = text[:text.index("\n ") + 1] + rows
         if wanted != text and "--check" in sys.argv:
             names = set(exported(found)) ^ set(since)

@@ -126,6 +126,42 @@ def examples(folder, environment):
     check("example render is under 25 lines (%d)" % lines, lines < 25)
 
 
+def pixels_of(path):
+    """The size and the bytes of a BMP with 32 bits a pixel; None: it is not there."""
+    data = open(path, "rb").read() if os.path.exists(path) else b""
+    if data[:2] != b"BM":
+        return None
+    start, width, height = (int.from_bytes(data[at:at + 4], "little", signed=True) for at in (10, 18, 22))
+    return width, abs(height), data[start:]
+
+
+def widget(folder, environment):
+    """The example with a window (SDL2) turns a model in its own buffer, 30 times a second, on SDL's driver without a display."""
+    sdl = run(["pkg-config", "--cflags", "--libs", "sdl2"])
+    if sdl.returncode:
+        print("ok %d - example widget # SKIP SDL2 is not installed: apt install libsdl2-dev" % (len(results) + 1))
+        results.append(True)
+        return
+    flags = run(["pkg-config", "--cflags", "--libs", "lambent"], env=environment)
+    program = os.path.join(folder, "widget")
+    built = run(["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", installed_example(environment, "widget"), "-o", program] + flags.stdout.split() +
+                sdl.stdout.split(), env=environment)
+    if not check("example widget compiles", built.returncode == 0, built.stdout):
+        return
+    cube, pictures = os.path.join(ROOT, "tests", "models", "cube.obj"), []
+    for frames in ("1", "30"):
+        bmp = os.path.join(folder, "widget-%s.bmp" % frames)
+        ran = run([program, cube, frames, bmp], env={**environment, "SDL_VIDEODRIVER": "dummy"}, timeout=60)
+        check("example widget draws %s pictures" % frames, ran.returncode == 0 and ran.stdout.startswith(frames + " pictures of 640x480"), ran.stdout)
+        pictures.append(pixels_of(bmp))
+    rate = float(ran.stdout.split(", ")[1].split()[0]) if ran.returncode == 0 else 0
+    check("example widget keeps to 30 pictures a second (%.1f)" % rate, 5 < rate < 32, ran.stdout)
+    shown = all(p and p[:2] == (640, 480) and len({p[2][at:at + 4] for at in range(0, len(p[2]), 4)}) > 3 for p in pictures)
+    check("example widget shows the model, and turns it", shown and pictures[0] != pictures[1])
+    wrong = run([program, "no-such-file.obj"], env={**environment, "SDL_VIDEODRIVER": "dummy"})
+    check("example widget tells a missing file", wrong.returncode == 1 and "no-such-file.obj" in wrong.stdout, wrong.stdout)
+
+
 def check_library(folder, environment):
     """liblambent-check: a program built with its pkg-config file alone checks a shader, and saves a picture with liblambent."""
     flags = run(["pkg-config", "--cflags", "--libs", "lambent-check"], env=environment)
@@ -152,8 +188,16 @@ def exported(name):
     return [line.split()[2] for line in lines if len(line.split()) == 3]
 
 
+def functions_of(name, version):
+    """The names of the exported functions; each must have the version, which is an absolute symbol itself."""
+    names = [symbol for symbol in exported(name) if symbol not in (version, "%s@@%s" % (version, version))]
+    other = [symbol for symbol in names if not symbol.endswith("@@" + version)]
+    check("%s: every symbol has the version %s" % (name, version), bool(names) and not other, " ".join(other))
+    return [symbol.partition("@@")[0] for symbol in names]
+
+
 def symbols():
-    names, of_check = exported("liblambent"), exported("liblambent-check")
+    names, of_check = functions_of("liblambent", "LAMBENT_0"), functions_of("liblambent-check", "LAMBENT_CHECK_0")
     strange = [n for n in names if not n.startswith("lam_") or n.startswith("lam_check")]
     check("liblambent exports lam_ names only, and none of lam_check", bool(names) and not strange, " ".join(strange))
     strange = [n for n in of_check if not n.startswith("lam_check_")]
@@ -168,7 +212,7 @@ def documentation(folder):
     wrong = list(reference.complaints(all_headers))
     check("every public declaration is documented", not wrong, "\n".join(wrong))
     functions = {item.name for header in all_headers for item in header.items if item.kind == "function"}
-    names = set(exported("liblambent") + exported("liblambent-check"))
+    names = {symbol.partition("@@")[0] for symbol in exported("liblambent") + exported("liblambent-check") if symbol.startswith("lam_")}
     check("the reference has the functions that the libraries export", functions == names, " ".join(functions ^ names))
     sample = os.path.join(folder, "sample.h")
     with open(sample, "w") as file:
@@ -190,6 +234,7 @@ def main():
         environment = installed(folder)
         if environment:
             examples(folder, environment)
+            widget(folder, environment)
             static(folder, environment)
             check_library(folder, environment)
             documentation(folder)

@@ -376,7 +376,8 @@ static bool run_contract(struct run *r, const struct contract *contract, unsigne
 bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam_error *error)
 {
     *report = (lam_check_report){0};
-    if (!check_reserved("lam_check_params", params, error))
+    if (!check_reserved("lam_check_params", params, error) ||
+        (params->painter && !check_reserved("lam_check_painter", params->painter, error)))
         return false;
     lam_check_params own = *params; // with the fixed state of GLSL 110 and 120 as inputs
     struct run r = {.params = &own, .report = report};

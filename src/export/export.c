@@ -61,7 +61,8 @@ lam_export *lam_scene_export(const lam_scene *scene, const char *format, const l
         fail(error, LAM_BAD_ARGUMENT, "lam_scene_export: %s is NULL", scene ? "format" : "scene");
         return NULL;
     }
-    if (!check_reserved("lam_export_params", params, error))
+    if (!check_reserved("lam_export_params", params, error) ||
+        (params->camera && !check_reserved("lam_camera", params->camera, error)))
         return NULL;
     const struct exporter *exporter = exporter_find(format, format, error);
     if (!exporter)

@@ -1,6 +1,7 @@
 // versions.c: what a program does with the library, by fields that every version of the headers has. It prints a hash of
 // its picture and numbers of its explanation, reports and scene, arrays among them. With NEWER the headers have a field
 // `newest` in every struct, and each call is made once with that field set.
+#include <lambent/check.h>
 #include <lambent/lambent.h>
 #include <stdio.h>
 #include <string.h>
@@ -100,42 +101,95 @@ static void refusals(const char *path)
     lam_bytes bytes;
     printf("refused:\n");
 #define REFUSES(what, call) (error = (lam_error){0}, expect(what, !(call), &error))
-    REFUSES("draw params", lam_draw(device, scene, &good, &(lam_draw_params){.newest = 1}, &image, NULL, &error));
-    REFUSES("control", lam_draw(device, scene, &good, NULL, &image, &(lam_control){.newest = 1}, &error));
+    REFUSES("lam_draw_params", lam_draw(device, scene, &good, &(lam_draw_params){.newest = 1}, &image, NULL, &error));
+    REFUSES("lam_control", lam_draw(device, scene, &good, NULL, &image, &(lam_control){.newest = 1}, &error));
     lam_camera camera = good;
     camera.newest = 1;
-    REFUSES("camera", lam_draw(device, scene, &camera, NULL, &image, NULL, &error));
+    REFUSES("lam_camera", lam_draw(device, scene, &camera, NULL, &image, NULL, &error));
     camera = lam_camera_fit(scene, 64, 64, &(lam_view){.newest = 1});
-    REFUSES("view", lam_draw(device, scene, &camera, NULL, &image, NULL, &error));
+    REFUSES("lam_view", lam_draw(device, scene, &camera, NULL, &image, NULL, &error));
     lam_image other = image;
     other.newest = 1;
-    REFUSES("image", lam_draw(device, scene, &good, NULL, &other, NULL, &error));
-    REFUSES("encode", lam_image_encode(&image, "png", &(lam_save_params){.newest = 1}, &bytes, &error));
-    REFUSES("compare", lam_image_compare(&image, &other, &(lam_difference){0}, &error));
-    REFUSES("cpu params", lam_device_cpu(&(lam_cpu_params){.newest = 1}, &error));
-    REFUSES("load params", lam_scene_load(path, &(lam_load_params){.newest = 1}, NULL, &error));
-    REFUSES("load control", lam_scene_load(path, NULL, &(lam_control){.newest = 1}, &error));
-    REFUSES("explain",
+    REFUSES("lam_image", lam_draw(device, scene, &good, NULL, &other, NULL, &error));
+    REFUSES("lam_save_params", lam_image_encode(&image, "png", &(lam_save_params){.newest = 1}, &bytes, &error));
+    REFUSES("lam_image of lam_image_compare", lam_image_compare(&image, &other, &(lam_difference){0}, &error));
+    REFUSES("lam_cpu_params", lam_device_cpu(&(lam_cpu_params){.newest = 1}, &error));
+    REFUSES("lam_load_params", lam_scene_load(path, &(lam_load_params){.newest = 1}, NULL, &error));
+    REFUSES("lam_control of lam_scene_load", lam_scene_load(path, NULL, &(lam_control){.newest = 1}, &error));
+    REFUSES("lam_draw_params of lam_explain",
             lam_explain(device, scene, &good, &(lam_draw_params){.newest = 1}, 64, 64, LAM_RGBA8, 1, 1, NULL, &error));
-    REFUSES("shader params",
+    REFUSES("lam_shader_params",
             lam_shader_make(scene, &good, NULL, 64, 64, -1, &(lam_shader_params){.newest = 1}, &error));
     lam_material material = lam_material_default();
     material.newest = 1;
-    REFUSES("material", lam_scene_add_material(scene, &material, &error) >= 0);
+    REFUSES("lam_material", lam_scene_add_material(scene, &material, &error) >= 0);
     lam_light light = lam_light_default(LAM_LIGHT_POINT);
     light.newest = 1;
-    REFUSES("light", lam_scene_add_light(scene, &light, &error) >= 0);
+    REFUSES("lam_light", lam_scene_add_light(scene, &light, &error) >= 0);
     lam_object object = lam_object_default();
     object.newest = 1;
-    REFUSES("object", lam_scene_add_object(scene, &object, &error) >= 0);
+    REFUSES("lam_object", lam_scene_add_object(scene, &object, &error) >= 0);
     lam_mesh mesh = *lam_scene_mesh(scene, 0);
     mesh.newest = 1;
-    REFUSES("mesh", lam_scene_add_mesh(scene, &mesh, &error) >= 0);
-    REFUSES("shape params", lam_scene_add_shape(scene, "cube", &(lam_shape_params){.newest = 1}, &error) >= 0);
-    REFUSES("parametric", lam_scene_add_parametric(scene, &(lam_parametric){.newest = 1}, NULL, &error) >= 0);
-    REFUSES("implicit", lam_scene_add_implicit(scene, &(lam_implicit){.newest = 1}, NULL, &error) >= 0);
-    REFUSES("settings", lam_scene_save(scene, &(lam_picture_settings){.newest = 1}, "/nowhere/scene.json", &error));
-    REFUSES("render params", lam_render(path, &(lam_render_params){.newest = 1}, &made, NULL, &error));
+    REFUSES("lam_mesh", lam_scene_add_mesh(scene, &mesh, &error) >= 0);
+    REFUSES("lam_shape_params", lam_scene_add_shape(scene, "cube", &(lam_shape_params){.newest = 1}, &error) >= 0);
+    REFUSES("lam_parametric", lam_scene_add_parametric(scene, &(lam_parametric){.newest = 1}, NULL, &error) >= 0);
+    REFUSES("lam_implicit", lam_scene_add_implicit(scene, &(lam_implicit){.newest = 1}, NULL, &error) >= 0);
+    REFUSES("lam_picture_settings",
+            lam_scene_save(scene, &(lam_picture_settings){.newest = 1}, "/nowhere/scene.json", &error));
+    REFUSES("lam_render_params", lam_render(path, &(lam_render_params){.newest = 1}, &made, NULL, &error));
+    lam_material mapped = lam_material_default();
+    lam_texture *texture = lam_texture_make(&image, LAM_TEXTURE_COLOR, NULL, &error);
+    mapped.maps[LAM_MAP_DIFFUSE] = &(lam_texture_map){.texture = texture, .newest = 1};
+    REFUSES("lam_texture_map", lam_scene_add_material(scene, &mapped, &error) >= 0);
+    lam_texture_free(texture);
+    lam_mesh parted = *lam_scene_mesh(scene, 0);
+    lam_part part = {.triangle_count = parted.triangle_count, .material = -1, .newest = 1};
+    parted.parts = &part;
+    parted.part_count = 1;
+    REFUSES("lam_part", lam_scene_add_mesh(scene, &parted, &error) >= 0);
+    lam_orbit orbit = lam_orbit_of(&good, scene);
+    orbit.newest = 1;
+    camera = lam_orbit_camera(&orbit);
+    REFUSES("lam_orbit", lam_draw(device, scene, &camera, NULL, &image, NULL, &error));
+    REFUSES("lam_animation_params", lam_animation_make("png", 8, 8, &(lam_animation_params){.newest = 1}, &error));
+    REFUSES(
+        "lam_save_params of lam_animation_make",
+        lam_animation_make("png", 8, 8, &(lam_animation_params){.frames = &(lam_save_params){.newest = 1}}, &error));
+    REFUSES("lam_export_params", lam_scene_export(scene, "glb", &(lam_export_params){.newest = 1}, &error));
+    camera = good;
+    camera.newest = 1;
+    REFUSES("lam_camera of lam_scene_export",
+            lam_scene_export(scene, "glb", &(lam_export_params){.camera = &camera}, &error));
+    REFUSES("lam_image of lam_scene_export",
+            lam_scene_export(scene, "glb", &(lam_export_params){.thumbnail = &other}, &error));
+    REFUSES("lam_formula",
+            lam_scene_add_formula(scene, &(lam_formula){.text = "x=u;y=v;z=0", .newest = 1}, NULL, &error) >= 0);
+    REFUSES("lam_light_text_params",
+            lam_scene_add_light_text(scene, "point", &(lam_light_text_params){.newest = 1}, &error) >= 0);
+    REFUSES("lam_pick_pixel", lam_pick(scene, &good, NULL, &(lam_pick_pixel){.width = 8, .height = 8, .newest = 1},
+                                       NULL, &(lam_picked){0}, &error));
+    REFUSES("lam_gl_params", lam_device_gl(&(lam_gl_params){.newest = 1}, &error));
+    REFUSES("lam_gl_params of lam_gl_devices", lam_gl_devices(&(lam_gl_params){.newest = 1}, NULL, 0, &error) >= 0);
+    lam_image floats = {0};
+    lam_image_make(&floats, 8, 8, LAM_RGBA32F, &error);
+    REFUSES("lam_layer", lam_image_encode_layers(&(lam_layer){.image = &floats, .newest = 1}, 1, &bytes, &error));
+    REFUSES("lam_check_params", lam_check_run(&(lam_check_params){.fragment = "void main() {}", .newest = 1},
+                                              &(lam_check_report){0}, &error));
+    REFUSES(
+        "lam_check_params of lam_check_contract_write",
+        lam_check_contract_write(&(lam_check_params){.fragment = "void main() {}", .newest = 1}, NULL, &bytes, &error));
+    REFUSES("lam_camera of lam_pick",
+            lam_pick(scene, &camera, NULL, &(lam_pick_pixel){.width = 8, .height = 8}, NULL, &(lam_picked){0}, &error));
+    REFUSES("lam_camera of lam_shader_make", lam_shader_make(scene, &camera, NULL, 64, 64, -1, NULL, &error));
+    REFUSES("lam_camera of lam_scene_add_light_text",
+            lam_scene_add_light_text(scene, "point", &(lam_light_text_params){.camera = &camera}, &error) >= 0);
+    lam_check_painter painter = {.newest = 1};
+    REFUSES("lam_check_painter",
+            lam_check_run(&(lam_check_params){.fragment = "#version 330 core\nout vec4 c; void main() { c = vec4(1); }",
+                                              .painter = &painter},
+                          &(lam_check_report){0}, &error));
+    lam_image_free(&floats);
     lam_image_free(&image);
     lam_scene_free(scene);
     lam_device_free(device);

@@ -158,7 +158,7 @@ class Options:
                 raise TypeError("unexpected keyword argument %r%s" % (name, "; did you mean %r?" % close[0] if close and not known else known))
         self.given, self.kept = {name: value for name, value in given.items() if value is not None}, []
         # The program's words for lights: "file" are the scene's alone; with "none" and "default" the call takes them away.
-        self.no_lights = self.given.get("rig") in ("none", "default") and bool(set(CHANGES) & set(others))
+        self.no_lights = self.given.get("rig") in ("none", "default")
         if self.no_lights:
             self.given["rig"] = "file" if self.given["rig"] == "none" else "auto"
         self.mode = choose("color_mode", KEYWORDS["color_mode"].words, self.given.get("color_mode", "srgb"))

@@ -66,6 +66,14 @@ class Picture(np.ndarray):
         png = self.png()
         return "xxh64:%016x" % lib.xxh64_of(png, len(png))
 
+    @property
+    def pixel_hash(self) -> str:
+        """The hash of the pixels, as `lambent hash` writes it: "pixels:…". For pictures of 8 bits with red, green, blue and alpha."""
+        if self.dtype != np.uint8 or self.ndim != 3 or self.shape[2] != 4:
+            raise BadValue("pixel_hash: found a picture of %s with the shape %s, expected 8 bits, red, green, blue and alpha" % (self.dtype, self.shape))
+        pixels = self.tobytes()
+        return "pixels:%016x" % lib.xxh64_of(pixels, len(pixels))
+
     def show(self) -> None:
         """Shows the picture: in the notebook, or in the browser."""
         ipython = sys.modules.get("IPython")

@@ -143,7 +143,7 @@ class Scene:
         return tuple(every(lib.lam_scene_warning, self._handle))
 
     def render(self, size=None, *, progress=None, **options):
-        """Draws the scene, which stays as it is. `rig` adds lights to those of the scene. `size` and `progress` work as in `lambent.render`.
+        """Draws the scene, which stays as it is. `rig` adds lights to those of the scene; "none" and "default" omit the scene's own. `size` and `progress` work as in `lambent.render`.
 
     Keyword arguments:
 """
@@ -269,6 +269,20 @@ def change(scene, options, task, params):
 
 def draw(scene, options, size, task, changes=False):
     """The picture of a scene, as `lambent MODEL` draws it."""
+    if changes or not options.no_lights:
+        return draw_lit(scene, options, size, task, changes)
+    with scene._access.alone(): # the lights leave the scene for this picture
+        kept = [ffi.new("lam_light *", lib.lam_scene_light(scene._handle, index)[0]) for index in range(lib.lam_scene_light_count(scene._handle))]
+        lib.lam_scene_clear_lights(scene._handle)
+        try:
+            return draw_lit(scene, options, size, task, changes)
+        finally:
+            for light in kept:
+                call(lib.lam_scene_add_light, scene._handle, light)
+
+
+def draw_lit(scene, options, size, task, changes):
+    """The picture of a scene with the lights that it has now."""
     handle = scene._handle
     settings, params = settings_of(scene, options)
     by_file = lit_by_file(scene, settings) and "light" not in options

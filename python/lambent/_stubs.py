@@ -29,7 +29,7 @@ def keywords(groups, structs=None):
     rows = [(name, kind) for group in groups for name, (kind, _) in group.items()]
     rows += [(name, "Literal[%s]" % ", ".join(map(repr, keyword.words)) if keyword.type == "Literal" else keyword.type)
              for name, keyword in _options.keywords_of(structs).items()]
-    rows = [(name, kind.replace("'auto', 'file'", "'auto', 'file', 'none', 'default'") if name == "rig" and groups and _options.CHANGES in groups else kind)
+    rows = [(name, kind.replace("'auto', 'file'", "'auto', 'file', 'none', 'default'") if name == "rig" else kind)
             for name, kind in rows]
     named = {"exposure": "float | Literal['auto']", "view": "Literal[%s]" % ", ".join(map(repr, _options.words_of("lam_side")))}
     return "".join(", %s: %s | None = None" % (name, named.get(name, kind)) for name, kind in dict(rows).items())

@@ -40,7 +40,7 @@ class Hash(Case):
         self.assertEqual(head, ["lambent hashes 1", f"version {version}", "options --size 64"])
         self.assertEqual(list(rows), ["m/a.stl", "m/sub/cube.obj", "teapot"])
         for name, hashed in rows.items():  # the pixels of the picture that the program writes
-            self.assertEqual(hashed, xxh64(self.png(name, "-s", 64)[2]))
+            self.assertEqual(hashed, xxh64(self.png(name, "-s", 64)[2]).replace("xxh64:", "pixels:"))
 
     def test_equal(self):
         self.write()
@@ -52,6 +52,27 @@ class Hash(Case):
         self.good("hash", "m", "-o", "deep/er/q.hash", "-s", 64)
         self.assertIn("../../m/a.stl", "".join(self.lines("deep/er/q.hash")))
         self.assertEqual(self.check("--check", "deep/er/q.hash", "-s", 64, code=0), ["2 equal"])
+
+    def test_files_of_options(self):
+        """An environment and a look are named relative to the file of hashes, from whichever folder it is checked."""
+        (self.folder / "sky").mkdir()
+        self.good("teapot", "-s", "64x32", "-b", "#336699", "-o", "sky/a b.png", "-q")
+        (self.folder / "sky" / "own.look").write_text("--ground shadow\n")
+        options = ["--environment", "sky/a b.png", "--look", "sky/own.look", "--reflectivity", "0.5", "-s", 32]
+        self.good("hash", "m", "-o", "sky/p.hash", *options)
+        self.assertEqual(self.lines("sky/p.hash")[2], "options --size 32 --look own.look --environment 'a b.png' --reflectivity 0.5")
+        self.assertEqual(self.check("--check", "sky/p.hash", code=0), ["2 equal"])
+        self.assertEqual(self.check("--check", self.folder / "sky/p.hash", code=0), ["2 equal"])
+        self.assertEqual(self.check("m", "--check", "sky/p.hash", *options, code=0), ["2 equal"])
+        os.makedirs(self.folder / "deep" / "er")
+        for face in "abcdef":
+            self.good("teapot", "-s", "16", "-o", f"sky/{face}.png", "-q")
+        self.good("hash", "m", "-o", "deep/er/q.hash", "--environment", ",".join(f"sky/{face}.png" for face in "abcdef"), "-s", 32)
+        self.assertIn(",".join(f"../../sky/{face}.png" for face in "abcdef"), self.lines("deep/er/q.hash")[2])
+        self.assertEqual(self.check("--check", "deep/er/q.hash", code=0), ["2 equal"])
+        self.good("hash", "m", "-o", "deep/er/q.hash", "--environment", "studio", "--look", "catalog", "-s", 32)
+        self.assertEqual(self.lines("deep/er/q.hash")[2], "options --size 32 --look catalog --environment studio")
+        self.assertEqual(self.check("--check", "deep/er/q.hash", code=0), ["2 equal"])
 
     def test_differences(self):
         self.write()
@@ -103,7 +124,7 @@ class Hash(Case):
 
     def test_update(self):
         self.write("--pictures", "kept")
-        self.assertEqual(xxh64(read_png((self.folder / "kept/m/a.stl.png").read_bytes())[2]), self.lines()[3].split()[0])
+        self.assertEqual(xxh64(read_png((self.folder / "kept/m/a.stl.png").read_bytes())[2]).replace("xxh64", "pixels"), self.lines()[3].split()[0])
         self.grow()
         out = self.check("m", "teapot", "-s", 64, "--check", "p.hash", "--update", "--pictures", "kept", code=0)
         self.assertEqual(out[-1], "written to p.hash; old and new pictures: p-changes.png")
@@ -113,7 +134,7 @@ class Hash(Case):
         self.assertTrue(len(old) > 9 and len(new) > 9 and len(where) > 9)
         self.assertNotEqual(column(0), column(1))
         self.assertEqual(self.check("--check", "p.hash", "-s", 64, code=0), ["3 equal"])
-        self.assertEqual(xxh64(read_png((self.folder / "kept/m/a.stl.png").read_bytes())[2]), self.lines()[3].split()[0])
+        self.assertEqual(xxh64(read_png((self.folder / "kept/m/a.stl.png").read_bytes())[2]).replace("xxh64", "pixels"), self.lines()[3].split()[0])
         # A picture that is not the one of the hash is not taken for the old one.
         shutil.copy(self.folder / "kept" / "teapot.png", self.folder / "kept" / "m" / "a.stl.png")
         shutil.copy(self.folder / "cube.stl", self.folder / "m" / "a.stl")
@@ -152,7 +173,7 @@ class Hash(Case):
         text = (self.folder / "p.hash").read_text()
         self.given.update(("p.hash", "b.hash"))
         for bad, says in ((b"", "the file ends"), (b"hello\n", "expected 'lambent hashes 1'"), (text[:30].encode(), "lines 'version' and 'options'"),
-                          (text.replace("xxh64:", "md5:").encode(), "b.hash:4"), (text.replace("m/a.stl", "m/\\x").encode(), "b.hash:4"),
+                          (text.replace("pixels:", "xxh64:").encode(), "b.hash:4"), (text.replace("m/a.stl", "m/\\x").encode(), "b.hash:4"),
                           (text.replace("m/a.stl", "teapot").encode(), "twice"), (text.replace("m/a", "m/\0").encode(), "zero byte"),
                           (b"\xff\xfe" + os.urandom(100), "b.hash")):
             (self.folder / "b.hash").write_bytes(bad)
@@ -167,4 +188,4 @@ class Hash(Case):
             self.bad(1, "hash", *words, says=says)
         self.bad(5, "hash", "m", "-o", "no/where/p.hash", says="no/where")
         out = self.good("hash", "m/a.stl", "-s", 8, "-o", "-").stdout.decode().splitlines()
-        self.assertEqual((out[0], out[3][23:]), ("lambent hashes 1", " m/a.stl"))
+        self.assertEqual((out[0], out[3][24:]), ("lambent hashes 1", " m/a.stl"))

@@ -252,7 +252,7 @@ static int finish(void *user, json_t *const *records, size_t failed)
     lam_error error = {0};
     struct result result = {0};
     struct json json = {.file = strcmp(run->path, "-") == 0 ? stderr : stdout};
-    char *options_text = batch_options_given(o);
+    char *options_text = hash_options_text(o, run->path);
     bool writes = !run->checks || o->hash.update, blocked = failed && !o->batch.failures_ok;
     bool ok = (options_text || complain(&error, LAM_LIMIT, "out of memory")) && take_hashes(run, records, &error);
     int rows = 0;
@@ -292,7 +292,7 @@ static int finish(void *user, json_t *const *records, size_t failed)
 // Says first that the version or the options are others: then the pictures may well be.
 static bool say_head(const struct hash_run *run, lam_error *error)
 {
-    char *now = batch_options_given(run->options);
+    char *now = hash_options_text(run->options, run->path);
     if (!now)
         return complain(error, LAM_LIMIT, "out of memory");
     bool says = !run->options->report.quiet;

@@ -27,6 +27,10 @@ struct hash_run {
 bool hash_options_take(const struct hash_file *file, const char *path, const struct options *given, struct options *own,
                        char **kept, lam_error *error);
 
+// Returns the options that change the picture, as a command line, from malloc; files that they name are relative to the folder of the
+// file of hashes (`path`). Returns NULL if memory runs out.
+char *hash_options_text(const struct options *options, const char *path);
+
 // hash_sheet.c
 
 // Returns the path of the sheet beside a file of hashes, from malloc: "pictures-changes.png". Returns NULL if memory

@@ -62,18 +62,27 @@ static bool unescape(char *name)
     return true;
 }
 
+// Reads "pixels:0123456789abcdef": the XXH64 of pixels, where "xxh64:" is that of a file.
+static bool pixels_parse(const char *text, uint64_t *hash)
+{
+    char of_file[XXH64_TEXT];
+    bool form = strncmp(text, "pixels:", 7) == 0;
+    snprintf(of_file, sizeof of_file, "xxh64:%.17s", form ? text + 7 : "");
+    return form && xxh64_parse(of_file, hash);
+}
+
 static bool add_line(struct hash_file *file, const char *path, int number, char *line, size_t *capacity,
                      lam_error *error)
 {
-    enum { HASH = sizeof "xxh64:0123456789abcdef" - 1 };
+    enum { HASH = sizeof "pixels:0123456789abcdef" - 1 };
     struct hash_entry entry = {0};
     bool form = strlen(line) > HASH + 2 && line[HASH] == ' ' && line[HASH + 1] == ' ';
     if (form)
         line[HASH] = 0;
-    if (!form || !xxh64_parse(line, &entry.hash) || !unescape(line + HASH + 2))
+    if (!form || !pixels_parse(line, &entry.hash) || !unescape(line + HASH + 2))
         return complain(error, LAM_CANNOT_READ,
                         "%.300s:%d: found '%.60s', expected a hash, two blanks and a name: "
-                        "xxh64:0123456789abcdef  models/koala.obj",
+                        "pixels:0123456789abcdef  models/koala.obj",
                         path, number, line);
     if (file->count == *capacity) {
         *capacity = *capacity ? 2 * *capacity : 64;
@@ -172,7 +181,7 @@ char *hash_file_text(const struct hash_file *file)
     fprintf(out, "%s\nversion %s\noptions%s%s\n", first_line, file->version, *file->options ? " " : "", file->options);
     for (size_t i = 0; i < file->count; i++) {
         xxh64_print(file->entries[i].hash, hash);
-        fprintf(out, "%s  ", hash);
+        fprintf(out, "pixels%s  ", strchr(hash, ':'));
         put_name(out, file->entries[i].name);
         putc('\n', out);
     }

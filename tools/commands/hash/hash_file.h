@@ -3,7 +3,7 @@
 //     lambent hashes 1
 //     version 0.9.0
 //     options --size 256
-//     xxh64:0123456789abcdef  models/koala.obj
+//     pixels:0123456789abcdef  models/koala.obj
 //
 // A name is relative to the file's folder; in it "\\" means a backslash, "\n" for a line end and "\r" for a carriage return.
 #ifndef HASH_FILE_H

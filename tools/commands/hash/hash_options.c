@@ -1,12 +1,15 @@
 // hash_options.c: applies the options that a hash file names, if the command line names none that change the picture.
 #include "hash.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "batch_key.h"
 #include "command_table.h"
 #include "console.h"
+#include "environment_option.h"
+#include "look_option.h"
 
 enum { WORDS_MAX = 512 };
 
@@ -33,21 +36,100 @@ static int split(char *text, char **words)
     return count;
 }
 
+// The options of the picture that name files: an environment names one or six, a look one. Both may be built in.
+static const char *const of_files[] = {"environment", "look"};
+
+// Writes the value of such an option with each path changed by `map`, which returns it from malloc.
+static bool put_paths(FILE *out, const char *name, const char *value, const char *file,
+                      char *(*map)(const char *file, const char *path))
+{
+    bool environment = strcmp(name, "environment") == 0;
+    if (environment ? environment_option_built_in(value) != NULL : look_find(value) != NULL)
+        return fputs(value, out) >= 0;
+    for (const char *from = value; from;) {
+        size_t length = environment ? strcspn(from, ",") : strlen(from);
+        char *one = strndup(from, length), *path = one ? map(file, one) : NULL;
+        bool ok = path && fprintf(out, "%s%s", from == value ? "" : ",", path) >= 0;
+        free(one);
+        free(path);
+        if (!ok)
+            return false;
+        from = from[length] ? from + length + 1 : NULL;
+    }
+    return true;
+}
+
+static char *map_paths(const char *name, const char *value, const char *file,
+                       char *(*map)(const char *file, const char *path))
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    bool ok = out && put_paths(out, name, value, file, map);
+    if (out && fclose(out) == 0 && ok)
+        return text;
+    free(text);
+    return NULL;
+}
+
+char *hash_options_text(const struct options *options, const char *path)
+{
+    enum { FILES = sizeof of_files / sizeof *of_files };
+    struct options shown = *options; // shares the lists of the original
+    char *values[FILES] = {0}, *text = NULL;
+    bool ok = true;
+    for (int i = 0; i < FILES; i++) {
+        size_t row = (size_t)(option_find(of_files[i]) - option_table);
+        if (!options->values[row])
+            continue;
+        shown.values[row] = values[i] = map_paths(of_files[i], options->values[row], path, hash_file_name);
+        ok = ok && values[i];
+    }
+    text = ok ? batch_options_given(&shown) : NULL;
+    for (int i = 0; i < FILES; i++)
+        free(values[i]);
+    return text;
+}
+
+// Makes the paths among the words relative to the present folder. The texts follow the line of the words, at `to`.
+static bool resolve(char **words, int count, const char *path, char *to, const char *end)
+{
+    for (int i = 0; i + 1 < count; i++)
+        for (size_t k = 0; k < sizeof of_files / sizeof *of_files; k++) {
+            if (strncmp(words[i], "--", 2) != 0 || strcmp(words[i] + 2, of_files[k]) != 0)
+                continue;
+            char *value = map_paths(of_files[k], words[i + 1], path, hash_file_model);
+            bool fits = value && strlen(value) < (size_t)(end - to);
+            if (fits)
+                words[i + 1] = strcpy(to, value);
+            to += fits ? strlen(value) + 1 : 0;
+            free(value);
+            if (!fits)
+                return false;
+        }
+    return true;
+}
+
 bool hash_options_take(const struct hash_file *file, const char *path, const struct options *given, struct options *own,
                        char **kept, lam_error *error)
 {
-    char *words[WORDS_MAX], *now = batch_options_given(given);
+    char *words[WORDS_MAX], *now = hash_options_text(given, path);
     bool wanted = now && !*now && *file->options, ok = now && options_copy(own, given);
     free(now);
-    *kept = ok && wanted ? strdup(file->options) : NULL;
+    // Each path may get longer by the folder of the file.
+    size_t length = strlen(file->options), room = length + 1 + (length + 1) * (strlen(path) + 2);
+    *kept = ok && wanted ? malloc(room) : NULL;
+    if (*kept)
+        strcpy(*kept, file->options);
     if (!ok || (wanted && !*kept))
         return complain(error, LAM_LIMIT, "out of memory");
     if (!wanted)
         return true;
     lam_error reason = {0};
     int count = split(*kept, words);
-    ok = options_parse(count, words, find_groups("hash"), own, &reason) == 0;
-    now = ok ? batch_options_given(own) : NULL;
+    ok = resolve(words, count, path, *kept + length + 1, *kept + room) &&
+         options_parse(count, words, find_groups("hash"), own, &reason) == 0;
+    now = ok ? hash_options_text(own, path) : NULL;
     ok = now && strcmp(now, file->options) == 0; // nothing else: no output, no files
     free(now);
     return ok || complain(error, LAM_CANNOT_READ,

@@ -5,6 +5,8 @@ import queue
 import threading
 import time
 
+import numpy as np
+
 from ._native import ffi, lib
 
 
@@ -56,12 +58,43 @@ CLASSES = {lib.LAM_BAD_ARGUMENT: BadValue, lib.LAM_CANNOT_READ: BadModel, lib.LA
            lib.LAM_CANNOT_WRITE: CannotWrite, lib.LAM_CANCELLED: Cancelled}
 
 
+def shown(value):
+    """A value in a sentence: its repr on one short line."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
 def path_bytes(path):
     """The bytes of a path. C ends a text at a zero character: such a path would name another file."""
-    data = os.fsencode(path)
+    try:
+        data = os.fsencode(path)
+    except (TypeError, UnicodeEncodeError):
+        raise BadValue("found %s, expected a path" % shown(path)) from None
     if b"\0" in data:
-        raise BadValue("%r: found a zero character, expected a path" % path)
+        raise BadValue("%s: found a zero character, expected a path" % shown(path))
     return data
+
+
+def text_bytes(what, value):
+    """The UTF-8 of a text."""
+    try:
+        data = value.encode() if isinstance(value, str) else b"\0"
+    except UnicodeEncodeError: # halves of characters
+        data = b"\0"
+    if b"\0" in data:
+        raise BadValue("%s: found %s, expected a text" % (what, shown(value)))
+    return data
+
+
+def matrix_of(what, values):
+    """A 4x4 matrix of finite numbers."""
+    try:
+        found = np.asarray(values, float)
+    except (TypeError, ValueError, OverflowError):
+        raise BadValue("%s: found %s, expected 4x4 numbers" % (what, shown(values))) from None
+    if found.shape != (4, 4):
+        raise BadValue("%s: found the shape %s, expected 4x4" % (what, "x".join(map(str, found.shape)) or "of one number"))
+    return found
 
 
 def text_of(pointer):
@@ -147,6 +180,8 @@ class Run:
 def run(work, limits=None, progress=None):
     """Returns work(run). It is done in a thread of its own while this one waits, so that Ctrl-C is seen at once; the library's calls
     release the GIL. `progress(share, step)` is called in this thread. An exception here, Ctrl-C's too, stops the work and is raised then."""
+    if progress is not None and not callable(progress):
+        raise BadValue("progress: found %s, expected a function" % shown(progress))
     told, result, stopped = queue.SimpleQueue(), {}, None
     task = Run(limits, told if progress else None)
 

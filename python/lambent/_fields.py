@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 
-from ._core import BadValue, call, every, text_of
+from ._core import BadValue, call, every, shown, text_bytes, text_of
 from ._members import MEMBERS
 from ._native import ffi, lib
 
@@ -20,7 +20,7 @@ def choose(what, words, value):
     """The value of a word."""
     word = str(value).lower().replace("_", "-")
     if word not in words:
-        raise BadValue("%s: found %r, expected %s" % (what, value, " or ".join(filter(None, [", ".join(list(words)[:-1]), list(words)[-1]]))))
+        raise BadValue("%s: found %s, expected %s" % (what, shown(value), " or ".join(filter(None, [", ".join(list(words)[:-1]), list(words)[-1]]))))
     return words[word]
 
 
@@ -28,7 +28,7 @@ def color(what, value, mode=lib.LAM_COLOR_SRGB):
     """A colour as four linear numbers: from a text ("#ff8800", "white"; decoded from sRGB), from one number, or from three or four."""
     found = ffi.new("lam_rgba *")
     try:
-        call(lib.lam_color_parse, value.encode() if isinstance(value, str) else written(value).encode(), mode, found)
+        call(lib.lam_color_parse, text_bytes("a colour", written(value)), mode, found)
     except BadValue as error:
         raise BadValue("%s: %s" % (what, error)) from None
     return found.r, found.g, found.b, found.a
@@ -38,7 +38,10 @@ def written(value):
     """A value as the program's options have it: 1/2/3, yes, 0.5."""
     if isinstance(value, (bool, str)):
         return ("no", "yes")[value] if isinstance(value, bool) else value
-    return "/".join(repr(float(number)) for number in (value if hasattr(value, "__iter__") else [value]))
+    try:
+        return "/".join(repr(float(number)) for number in (value if hasattr(value, "__iter__") else [value]))
+    except (TypeError, ValueError, OverflowError):
+        raise BadValue("found %s, expected a text, a number or a list of numbers" % shown(value)) from None
 
 
 def range_of(low, high):
@@ -127,8 +130,8 @@ class Material(type("Fields", (Described,), fields_of(lib.lam_material_field))):
     def __init__(self, words="", **fields):
         self.kept = []
         self.struct = ffi.new("lam_material *", words if isinstance(words, ffi.CData) else lib.lam_material_default())
-        if isinstance(words, str) and words:
-            call(lib.lam_material_parse, words.encode(), lib.LAM_COLOR_SRGB, self.struct)
+        if not isinstance(words, ffi.CData) and not (isinstance(words, str) and not words):
+            call(lib.lam_material_parse, text_bytes("Material", words), lib.LAM_COLOR_SRGB, self.struct)
         for key, value in fields.items():
             setattr(self, key, value)
 
@@ -139,7 +142,10 @@ class Material(type("Fields", (Described,), fields_of(lib.lam_material_field))):
         """Lays a picture over the surface: `name` is a map such as "diffuse", "normal" or "roughness"; the picture is an array height × width × 3 or 4 of
         uint8, or an object of Pillow. Texture coordinates have (0, 0) at its lower left corner."""
         maps = {text: number for number, text in enumerate(every(lib.lam_map_name))}
-        number, pixels = choose("map", maps, name), np.asarray(image.convert("RGBA") if hasattr(image, "convert") else image)
+        try:
+            number, pixels = choose("map", maps, name), np.asarray(image.convert("RGBA") if hasattr(image, "convert") else image)
+        except (TypeError, ValueError) as error: # rows of different lengths
+            raise error if isinstance(error, BadValue) else BadValue("map: found %s, expected a picture" % shown(image)) from None
         if pixels.dtype != np.uint8 or pixels.ndim != 3 or pixels.shape[2] not in (3, 4):
             raise BadValue("map: found the shape %s of %s, expected height x width x 3 or 4 of uint8" % (pixels.shape, pixels.dtype))
         colors = name in ("ambient", "diffuse", "specular", "emission") or name.endswith("color")
@@ -151,12 +157,19 @@ class Material(type("Fields", (Described,), fields_of(lib.lam_material_field))):
         self.kept += [texture, self.struct.maps[number]]
 
     def _store(self, row, key, value):
-        call(lib.lam_material_parse, ("%s=%s" % (key, written(value))).encode(), lib.LAM_COLOR_SRGB, self.struct)
+        call(lib.lam_material_parse, text_bytes(key, "%s=%s" % (key, written(value))), lib.LAM_COLOR_SRGB, self.struct)
 
     @property
     def name(self) -> "str | None":
         """The name that the model's file gives it; None: it has none."""
         return text_of(self.struct.name)
+
+
+def as_material(what, value):
+    """A Material or its words as a Material; None stays."""
+    if value is None or isinstance(value, Material):
+        return value
+    return Material(text_bytes(what, value).decode())
 
 
 class Light(type("Fields", (Described,), fields_of(lib.lam_light_field))):
@@ -187,9 +200,10 @@ class Light(type("Fields", (Described,), fields_of(lib.lam_light_field))):
         """Adds the light to a lam_scene."""
         if self.values is None:
             return call(lib.lam_scene_add_light, scene, self.struct)
+        text_bytes("Light", self.values["type"])
         first, *rest = ["%s=%s" % (key, written(value)) if key != "type" else value for key, value in self.values.items()]
         text = first + (":" if ":" not in first and rest else "," if rest else "") + ",".join(rest)
-        return call(lib.lam_scene_add_light_text, scene, text.encode(), params)
+        return call(lib.lam_scene_add_light_text, scene, text_bytes("Light", text), params)
 
     @property
     def type(self) -> str:
@@ -205,7 +219,7 @@ class Light(type("Fields", (Described,), fields_of(lib.lam_light_field))):
     def _store(self, row, key, value):
         if self.values is not None:
             return self._parse({**self.values, key: value})
-        numbers = list(value) if hasattr(value, "__iter__") and not isinstance(value, str) else [value]
+        numbers = [float(number) for number in written(value).split("/")] if not isinstance(value, str) and not isinstance(value, bool) else [value]
         if row.type in (lib.LAM_FIELD_RGB, lib.LAM_FIELD_RGBA):
             numbers = color(key, value)
         changed = ffi.new("lam_light *", self.struct[0])
@@ -255,7 +269,7 @@ class Camera(type("Parts", (Described,), {key: Part(key) for key in every(lib.la
     @staticmethod
     def _text_in(scene, values):
         found, text = ffi.new("lam_camera *"), ",".join("%s=%s" % (key, written(value)) for key, value in values.items())
-        call(lib.lam_camera_parse, text.encode(), scene, found)
+        call(lib.lam_camera_parse, text_bytes("Camera", text), scene, found)
         return found
 
     def _in_scene(self, scene):

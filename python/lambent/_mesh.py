@@ -1,20 +1,24 @@
 """_mesh.py: meshes from NumPy arrays, and from objects of meshio, trimesh, Open3D and the like."""
 import numpy as np
 
-from ._core import BadValue, call
-from ._fields import Material
+from ._core import BadValue, call, text_bytes
+from ._fields import Material, as_material
 from ._native import ffi, lib
 
 
 def array_of(what, values, columns, kind=np.float32):
     """An array of rows of so many columns."""
-    found = np.asarray(values)
+    expected = "n x %s numbers" % (" or ".join(map(str, columns)) if isinstance(columns, tuple) else "2 or more")
+    try:
+        found = np.asarray(values)
+    except ValueError:
+        raise BadValue("%s: found rows of different lengths, expected %s" % (what, expected)) from None
     if found.ndim != 2 or found.shape[1] not in columns or found.dtype.kind not in "iuf":
-        raise BadValue("%s: found an array of the shape %s and the type %s, expected n x %s numbers" % (
-            what, "x".join(map(str, found.shape)) or "()", found.dtype, " or ".join(map(str, columns))))
+        raise BadValue("%s: found an array of the shape %s and the type %s, expected %s" % (
+            what, "x".join(map(str, found.shape)) or "()", found.dtype, expected))
     if kind == np.uint32 and found.size and (found.dtype.kind == "f" or found.min() < 0 or found.max() > 0xffffffff):
         raise BadValue("%s: found %s to %s, expected whole numbers from 0" % (what, found.min(), found.max()))
-    return np.ascontiguousarray(found, dtype=kind)
+    return found if kind is None else np.ascontiguousarray(found, dtype=kind)
 
 
 class Mesh:
@@ -30,7 +34,7 @@ class Mesh:
 
     def __init__(self, vertices: "Array", faces: "Array | None" = None, *, normals: "Array | None" = None, texcoords: "Array | None" = None,
                  colors: "Array | None" = None, material: "Material | str | None" = None, name: "str | None" = None):
-        vertices = np.asarray(vertices)
+        vertices = np.asarray(array_of("vertices", vertices, (3,), None))
         self.origin = np.zeros(3)
         if vertices.dtype == np.float64 and vertices.ndim == 2 and vertices.size:
             low, high = vertices.min(axis=0), vertices.max(axis=0)
@@ -40,7 +44,8 @@ class Mesh:
         self.vertices = array_of("vertices", vertices, (3,))
         self.faces, self.inner, per_face = None, None, 0
         if faces is not None:
-            columns = np.shape(faces)[1] if np.ndim(faces) == 2 else 3
+            faces = array_of("faces", faces, range(2, 1 << 16), None)
+            columns = faces.shape[1]
             polygons, per_face = array_of("faces", faces, (max(columns, 2),), np.uint32), len(faces)
             self.faces = polygons
             if columns > 3: # fans, whose inner edges wireframes leave out
@@ -51,13 +56,14 @@ class Mesh:
         self.texcoords = None if texcoords is None else array_of("texcoords", texcoords, (2,))
         self.colors, self.by_face = None, False
         if colors is not None:
-            whole = np.asarray(colors).dtype.kind in "iu"
+            colors = array_of("colors", colors, (3, 4), None)
+            whole = colors.dtype.kind in "iu"
             rows = array_of("colors", colors, (3, 4), np.uint8 if whole else np.float32)
             opaque = np.full((len(rows), 4), 255 if whole else 1, rows.dtype)
             opaque[:, :rows.shape[1]] = rows
             self.by_face = len(rows) == per_face and len(rows) != len(self.vertices)
             self.colors = np.repeat(opaque, columns - 2, axis=0) if self.by_face and columns > 3 else opaque
-        self.material, self.name = Material(material) if isinstance(material, str) else material, name
+        self.material, self.name = as_material("material", material), None if name is None else text_bytes("name", name).decode()
 
     def _add_to(self, scene):
         """Adds the mesh to a lam_scene; its number there."""

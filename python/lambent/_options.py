@@ -3,7 +3,9 @@ import difflib
 import math
 import os
 
-from ._core import BadValue, every, path_bytes, text_of
+import numpy as np
+
+from ._core import BadValue, every, path_bytes, shown, text_of
 from ._fields import choose, color, range_of, words_of
 from ._members import MEMBERS
 from ._native import ffi, lib
@@ -46,7 +48,7 @@ class Member:
             return color(self.name, value, mode)
         low, high = RANGES.get(self.name, (-math.inf, math.inf))
         if isinstance(value, (int, float)) and self.type == "float" and not low < value < high:
-            raise BadValue("%s: found %r, expected a number %s" % (self.name, value, range_in_words(low, high)))
+            raise BadValue("%s: found %s, expected a number %s" % (self.name, shown(value), range_in_words(low, high)))
         try:
             if self.type in ("str", "Sequence[str]"):
                 texts = [ffi.new("char[]", path_bytes(str(text))) for text in ([value] if self.type == "str" else value)]
@@ -56,7 +58,7 @@ class Member:
             number = float(value) if self.type == "float" else value
             return math.radians(number) if self.member.endswith("_rad") else ffi.new(self.kind.cname + " *", number)[0]
         except (TypeError, ValueError, OverflowError):
-            raise BadValue("%s: found %r, expected %s" % (self.name, value, {"bool": "True or False", "int": "a whole number"}.get(self.type, "a " + self.type))) from None
+            raise BadValue("%s: found %s, expected %s" % (self.name, shown(value), {"bool": "True or False", "int": "a whole number"}.get(self.type, "a " + self.type))) from None
 
 
 class Setting:
@@ -90,7 +92,7 @@ class Setting:
             return wanted != (row.type == lib.LAM_SETTING_NOT_FLAG)
         if row.type == lib.LAM_SETTING_WORDS:
             words, bits = {**self.words, "all": sum(set(self.words.values())), "none": 0}, 0
-            for word in value.split(",") if isinstance(value, str) else value:
+            for word in value if hasattr(value, "__iter__") and not isinstance(value, str) else str(value).split(","):
                 bits |= choose(self.name, words, word)
             return bits
         if self.words:
@@ -104,7 +106,7 @@ class Setting:
         except (TypeError, ValueError):
             number = math.nan
         if not (row.min <= number <= row.max or row.zero and number == 0) or whole and number != int(number):
-            raise BadValue("%s: found %r, expected %s %s%s" % (self.name, value, "a whole number from" if whole else "a number from",
+            raise BadValue("%s: found %s, expected %s %s%s" % (self.name, shown(value), "a whole number from" if whole else "a number from",
                                                              range_of(row.min, row.max), ", or 0" if row.zero else ""))
         if row.zero_is_negative and number == 0:
             return -1
@@ -158,15 +160,17 @@ class Options:
                 raise TypeError("unexpected keyword argument %r%s" % (name, "; did you mean %r?" % close[0] if close and not known else known))
         self.given, self.kept = {name: value for name, value in given.items() if value is not None}, []
         # The program's words for lights: "file" are the scene's alone; with "none" and "default" the call takes them away.
-        self.no_lights = self.given.get("rig") in ("none", "default")
+        self.no_lights = str(self.given.get("rig")) in ("none", "default")
         if self.no_lights:
             self.given["rig"] = "file" if self.given["rig"] == "none" else "auto"
         self.mode = choose("color_mode", KEYWORDS["color_mode"].words, self.given.get("color_mode", "srgb"))
-        self.fit_exposure = self.given.get("exposure") == "auto"
+        self.fit_exposure = str(self.given.get("exposure")) == "auto"
         if self.fit_exposure:
             del self.given["exposure"]
         self.load, self.control = self.filled("lam_load_params"), self.filled("lam_control")
         self.filled("lam_draw_params")
+        if not isinstance(self.given.get("floats", False), (bool, np.bool_)):
+            raise BadValue("floats: found %s, expected True or False" % shown(self.given["floats"]))
         side = choose("view", words_of("lam_side"), self.given.get("view", "three-quarter"))
         self.view = self.filled("lam_view", lib.lam_view_of_side(side))
 

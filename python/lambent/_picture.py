@@ -6,7 +6,7 @@ import webbrowser
 
 import numpy as np
 
-from ._core import BadValue, call, path_bytes
+from ._core import BadValue, call, path_bytes, shown, text_bytes
 from ._fields import choose, words_of
 from ._native import ffi, lib
 
@@ -40,12 +40,14 @@ class Picture(np.ndarray):
                                        "pixels": ffi.from_buffer(pixels)}), pixels
 
     def _params(self, compress, quality):
+        if not isinstance(quality, (int, np.integer)) or not 0 <= quality <= 100:
+            raise BadValue("quality: found %s, expected a whole number from 0 to 100" % shown(quality))
         return ffi.new("lam_save_params *", {"raw": self.raw, "compress": choose("compress", words_of("lam_compress"), compress), "quality": quality})
 
     def encode(self, format: str = "png", *, compress: str = "fast", quality: int = 0) -> bytes:
         """The bytes of a file: png, ppm, jpg or webp of 8 bits, pfm or exr of floats. `quality` of jpg and webp is 1 to 100."""
         out, (image, _pixels) = ffi.new("lam_bytes *"), self._image()
-        call(lib.lam_image_encode, image, format.encode(), self._params(compress, quality), out)
+        call(lib.lam_image_encode, image, text_bytes("format", format), self._params(compress, quality), out)
         try:
             return ffi.buffer(out.data, out.size)[:]
         finally:

@@ -2,14 +2,15 @@
 import base64
 import html
 import json
+import math
 import os
 import pathlib
 import sys
 
 import numpy as np
 
-from ._core import Access, BadModel, BadValue, OutOfMemory, Unsupported, call, every, path_bytes, run, text_of
-from ._fields import Camera, Light, Material, color, words_of
+from ._core import Access, BadModel, BadValue, OutOfMemory, Unsupported, call, every, matrix_of, path_bytes, run, shown, text_bytes, text_of
+from ._fields import Camera, Light, Material, as_material, choose, color, words_of
 from ._mesh import meshes_of
 from ._native import ffi, lib
 from ._options import CHANGES, KEYWORDS, OTHERS, STRUCTS, Options, describe_keywords
@@ -20,8 +21,19 @@ def pair_of(size):
     """Width and height in pixels, from one number or two."""
     pair = list(size) if hasattr(size, "__iter__") else [size] * 2
     if len(pair) != 2 or not all(isinstance(side, (int, np.integer)) and 1 <= side <= 65535 for side in pair):
-        raise BadValue("size: found %r, expected one or two whole numbers from 1 to 65535" % (size,))
+        raise BadValue("size: found %s, expected one or two whole numbers from 1 to 65535" % shown(size))
     return int(pair[0]), int(pair[1])
+
+
+def angle_of(what, degrees):
+    """An angle in radians."""
+    try:
+        found = math.radians(float(degrees))
+    except (TypeError, ValueError, OverflowError):
+        found = math.nan
+    if not math.isfinite(found):
+        raise BadValue("%s: found %s, expected an angle in degrees" % (what, shown(degrees)))
+    return found
 
 
 class Scene:
@@ -37,20 +49,18 @@ class Scene:
         """Adds an object: a Mesh or an object of meshio, trimesh …, arrays (vertices, faces), or the name of a built-in shape. `transform` is a 4×4
         matrix for column vectors. Returns the scene."""
         meshes = [(model, None)] if isinstance(model, str) else meshes_of(model)
-        placed = np.eye(4) if transform is None else np.asarray(transform, float)
-        if placed.shape != (4, 4):
-            raise BadValue("transform: found the shape %s, expected 4x4" % "x".join(map(str, placed.shape)))
+        placed = np.eye(4) if transform is None else matrix_of("transform", transform)
         if meshes is None:
             raise BadValue("Scene.add: found %s, expected a Mesh, an object with vertices and faces, arrays, or a shape's name" % type(model).__name__)
         for mesh, own in meshes:
             item = ffi.new("lam_object *", lib.lam_object_default())
             used = material if material is not None else getattr(mesh, "material", None)
-            used = Material(used) if isinstance(used, str) else used
-            item.mesh = call(lib.lam_scene_add_shape, self._handle, mesh.encode(), ffi.NULL) if isinstance(mesh, str) else mesh._add_to(self._handle)
+            used = as_material("material", used)
+            item.mesh = call(lib.lam_scene_add_shape, self._handle, text_bytes("shape", mesh), ffi.NULL) if isinstance(mesh, str) else mesh._add_to(self._handle)
             if used is not None:
                 item.material = call(lib.lam_scene_add_material, self._handle, used.struct)
             item.transform.m = (placed if own is None else placed @ np.asarray(own, float)).tolist()
-            label = ffi.new("char[]", (name or getattr(mesh, "name", None) or (mesh if isinstance(mesh, str) else "")).encode())
+            label = ffi.new("char[]", text_bytes("name", next((text for text in (name, getattr(mesh, "name", None)) if text is not None), mesh if isinstance(mesh, str) else "")))
             item.name = label
             call(lib.lam_scene_add_object, self._handle, item)
         return self
@@ -68,11 +78,12 @@ class Scene:
 
     def set_material(self, material: "Material | str", index: "int | None" = None, _mode=lib.LAM_COLOR_SRGB) -> None:
         """Replaces the material with this number. None: all materials, and the default one of surfaces without a material; words such as "shininess=9" change them."""
-        indices = range(lib.lam_scene_material_count(self._handle)) if index is None else [index]
+        count = lib.lam_scene_material_count(self._handle)
+        if index is not None and not (isinstance(index, (int, np.integer)) and 0 <= index < count):
+            raise BadValue("set_material: found the number %s, expected 0 to %d" % (shown(index), count - 1))
+        indices = range(count) if index is None else [index]
         for at in indices:
             old = lib.lam_scene_material(self._handle, at)
-            if old == ffi.NULL:
-                raise BadValue("set_material: found the number %s, expected 0 to %d" % (at, lib.lam_scene_material_count(self._handle) - 1))
             call(lib.lam_scene_set_material, self._handle, at, changed(old, material, _mode))
         if index is None:
             call(lib.lam_scene_set_default_material, self._handle, changed(lib.lam_scene_default_material(self._handle), material, _mode))
@@ -87,7 +98,8 @@ class Scene:
         self._light(lights)
 
     def _light(self, lights, camera=ffi.NULL, mode=lib.LAM_COLOR_SRGB):
-        made = [Light(light) if isinstance(light, str) else light for light in ([lights] if isinstance(lights, (str, Light)) else lights)]
+        found = [lights] if isinstance(lights, (str, Light)) or not hasattr(lights, "__iter__") else lights
+        made = [light if isinstance(light, Light) else Light(light) for light in found]
         lib.lam_scene_clear_lights(self._handle)
         for light in made:
             light._add_to(self._handle, ffi.new("lam_light_text_params *", {"camera": camera, "color": mode}))
@@ -109,19 +121,17 @@ class Scene:
 
     @up.setter
     def up(self, value: str):
-        words = words_of("lam_up")
-        if value not in words:
-            raise BadValue("up: found %r, expected %s" % (value, ", ".join(words)))
-        lib.lam_scene_set_up(self._handle, words[value])
+        lib.lam_scene_set_up(self._handle, choose("up", words_of("lam_up"), value))
 
     def set_environment(self, name: str, rotation: float = 0.0, _control=ffi.NULL, _mode=lib.LAM_COLOR_SRGB) -> None:
         """Surrounds the scene by a built-in environment ("sky", "studio") or by a picture (2:1 or a cross), turned by degrees about the up axis."""
-        if name in every(lib.lam_environment_built_in_name):
+        angle = angle_of("rotation", rotation)
+        if isinstance(name, str) and name in every(lib.lam_environment_built_in_name):
             made = call(lib.lam_environment_built_in, name.encode())
         else:
             made = call(lib.lam_environment_load, path_bytes(name), _mode, _control, path=name)
         try:
-            call(lib.lam_scene_set_environment, self._handle, made, np.radians(rotation))
+            call(lib.lam_scene_set_environment, self._handle, made, angle)
         finally:
             lib.lam_environment_free(made)
 
@@ -181,7 +191,7 @@ def changed(old, material, mode):
     if isinstance(material, Material):
         return material.struct
     made = ffi.new("lam_material *", old[0])
-    call(lib.lam_material_parse, material.encode(), mode, made)
+    call(lib.lam_material_parse, text_bytes("material", material), mode, made)
     return made
 
 
@@ -201,7 +211,7 @@ def load_scene(model, options, name, task, once=False):
         scene._path = path
     elif isinstance(model, (bytes, bytearray, memoryview)):
         data = ffi.from_buffer(model)
-        scene = Scene(call(lib.lam_scene_load_memory, data, len(data), path_bytes(name) if name else ffi.NULL, params, task.control))
+        scene = Scene(call(lib.lam_scene_load_memory, data, len(data), path_bytes(name) if name is not None else ffi.NULL, params, task.control))
     else:
         scene = Scene().add(model)
     if scene._path is None and not isinstance(model, (bytes, bytearray, memoryview)): # the loader has done it for files
@@ -236,11 +246,13 @@ def camera_of(scene, options, settings, params, size):
     """The camera of the keywords, of the scene file, or the fitted one."""
     wanted, handle = options.get("camera"), scene._handle
     if isinstance(wanted, str):
-        found, number = ffi.new("lam_camera *"), lib.lam_scene_find_camera(handle, wanted.encode())
-        call(lib.lam_camera_parse, wanted.encode(), handle, found) if "=" in wanted else None
+        found, number = ffi.new("lam_camera *"), lib.lam_scene_find_camera(handle, text_bytes("camera", wanted))
+        call(lib.lam_camera_parse, text_bytes("camera", wanted), handle, found) if "=" in wanted else None
         if "=" not in wanted and not lib.lam_scene_camera(handle, number, found):
-            raise BadValue("camera: found %r, expected keys such as eye=2/1/4, or a camera of the file, which has %d" % (wanted, lib.lam_scene_camera_count(handle)))
+            raise BadValue("camera: found %s, expected keys such as eye=2/1/4, or a camera of the file, which has %d" % (shown(wanted), lib.lam_scene_camera_count(handle)))
         return found
+    if wanted is not None and not isinstance(wanted, Camera):
+        raise BadValue("camera: found %s, expected a Camera or a text" % shown(wanted))
     if wanted is not None:
         return wanted._in_scene(handle)
     views = [name for name, keyword in KEYWORDS.items() if keyword.struct == "lam_view"] + ["view"]

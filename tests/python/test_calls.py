@@ -11,6 +11,8 @@ import unittest
 from concurrent.futures import ThreadPoolExecutor
 
 import lambent
+import numpy as np
+from lambent import _options
 from lambent._core import CLASSES
 from lambent._native import ffi, lib
 
@@ -63,6 +65,36 @@ class Errors(unittest.TestCase):
                     self.assertIsInstance(caught.exception, other)
                     self.assertIsInstance(caught.exception, lambent.Error)
                     self.assertNotIn("\n", str(caught.exception))
+
+    def test_whatever_is_passed(self):
+        """Values of any type, in every keyword and argument, are drawn or raise lambent.Error: one sentence."""
+        values = [object(), -1, 2 ** 70, float("nan"), "", "\ud800", "a\0b", [], [1, 2], {}, b"x", int, np.zeros((2, 2)), [None], (1, "a"), True, len, 1j, "x" * 3000]
+        triangle, picture = ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), lambent.render("cube", 4)
+        keywords = set(_options.KEYWORDS) | set(_options.OTHERS) | set(_options.CHANGES) | {"name"}
+        calls = {"render(%s)" % name: lambda value, name=name: lambent.render("cube", 8, **{name: value}) for name in keywords - {"threads"}}
+        calls |= {"Mesh(%s)" % name: lambda value, name=name: lambent.Scene().add(lambent.Mesh(*triangle, **{name: value}))
+                  for name in ("normals", "texcoords", "colors", "material", "name")}
+        calls |= {"add(%s)" % name: lambda value, name=name: lambent.Scene().add("cube", **{name: value}) for name in ("material", "name", "transform")}
+        calls |= {"model": lambda value: lambent.render(value, 8), "size": lambda value: lambent.render("cube", value),
+                  "Material": lambent.Material, "diffuse": lambda value: lambent.Material(diffuse=value), "shininess": lambda value: lambent.Material(shininess=value),
+                  "map": lambda value: lambent.Material().set_map("diffuse", value), "Light": lambent.Light, "Camera": lambent.Camera,
+                  "position": lambda value: lambent.Light("point", position=value), "fovy": lambda value: lambent.Camera(fovy=value),
+                  "vertices": lambent.Mesh, "faces": lambda value: lambent.Mesh(triangle[0], value), "encode": picture.encode,
+                  "quality": lambda value: picture.encode("jpg", quality=value), "load(name)": lambda value: lambent.load(b"x", name=value),
+                  "lights": lambda value: setattr(lambent.Scene().add("cube"), "lights", value), "up": lambda value: setattr(lambent.Scene(), "up", value),
+                  "ambient": lambda value: setattr(lambent.Scene(), "ambient", value), "environment": lambda value: lambent.Scene().set_environment(value),
+                  "rotation": lambda value: lambent.Scene().set_environment("sky", value), "material": lambda value: lambent.Scene().add("cube").set_material(value),
+                  "index": lambda value: lambent.Scene().set_material("ruby", value)}
+        refused = 0
+        for name, call in calls.items():
+            for value in values:
+                with self.subTest(call=name, value=repr(value)[:40]):
+                    try:
+                        call(value)
+                    except lambent.Error as error:
+                        self.assertNotIn("\n", str(error))
+                        refused += 1
+        self.assertGreater(refused, 800)
 
     def test_unknown_keywords(self):
         for pattern, call in (("'shadow'; did you mean 'shadows'", lambda: lambent.render("cube", shadow=True)),

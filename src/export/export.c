@@ -44,7 +44,7 @@ static bool finish(struct exporting *e, const char *ending)
     e->text.bytes = NULL;
     char dotted[16];
     snprintf(dotted, sizeof dotted, ".%s", ending);
-    if (!export_add_file(e, dotted, bytes))
+    if (!export_add_file(e, dotted, false, bytes))
         return false;
     struct export_file *files = out->files.items, model = files[out->files.count - 1];
     memmove(files + 1, files, (size_t)(out->files.count - 1) * sizeof *files);

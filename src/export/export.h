@@ -61,8 +61,8 @@ void export_lose(struct exporting *e, const char *format, ...) __attribute__((fo
 void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras);
 
 // Adds a file beside the model, whose bytes come from malloc and are given away. Its name is the model's without its
-// ending, and `ending`: "-0.png". Fails with LAM_LIMIT.
-const char *export_add_file(struct exporting *e, const char *ending, lam_bytes bytes);
+// ending, and `ending`: "-0.png". `beside`: other files name it, so letters that OBJ and MTL cannot name become _. Fails with LAM_LIMIT.
+const char *export_add_file(struct exporting *e, const char *ending, bool beside, lam_bytes bytes);
 
 // Reports that memory has run out, and returns false.
 bool export_no_memory(struct exporting *e, size_t bytes);

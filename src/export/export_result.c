@@ -65,13 +65,31 @@ void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras)
 
 // --- files
 
-const char *export_add_file(struct exporting *e, const char *ending, lam_bytes bytes)
+// OBJ and MTL files name the files beside them without quotes: a name may not begin with a blank or like an option, nor contain a backslash, a
+// control character, or bytes that are not UTF-8. Such letters become _.
+static void make_nameable(char *stem)
+{
+    if (*stem == ' ' || *stem == '-')
+        *stem = '_';
+    for (char *c = stem; *c;) {
+        int length = lam_utf8_length(c, strlen(c));
+        if (length == 0 || (unsigned char)*c < ' ' || *c == 0x7f || *c == '\\')
+            *c = '_';
+        c += length > 0 ? length : 1;
+    }
+}
+
+const char *export_add_file(struct exporting *e, const char *ending, bool beside, lam_bytes bytes)
 {
     const char *dot = strrchr(e->name, '.');
     size_t stem = dot ? (size_t)(dot - e->name) : strlen(e->name), length = stem + strlen(ending) + 1;
     struct export_file file = {arena_alloc(e->arena, length), bytes};
     if (file.name)
-        snprintf(file.name, length, "%.*s%s", (int)stem, e->name, ending);
+        snprintf(file.name, length, "%.*s", (int)stem, e->name);
+    if (file.name && beside)
+        make_nameable(file.name);
+    if (file.name)
+        strcat(file.name, ending);
     if (file.name && append(e->out, &e->out->files, &file, sizeof file))
         return file.name;
     lam_bytes_free(&bytes);

@@ -48,7 +48,7 @@ static const char *picture_name(struct exporting *e, struct pictures *pictures, 
         return NULL;
     }
     snprintf(ending, sizeof ending, "-%d.png", pictures->count);
-    const char *name = export_add_file(e, ending, png);
+    const char *name = export_add_file(e, ending, true, png);
     *ok = name != NULL;
     pictures->textures[pictures->count] = texture;
     pictures->names[pictures->count] = name;
@@ -237,5 +237,5 @@ bool mtl_write(struct exporting *e, struct mtl_names *out)
         lam_bytes_free(&bytes);
         return false;
     }
-    return (out->file = export_add_file(e, ".mtl", bytes)) != NULL;
+    return (out->file = export_add_file(e, ".mtl", true, bytes)) != NULL;
 }

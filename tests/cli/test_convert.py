@@ -1,11 +1,13 @@
 # test_convert.py: the command `convert`: round trips that draw the same bytes, what is said to be lost, files beside the model, hostile names.
 import json
 import os
+import resource
 import shutil
 import struct
+import subprocess
 import zipfile
 
-from harness import ROOT, Case, covered, read_png
+from harness import PROGRAM, ROOT, Case, covered, read_png
 
 CORPUS = ROOT / "tests" / "fuzz" / "corpus"
 SPOT = ROOT / "examples" / "models" / "spot.glb"
@@ -237,6 +239,34 @@ end_header
         self.good("convert", SPOT, "sub/a b.c.obj", "-q")
         self.assertEqual(sorted(os.listdir(self.folder / "sub")), ["a b.c-0.png", "a b.c.mtl", "a b.c.obj"])
         self.assertEqual(self.picture("sub/a b.c.obj", "--show", "coverage"), self.picture(SPOT, "--show", "coverage"))
+
+    def test_names_that_files_cannot_have(self):
+        """OBJ and MTL name files without quotes: files beside the model get names that can be read back."""
+        self.good("convert", "-q", SPOT, "plain.obj")
+        expected = self.picture("plain.obj")
+        for name, stem in (("-bm 1", "_bm 1"), (" lead", "_lead"), ("back\\slash", "back_slash"), ("line\nend", "line_end"), ("tab\tcr\r", "tab_cr_"),
+                           ("-s 1 1 1 x", "_s 1 1 1 x"), ("ä b", "ä b"), (b"bad\xff", "bad_"), ("trail ", "trail ")):
+            with self.subTest(name=name):
+                folder = os.fsencode(self.folder)
+                self.good("convert", "-q", "--", SPOT, os.fsdecode(os.fsencode(name) + b".obj"))
+                self.assertTrue({stem + ".mtl", stem + "-0.png"} <= set(os.listdir(self.folder)), os.listdir(folder))
+                read = self.good("./" + os.fsdecode(os.fsencode(name)) + ".obj", "-q", "-s", 96, "-o", "-")
+                self.assertEqual((read_png(read.stdout), read.stderr), (expected, b""))
+
+    def test_nothing_is_left_if_the_model_cannot_be_written(self):
+        """The files beside the model are written first; new ones are removed again, and older ones stay."""
+        (self.folder / "m.mtl").write_text("newmtl a\nKd 1 0 0\n")
+        (self.folder / "m.obj").write_text("mtllib m.mtl\n" + "".join(f"v {i} {i * i} 0\n" for i in range(2000)) + "usemtl a\nf 1 2 3\n")
+        self.given.update(("m.mtl", "m.obj"))
+        for sandbox in ("auto", "off"):
+            command = [PROGRAM, "convert", "m.obj", "n.obj", "--sandbox", sandbox]
+            done = subprocess.run(command, cwd=self.folder, capture_output=True, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000)))
+            self.assertEqual((done.returncode, self.new_files()), (5, set()), done.stderr)
+            self.assertIn(b"n.obj", done.stderr)
+        self.good("convert", "m.obj", "n.obj", "-q")
+        old = (self.folder / "n.mtl").read_text()
+        done = subprocess.run(command, cwd=self.folder, capture_output=True, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000)))
+        self.assertEqual((done.returncode, self.new_files(), (self.folder / "n.mtl").read_text()), (5, {"n.obj", "n.mtl"}, old))
 
     def test_errors(self):
         for words, code, says in ((["cube.obj", "x.fbx"], 3, ".glb, .obj, .stl, .ply or .3mf"), (["cube.obj", "x"], 3, "write .glb"),

@@ -90,7 +90,10 @@ static bool is_beside(const char *output, const char *path)
 {
     size_t stem = strlen(output) - strlen(ending(output)) - 1;
     const char *rest = path + stem;
-    return strlen(path) > stem && strncmp(path, output, stem) == 0 && !strchr(rest, '/') &&
+    bool same = strlen(path) > stem;
+    for (size_t i = 0; same && i < stem; i++) // the library writes _ for a letter that OBJ and MTL cannot name
+        same = path[i] == output[i] || (path[i] == '_' && output[i] != '/');
+    return same && !strchr(rest, '/') &&
            (strcmp(rest, ".mtl") == 0 || (*rest == '-' && strcmp(ending(rest), "png") == 0));
 }
 
@@ -109,13 +112,23 @@ static bool check_beside(const struct convert *c, const char *path, lam_error *e
                     path, c->output);
 }
 
-// Writes the files beside the model first: it refers to them.
+// *is_new: the file was written, and was not there before.
+static bool save_one(const char *path, const lam_bytes *bytes, bool *is_new, lam_error *error)
+{
+    struct stat found;
+    bool there = lstat(path, &found) == 0, ok = writer_save(path, bytes, false, error);
+    *is_new = ok && !there;
+    return ok;
+}
+
+// Writes the files beside the model first: it refers to them. If the model cannot be written, new files beside it are removed.
 static bool write_files(struct convert *c, lam_error *error)
 {
     int count = 0;
-    bool ok = true;
     while (lam_export_file_name(c->result, count))
         count++;
+    bool *is_new = calloc((size_t)count + 1, sizeof *is_new);
+    bool ok = is_new || complain(error, LAM_LIMIT, "out of memory");
     for (int pass = 0; pass < 2; pass++)
         for (int i = count - 1; ok && i >= 0; i--) {
             char *path = path_of(c, i);
@@ -125,9 +138,16 @@ static bool write_files(struct convert *c, lam_error *error)
                 ok = ok && job_check_inputs(c->job.scene, path, false, error) &&
                      (i == 0 || check_beside(c, path, error));
             else
-                ok = ok && writer_save(path, &bytes, false, error);
+                ok = ok && save_one(path, &bytes, &is_new[i], error);
             free(path);
         }
+    for (int i = 1; !ok && i < count; i++) // files beside a model that is not there
+        if (is_new[i]) {
+            char *path = path_of(c, i);
+            writer_remove(path ? path : "");
+            free(path);
+        }
+    free(is_new);
     return ok;
 }
 

@@ -103,12 +103,11 @@ static bool own_of(const char *path, struct own_file *own)
     return found;
 }
 
-static bool is_own(const char *path)
+// Returns whether this run wrote the file, which nobody has changed since.
+static bool is_of_run(const char *path)
 {
     struct own_file file;
     bool found = false;
-    if (lam_image_is_from_lambent(path))
-        return true;
     if (!own_of(path, &file))
         return false;
     pthread_mutex_lock(&writing.lock);
@@ -120,10 +119,12 @@ static bool is_own(const char *path)
     return found;
 }
 
+static bool is_own(const char *path) { return lam_image_is_from_lambent(path) || is_of_run(path); }
+
 static void note_own(const char *path)
 {
     struct own_file file;
-    if (lam_image_is_from_lambent(path) || !own_of(path, &file))
+    if (!own_of(path, &file))
         return;
     pthread_mutex_lock(&writing.lock);
     writing.own[writing.own_count++ % OWN_MAX] = file;
@@ -136,7 +137,7 @@ static bool act(const struct request *request, const char *path, const lam_bytes
     pthread_mutex_lock(&writing.lock);
     enum writer_right right = writing.rule(writing.user, path);
     pthread_mutex_unlock(&writing.lock);
-    if (request->action == REMOVE && right == WRITER_REMOVES)
+    if (request->action == REMOVE && (right == WRITER_REMOVES || (right == WRITER_ANY && is_of_run(path))))
         return unlink(path) == 0;
     if (request->action == REMOVE || (right != WRITER_NEW_OR_OURS && right != WRITER_ANY))
         return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: is not a file of this run", path);
@@ -147,7 +148,9 @@ static bool act(const struct request *request, const char *path, const lam_bytes
         return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: already exists, and lambent did not write it",
                         path);
     bool ok = save_here(path, bytes, request->action == SAVE_DURABLY, error);
-    if (ok && right == WRITER_NEW_OR_OURS)
+    if (ok && right == WRITER_NEW_OR_OURS && !lam_image_is_from_lambent(path))
+        note_own(path);
+    if (ok && right == WRITER_ANY && !exists)
         note_own(path);
     return ok;
 }

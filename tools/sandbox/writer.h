@@ -42,7 +42,7 @@ void writer_end(void);
 // lam_save_params. Errors: LAM_CANNOT_WRITE, LAM_LIMIT.
 bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error);
 
-// Removes a file that the rule has as WRITER_REMOVES. It is no error if that fails.
+// Removes a file that the rule has as WRITER_REMOVES, or a new one of WRITER_ANY that this run wrote. It is no error if that fails.
 void writer_remove(const char *path);
 
 #endif

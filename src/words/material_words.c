@@ -2,6 +2,7 @@
 #include <lambent/words.h>
 
 #include <string.h>
+#include <strings.h>
 
 #include "fail.h"
 #include "fields.h"
@@ -13,8 +14,16 @@
 enum { MATERIAL_COLOR = 2 * LAM_FIELDS_MAX, MATERIAL_SPECULAR_COLOR, MATERIAL_KEYS };
 _Static_assert((int)MATERIAL_KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 
+// Names besides those of the classic table, and their words.
+static const struct {
+    const char *name, *words;
+} others[] = {{"glass", "white,roughness=0,transmission=1"}};
+
+enum { OTHERS = sizeof others / sizeof *others };
+
 struct reading {
     lam_material_id id; // a named material; LAM_MATERIAL_COUNT: none
+    const char *words;  // of one of `others`; NULL: none
     bool given[MATERIAL_KEYS];
     bool ambient_is_diffuse; // ambient=diffuse
     double numbers[MATERIAL_KEYS][4];
@@ -105,6 +114,8 @@ static bool unknown_material(const char *name, lam_error *error)
     struct spelling spelling = spelling_of(name);
     for (int i = 0; i < LAM_MATERIAL_COUNT; i++)
         spelling_try(&spelling, lam_material_name((lam_material_id)i));
+    for (int i = 0; i < OTHERS; i++)
+        spelling_try(&spelling, others[i].name);
     for (int i = 0; lam_color_name(i); i++)
         spelling_try(&spelling, lam_color_name(i));
     const char *nearest = spelling.nearest;
@@ -140,6 +151,10 @@ static lam_material apply(const struct reading *reading, lam_color_mode mode, la
 {
     if (reading->id != LAM_MATERIAL_COUNT)
         m = lam_material_named(reading->id, mode);
+    if (reading->words) {
+        m = lam_material_default();
+        lam_material_parse(reading->words, mode, &m, NULL);
+    }
     const double *color = reading->numbers[MATERIAL_COLOR], *specular = reading->numbers[MATERIAL_SPECULAR_COLOR];
     if (given(reading, MATERIAL_COLOR)) {
         m.ambient = (lam_rgb){(float)color[0], (float)color[1], (float)color[2]};
@@ -174,9 +189,12 @@ bool lam_material_parse(const char *text, lam_color_mode mode, lam_material *mat
     if (!memchr(rest, '=', first) && !is_flag(rest, first)) {
         char *name = strsep(&rest, ",");
         reading.id = lam_material_find(name);
-        if (reading.id == LAM_MATERIAL_COUNT && !is_color_alone(name, mode))
+        for (int i = 0; i < OTHERS; i++)
+            reading.words = strcasecmp(others[i].name, name) == 0 ? others[i].words : reading.words;
+        bool known = reading.id != LAM_MATERIAL_COUNT || reading.words;
+        if (!known && !is_color_alone(name, mode))
             return unknown_material(name, error);
-        if (reading.id == LAM_MATERIAL_COUNT && !read_color_alone(name, mode, &reading, error))
+        if (!known && !read_color_alone(name, mode, &reading, error))
             return false;
     }
     for (char *pair; (pair = strsep(&rest, ",")) != NULL;)

@@ -232,6 +232,9 @@ class Models(Case):
         self.assertEqual(self.diff("empty", "new", "-s", 32, code=6)["added"], 2)
         self.bad(2, "diff", "empty", "empty2", says="no model")
         self.bad(1, "diff", "old", "new/part.obj", says=("old is a folder", "two folders"))
+        for words in (("old", "none"), ("none", "old")):
+            self.bad(2, "diff", *words, says="none: cannot open: No such file or directory; the other side, old, is a folder")
+        self.bad(1, "diff", "old", "teapot", says=("old is a folder and teapot is not", "two folders"))
         self.bad(3, "diff", "old", "new", "-o", "x.png", says=".html")
         self.bad(5, "diff", "old", "new", "-o", "no/where/x.html", says="no/where")
         self.bad(1, "diff", "a.png", "a.png", "--samples", 4, says="does not apply to pictures")

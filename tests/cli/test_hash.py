@@ -168,6 +168,28 @@ class Hash(Case):
         self.good("hash", "m/a.stl", "-s", 8, "-o", "x/p.hash", "--pictures", "x/kept")
         self.assertTrue((self.folder / "x/kept/m/a.stl.png").exists())
 
+    def test_folder_of_pictures(self):
+        """A folder that cannot be made is said once, before anything is drawn."""
+        (self.folder / "file").write_text("")
+        self.given.add("file")
+        for folder, says in (("file", "found the file 'file', expected a folder"), ("file/x", "cannot make the folder 'file/x': Not a directory")):
+            done = self.bad(5, "hash", "m", "-s", 8, "-o", "p.hash", "--pictures", folder, says=says)
+            self.assertNotIn(b"failed", done.stderr)
+        user = self.plain_user()
+        if user:
+            os.mkdir(self.folder / "theirs", 0o755)
+            self.given.add("theirs")
+            self.bad(5, "hash", "m", "-s", 8, "-o", "-", "--pictures", "theirs", says="theirs: cannot write to the folder: Permission denied", user=user)
+        self.write()
+        self.given.add("p.hash")
+        self.check("--check", "p.hash", "--pictures", "file", code=0)  # which writes no pictures
+
+    def test_report_beside_the_file(self):
+        """The file on standard output, the report alone on standard error."""
+        done = self.good("hash", "m", "-s", 8, "-o", "-", "--json")
+        self.assertTrue(done.stdout.startswith(b"lambent hashes 1\n"))
+        self.assertEqual(len(json.loads(done.stderr)["new"]), 2)
+
     def test_bad_files(self):
         self.write()
         text = (self.folder / "p.hash").read_text()

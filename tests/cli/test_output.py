@@ -222,6 +222,27 @@ class Streams(Case):
         self.good("cube.obj", "-s", 16, "-o", "same.png")
         self.assertEqual((self.folder / "same.png").read_bytes(), done.stdout)
 
+    def test_one_text_on_each_stream(self):
+        """With --json and -o - the file goes to standard output, and one line of JSON to standard error, for each command."""
+        self.good("cube.obj", "-s", 8, "-o", "a.png", "-q")
+        self.given.add("a.png")
+        for command, begins in ((["cube.obj", "-s", 8], b"\x89PNG"), (["compare", "cube.obj", "-s", "64x64", "--no-captions"], b"\x89PNG"),
+                                (["materials", "-s", 64], b"\x89PNG"), (["plot", "highlight", "10", "--no-captions"], b"\x89PNG"), (["diff", "a.png", "a.png"], b"\x89PNG"),
+                                (["hash", "cube.obj", "-s", 8], b"lambent hashes 1\n"), (["diff", "cube.obj", "cube.stl", "-s", 8], b"<!DOCTYPE")):
+            done = self.run_program(*command, "--json", "-o", "-")
+            with self.subTest(command=command):
+                self.assertIn(done.returncode, (0, 6))
+                self.assertTrue(done.stdout.startswith(begins), done.stdout[:80])
+                self.assertNotIn(b"\n{", done.stdout)
+                self.assertIsInstance(json.loads(done.stderr), dict)
+        for command in (["explain", "cube.obj", "2,2", "-s", 8], ["journal", "."]):
+            self.bad_report(1, *command)
+
+    def bad_report(self, code, *command):
+        done = self.run_program(*command, "--json", "-o", "-")
+        self.assertEqual((done.returncode, done.stdout), (code, b""))
+        self.assertIn("both write to standard output", json.loads(done.stderr)["error"]["text"])
+
     def test_report_moves_when_the_picture_takes_standard_output(self):
         done = self.good("cube.obj", "-s", 16, "-o", "-", "--json", "-v")
         read_png(done.stdout)

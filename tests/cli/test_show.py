@@ -38,6 +38,17 @@ class Show(Case):
         self.assertEqual(middle["overdraw"], (102, 102, 102, 255))  # front and back
         self.assertEqual(middle["n.l"][0], middle["n.l"][2])
 
+    def test_glass(self):
+        """glass is a material like the named ones: clear, and changed by keys behind it."""
+        plain = self.png("cube.obj", "-s", 48, "-b", "white", "--material", "white,roughness=0,transmission=1")
+        self.assertEqual(plain, self.png("cube.obj", "-s", 48, "-b", "white", "--material", "glass"))
+        self.assertEqual(plain, self.png("cube.obj", "-s", 48, "-b", "white", "--material", "red", "--material", "Glass"))
+        rough = self.png("cube.obj", "-s", 48, "-b", "white", "--material", "glass,roughness=0.4")
+        self.assertEqual(rough, self.png("cube.obj", "-s", 48, "-b", "white", "--material", "white,roughness=0.4,transmission=1"))
+        self.assertNotEqual(rough, plain)
+        self.bad(1, "cube.obj", "--material", "glas", says="did you mean 'glass'?")
+        self.assertIn("--material glass", self.good("help", "glass").stdout.decode())
+
     def test_materials(self):
         """What a material is: colours by the sRGB curve, numbers as they are; classic materials have no roughness."""
         gold = ("sphere", "--view", "front", "-s", SIZE + 1, "--material", "#ffc356,metallic=0.6,roughness=0.4")

@@ -82,9 +82,9 @@ static void print_table(lam_color_mode color)
 }
 
 // Uses the keys of materials in scene files.
-static void print_json(lam_color_mode color)
+static void print_json(lam_color_mode color, FILE *out)
 {
-    struct json json = {.file = stdout};
+    struct json json = {.file = out};
     json_open(&json, NULL, '{');
     json_open(&json, "materials", '[');
     for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
@@ -108,13 +108,13 @@ static void print_json(lam_color_mode color)
     }
     json_close(&json, ']');
     json_close(&json, '}');
-    putchar('\n');
+    putc('\n', out);
 }
 
 static void print_list(const struct options *options)
 {
     if (options->report.json)
-        print_json((lam_color_mode)options->picture.color_mode);
+        print_json((lam_color_mode)options->picture.color_mode, report_stream(options));
     else
         print_table((lam_color_mode)options->picture.color_mode);
 }
@@ -258,7 +258,7 @@ int run_materials(int operand_count, char **operands, const struct options *opti
     free(path);
     if (!ok)
         return report_failure(&error, options);
-    if (!output_is_stream(output))
+    if (!output_is_stream(output) || options->report.json) // the report then goes to standard error
         print_list(options);
     return 0;
 }

@@ -92,6 +92,7 @@ static void complete_material(const struct typed_word *typed)
     if (pair.piece == typed->piece) {
         for (int i = 0; i < LAM_MATERIAL_COUNT; i++)
             complete_offer(&pair, lam_material_name((lam_material_id)i), "", "a material");
+        complete_offer(&pair, "glass", "", "a material");
         complete_color(&pair);
     }
     for (int i = 0; lam_material_key(i); i++)

@@ -127,6 +127,11 @@ const struct topic topics[] = {
      "the version and the options. Pictures are identical on every machine, so a repository can store this file "
      "instead of the pictures. `lambent hash models/ --check pictures.hash` lists the models whose pictures changed. "
      "`docs/pull-requests.md` has the details."},
+    {"glass", "Glass", 0, TOPIC_NO_TABLE,
+     "`--material glass` is clear, smooth glass: `white,roughness=0,transmission=1`. Keys change it: `--material "
+     "glass,roughness=0.3` blurs what is behind, `glass,diffuse=0.2/0.8/0.5` colours it, and `thickness` bends the "
+     "light. Only Phong shading with a physical reflection model on the CPU device shows glass. "
+     "`docs/lighting/layers.md` has the formulas. For opaque surfaces that let some light through, use `--opacity`."},
     {"settings", "The user's own defaults", BIT(SETTINGS), TOPIC_NO_TABLE,
      "The file `lambent.json` in the folder `~/.config/lambent` replaces defaults of the picture. Its keys are keys of "
      "scene files: `{\"image\": {\"background\": \"white\"}, \"shadows\": true}`. Options of the command line and "

@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "console.h"
 
@@ -26,7 +27,7 @@ bool material_option_parse(const char *text, lam_color_mode mode, struct materia
         return false;
     char first[sizeof option->text];
     snprintf(first, sizeof first, "%.*s", (int)strcspn(option->text, ","), option->text);
-    option->named = lam_material_find(first) != LAM_MATERIAL_COUNT;
+    option->named = lam_material_find(first) != LAM_MATERIAL_COUNT || strcasecmp(first, "glass") == 0;
     return true;
 }
 

@@ -1,8 +1,10 @@
 // diff.c: the command `diff`: compares two pictures, two models, or the models of two folders.
 #include "command.h"
 
+#include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "console.h"
 #include "diff.h"
@@ -49,10 +51,14 @@ int run_diff(int operand_count, char **operands, const struct options *options)
         return diff_models(operands, folders, options);
     if (is_folder(operands[0]) || is_folder(operands[1])) {
         const char *folder = operands[!is_folder(operands[0])], *other = operands[is_folder(operands[0])];
-        complain(&error, LAM_BAD_ARGUMENT,
-                 "%.200s is a folder and %.200s is not; expected two folders, two models or "
-                 "two pictures",
-                 folder, other);
+        if (access(other, F_OK) != 0 && lam_shape_find(other) < 0)
+            complain(&error, LAM_CANNOT_READ, "%.200s: cannot open: %s; the other side, %.200s, is a folder", other,
+                     strerror(errno), folder);
+        else
+            complain(&error, LAM_BAD_ARGUMENT,
+                     "%.200s is a folder and %.200s is not; expected two folders, two models or "
+                     "two pictures",
+                     folder, other);
         return report_failure(&error, options);
     }
     return check_pictures(options, &error) ? diff_pictures(operands, options) : report_failure(&error, options);

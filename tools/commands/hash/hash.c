@@ -1,6 +1,7 @@
 // hash.c: the command `hash`: hashes of pictures as text that a repository keeps, written, compared and updated.
 #include "command.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,11 +17,34 @@
 #include "job_check.h"
 #include "json.h"
 #include "output.h"
+#include "output_folder.h"
 #include "report.h"
 #include "sandbox_start.h"
 #include "xxh64.h"
 
 // --- the command line
+
+// Makes the folder of --pictures before anything is drawn: without it every picture would fail.
+static bool make_pictures_folder(const struct options *o, lam_error *error)
+{
+    const char *folder = o->hash.pictures;
+    char *inside = NULL;
+    struct stat found;
+    if (!folder || (o->hash.check && !o->hash.update))
+        return true;
+    if (asprintf(&inside, "%s/.", folder) < 0)
+        return complain(error, LAM_LIMIT, "out of memory");
+    lam_error reason = {0};
+    bool ok = output_make_folder(inside, &reason);
+    free(inside);
+    if (!ok)
+        return complain(error, reason.code, "option '--pictures': %.400s", reason.text);
+    if (stat(folder, &found) == 0 && !S_ISDIR(found.st_mode))
+        return complain(error, LAM_CANNOT_WRITE, "option '--pictures': found the file '%.300s', expected a folder",
+                        folder);
+    return access(folder, W_OK | X_OK) == 0 ||
+           complain(error, LAM_CANNOT_WRITE, "%.300s: cannot write to the folder: %s", folder, strerror(errno));
+}
 
 static bool check(int operands, const struct options *o, lam_error *error)
 {
@@ -44,7 +68,7 @@ static bool check(int operands, const struct options *o, lam_error *error)
                         "machine");
     if (o->picture.show && strcmp(o->picture.show, "all") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--show all' draws several pictures, and a hash is of one");
-    return job_check_options(o, error);
+    return job_check_options(o, error) && make_pictures_folder(o, error);
 }
 
 // --- the models
@@ -275,7 +299,7 @@ static int finish(void *user, json_t *const *records, size_t failed)
         if (written)
             printf("written to %s%s%s\n", run->path, rows ? "; old and new pictures: " : "", rows ? run->sheet : "");
     }
-    if (ok && writes && blocked)
+    if (ok && writes && blocked && json.file != stderr) // where nothing else is printed
         say_plain("lambent: %s is not written, because %zu of the models failed; --failures-ok leaves them out\n",
                   run->path, failed);
     if (!ok)

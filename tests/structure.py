@@ -173,7 +173,7 @@ def options_in_messages():
     def read(path):
         return open(os.path.join(ROOT, path), encoding="utf-8").read()
     known = set(re.findall(r'\{"(lam_\w+(?:\.\w+)?)", "--', read("tools/base/option_names.c")))
-    known |= {"lam_draw_params." + member for member in re.findall(r"MEMBER\(\w+, (\w+)\)", read("src/scene/settings.c"))}
+    known |= {"lam_draw_params." + member for member in re.findall(r"MEMBER\(\w+, (\w+)\)", read("src/scene/fields/settings.c"))}
     headers = "".join(read("include/lambent/" + name) for name in os.listdir(os.path.join(ROOT, "include/lambent")))
     for field in sorted(known):
         if not re.search(r"\b%s\b" % field.split(".")[-1], headers):

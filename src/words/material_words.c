@@ -14,7 +14,7 @@
 enum { MATERIAL_COLOR = 2 * LAM_FIELDS_MAX, MATERIAL_SPECULAR_COLOR, MATERIAL_KEYS };
 _Static_assert((int)MATERIAL_KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 
-// Names besides those of the classic table, and their words.
+// Names that the classic table lacks, and their words.
 static const struct {
     const char *name, *words;
 } others[] = {{"glass", "white,roughness=0,transmission=1"}};

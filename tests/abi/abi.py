@@ -37,9 +37,9 @@ def run(command, **more):
 
 
 def build(source, include, program, *more):
-    library = os.path.join(BUILD, "src")
-    return run(["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-I", include, source, "-o", program, *more, "-L", library, "-llambent-check", "-llambent",
-                "-Wl,-rpath," + library])
+    folders = [os.path.join(BUILD, name) for name in ("src", "classroom")]
+    return run(["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-I", include, source, "-o", program, *more, *("-L" + folder for folder in folders),
+                "-llambent-check", "-llambent", *("-Wl,-rpath," + folder for folder in folders)])
 
 
 def layout_now(folder):

@@ -12,8 +12,10 @@ import shutil
 import subprocess
 import sys
 
+# packaging/windows.py sets others.
 CLANG = "clang-19"
 ARCHIVER = "/usr/lib/llvm-19/bin/llvm-ar"
+SIZE_T = "4" # bytes
 FLAGS = ["--target=wasm32-wasi", "-DNDEBUG", "-msimd128", "-mbulk-memory", "-mnontrapping-fptoint", "-ffp-contract=off", "-w",
          "-mllvm", "-wasm-enable-sjlj", "-isystem", os.path.join(os.path.dirname(os.path.abspath(__file__)), "libc")]
 
@@ -92,7 +94,7 @@ def configure(name, path):
         fill("jconfig.h.in", {"JPEG_LIB_VERSION": "62", "VERSION": version, "LIBJPEG_TURBO_VERSION_NUMBER": number, "BITS_IN_JSAMPLE": "8"},
              ["D_ARITH_CODING_SUPPORTED", "MEM_SRCDST_SUPPORTED"])
         fill("jconfigint.h.in", {"BUILD": "lambent", "INLINE": "inline", "THREAD_LOCAL": "_Thread_local",
-                                 "CMAKE_PROJECT_NAME": name, "VERSION": version, "SIZE_T": "4"})
+                                 "CMAKE_PROJECT_NAME": name, "VERSION": version, "SIZE_T": SIZE_T})
         fill("jversion.h.in", {"COPYRIGHT_YEAR": "2023"})
         header = os.path.join(path, "jmorecfg.h")
         text = re.sub(r"^#define (%s)_SUPPORTED" % "|".join(JPEG_WITHOUT), r"#undef \1_SUPPORTED", open(header).read(), flags=re.M)
@@ -127,8 +129,8 @@ def build(row, folder):
             os.path.join(root, "include")))
 
 
-def main():
-    folder = os.path.abspath(sys.argv[1])
+def make(folder):
+    """Compiles the libraries to FOLDER/root, unless they are there."""
     done = os.path.join(folder, "root", "complete")
     stamp = open(os.path.abspath(__file__)).read()
     if os.path.exists(done) and open(done).read() == stamp:
@@ -146,4 +148,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    make(os.path.abspath(sys.argv[1]))

@@ -32,7 +32,8 @@ static bool write_all(int file, const uint8_t *at, size_t left, struct call_cont
 }
 
 // Writes to `name`, a new file or a device, which is removed if that fails and it `is_new`.
-static bool write_to(const char *name, bool is_new, const void *data, size_t size, bool durable, struct call_control *call)
+static bool write_to(const char *name, bool is_new, const void *data, size_t size, bool durable,
+                     struct call_control *call)
 {
     int file = open(name, O_WRONLY | O_CLOEXEC | (is_new ? O_CREAT | O_EXCL : 0), 0666);
     bool ok = file >= 0 && write_all(file, data, size, call) && (!durable || !is_new || fsync(file) == 0);
@@ -51,7 +52,8 @@ static bool write_beside(const char *target, const void *data, size_t size, bool
 {
     char *name;
     int folder = (int)(path_name(target) - target);
-    if (asprintf(&name, "%.*s.lambent-%ld-%llx.part", folder, target, (long)getpid(), (unsigned long long)now_ns()) < 0) {
+    if (asprintf(&name, "%.*s.lambent-%ld-%llx.part", folder, target, (long)getpid(), (unsigned long long)now_ns()) <
+        0) {
         errno = ENOMEM;
         return false;
     }

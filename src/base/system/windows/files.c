@@ -24,8 +24,10 @@ int windows_open(const char *path, int flags, ...)
     if (!wide)
         return -1;
     int access = flags & (O_WRONLY | O_RDWR), make = flags & (O_CREAT | O_EXCL | O_TRUNC);
-    DWORD rights = access == O_RDONLY ? GENERIC_READ : access == O_WRONLY ? GENERIC_WRITE : GENERIC_READ | GENERIC_WRITE;
-    DWORD how = (make & (O_CREAT | O_EXCL)) == (O_CREAT | O_EXCL) ? CREATE_NEW
+    DWORD rights = access == O_RDONLY   ? GENERIC_READ
+                   : access == O_WRONLY ? GENERIC_WRITE
+                                        : GENERIC_READ | GENERIC_WRITE;
+    DWORD how = (make & (O_CREAT | O_EXCL)) == (O_CREAT | O_EXCL)     ? CREATE_NEW
                 : (make & (O_CREAT | O_TRUNC)) == (O_CREAT | O_TRUNC) ? CREATE_ALWAYS
                 : make & O_CREAT                                      ? OPEN_ALWAYS
                 : make & O_TRUNC                                      ? TRUNCATE_EXISTING
@@ -45,8 +47,13 @@ int windows_open(const char *path, int flags, ...)
 FILE *windows_fopen(const char *path, const char *mode)
 {
     int plus = strchr(mode, '+') != NULL;
-    int flags = (plus ? O_RDWR : *mode == 'r' ? O_RDONLY : O_WRONLY) |
-                (*mode == 'w' ? O_CREAT | O_TRUNC : *mode == 'a' ? O_CREAT | O_APPEND : 0) | (strchr(mode, 'x') ? O_EXCL : 0);
+    int flags = (plus           ? O_RDWR
+                 : *mode == 'r' ? O_RDONLY
+                                : O_WRONLY) |
+                (*mode == 'w'   ? O_CREAT | O_TRUNC
+                 : *mode == 'a' ? O_CREAT | O_APPEND
+                                : 0) |
+                (strchr(mode, 'x') ? O_EXCL : 0);
     char plain[4] = {*mode, 'b', plus ? '+' : 0, 0};
     int file = windows_open(path, flags | O_CLOEXEC);
     FILE *stream = file >= 0 ? _fdopen(file, plain) : NULL;
@@ -76,7 +83,8 @@ static int stat_handle(HANDLE handle, struct windows_stat *about)
         !GetFileInformationByHandleEx(handle, FileBasicInfo, &times, sizeof times))
         return fail_with_errno();
     unsigned rights = info.dwFileAttributes & FILE_ATTRIBUTE_READONLY ? 0444 : 0666;
-    about->st_mode = (unsigned short)(info.dwFileAttributes & FILE_ATTRIBUTE_DIRECTORY ? S_IFDIR | 0111 | rights : S_IFREG | rights);
+    about->st_mode =
+        (unsigned short)(info.dwFileAttributes & FILE_ATTRIBUTE_DIRECTORY ? S_IFDIR | 0111 | rights : S_IFREG | rights);
     about->st_nlink = info.nNumberOfLinks;
     about->st_dev = info.dwVolumeSerialNumber;
     about->st_ino = (uint64_t)info.nFileIndexHigh << 32 | info.nFileIndexLow;
@@ -90,9 +98,10 @@ static int stat_handle(HANDLE handle, struct windows_stat *about)
 static HANDLE open_name(const char *path)
 {
     wchar_t *wide = wide_path(path);
-    HANDLE handle = wide ? CreateFileW(wide, FILE_READ_ATTRIBUTES, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL,
-                                       OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, NULL)
-                         : INVALID_HANDLE_VALUE;
+    HANDLE handle =
+        wide ? CreateFileW(wide, FILE_READ_ATTRIBUTES, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL,
+                           OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, NULL)
+             : INVALID_HANDLE_VALUE;
     if (wide && handle == INVALID_HANDLE_VALUE)
         fail_with_errno();
     free(wide);
@@ -182,9 +191,9 @@ int windows_mkdir(const char *path)
 int windows_rename(const char *from, const char *to)
 {
     wchar_t *wide_from = wide_path(from), *wide_to = wide_path(to);
-    int renamed = !wide_from || !wide_to                                           ? -1
+    int renamed = !wide_from || !wide_to                                       ? -1
                   : MoveFileExW(wide_from, wide_to, MOVEFILE_REPLACE_EXISTING) ? 0
-                                                                                   : fail_with_errno();
+                                                                               : fail_with_errno();
     free(wide_from);
     free(wide_to);
     return renamed;
@@ -221,7 +230,8 @@ ssize_t pwrite(int file, const void *data, size_t size, off_t at)
 int flock(int file, int operation)
 {
     (void)operation;
-    OVERLAPPED end = {.Offset = 0, .OffsetHigh = 0x40000000}; // a byte that no file has: a lock keeps others from reading
+    OVERLAPPED end = {.Offset = 0,
+                      .OffsetHigh = 0x40000000}; // a byte that no file has: a lock keeps others from reading
     return LockFileEx((HANDLE)_get_osfhandle(file), LOCKFILE_EXCLUSIVE_LOCK | LOCKFILE_FAIL_IMMEDIATELY, 0, 1, 0, &end)
                ? 0
                : fail_with_errno();

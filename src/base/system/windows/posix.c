@@ -93,6 +93,7 @@ static int64_t nanoseconds(clockid_t clock)
 #undef pthread_cond_timedwait
 int windows_cond_timedwait(pthread_cond_t *changed, pthread_mutex_t *mutex, const struct timespec *until)
 {
-    int64_t at = (int64_t)until->tv_sec * 1000000000 + until->tv_nsec - nanoseconds(CLOCK_MONOTONIC) + nanoseconds(CLOCK_REALTIME);
+    int64_t at = (int64_t)until->tv_sec * 1000000000 + until->tv_nsec - nanoseconds(CLOCK_MONOTONIC) +
+                 nanoseconds(CLOCK_REALTIME);
     return pthread_cond_timedwait(changed, mutex, &(struct timespec){at / 1000000000, (long)(at % 1000000000)});
 }

@@ -65,7 +65,7 @@ static bool give_text(const struct memory_stream *stream)
     return *stream->size == (size_t)end && _fseeki64(stream->file, end, SEEK_SET) == 0;
 }
 
-// Returns the place of a stream in the list, whose lock is held; where it is not, the list's end.
+// Returns the pointer to a stream in the list, whose lock the caller holds; if the stream is not in the list, the pointer at its end.
 static struct memory_stream **find(FILE *file)
 {
     struct memory_stream **at = &streams;
@@ -131,7 +131,8 @@ int poll(struct pollfd *files, nfds_t count, int wait_ms)
         for (nfds_t i = 0; i < count; i++) {
             files[i].revents = 0;
             if (files[i].fd >= 0)
-                files[i].revents = files[i].events & POLLIN && is_ready(files[i].fd) ? POLLIN : files[i].events & POLLOUT;
+                files[i].revents =
+                    files[i].events & POLLIN && is_ready(files[i].fd) ? POLLIN : files[i].events & POLLOUT;
             ready += files[i].revents != 0;
         }
         if (ready || (wait_ms >= 0 && GetTickCount64() - start >= (ULONGLONG)wait_ms))

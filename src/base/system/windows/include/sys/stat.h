@@ -25,9 +25,9 @@ int windows_stat(const char *path, struct windows_stat *about);
 int windows_fstat(int file, struct windows_stat *about);
 int windows_mkdir(const char *path);
 
-#define stat  windows_stat
-#define fstat windows_fstat
-#define lstat windows_stat // links are followed
+#define stat              windows_stat
+#define fstat             windows_fstat
+#define lstat             windows_stat // links are followed
 #define mkdir(path, mode) windows_mkdir(path)
 
 #define S_ISLNK(mode)  0

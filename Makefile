@@ -9,7 +9,7 @@ MAKEFLAGS += --no-print-directory
 # looks there. The compiler knows the folder too; it prints nothing where there is none.
 folders  = --prefix=$(prefix) $$(gcc -print-multiarch 2>/dev/null | sed 's:.:--libdir=lib/&:')
 
-.PHONY: all demo web npm python site test test-more test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall deb static release clean help
+.PHONY: all demo web npm python site test test-more test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall deb static windows release clean help
 
 all: $(build)/lambent
 
@@ -35,6 +35,7 @@ help:
 	@echo 'make uninstall  removes what install put there'
 	@echo 'make deb        builds the Debian packages of the committed tree, in build-deb/ (docs/install.md)'
 	@echo 'make static     builds one program without shared libraries, build-static/lambent (machine=aarch64: for ARM)'
+	@echo 'make windows    builds lambent.exe and lambent.dll for Windows by mingw-w64, in build-windows/'
 	@echo 'make release    builds packages, static programs and the source in dist/, with checksums and the changes'
 	@echo 'make docs       writes the generated parts of docs/ anew, the pictures of the README, and $(build)/docs/reference.md'
 	@echo 'make gallery    all pictures of docs/: those of make docs, and the known mistakes'
@@ -91,7 +92,7 @@ test-gl:
 
 test-long:
 	@scripts/setup.sh build test
-	@scripts/setup.sh long web browser || true # optional: what is missing is skipped
+	@scripts/setup.sh long web windows browser || true # optional: what is missing is skipped
 	@command -v npm >/dev/null || scripts/setup.sh npm || true
 	@python3 tests/run.py long
 
@@ -147,6 +148,10 @@ deb:
 static:
 	@scripts/setup.sh build $(if $(machine),cross)
 	@python3 packaging/static.py build-static$(if $(machine),-$(machine) $(machine))
+
+windows:
+	@scripts/setup.sh build windows
+	@python3 packaging/windows.py build-windows
 
 release:
 	@scripts/setup.sh build package cross

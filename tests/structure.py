@@ -3,7 +3,7 @@
 
 Two rules order the folders (docs/architecture.md). Files never depend on one another in a circle, in the library or in the program; and a folder of
 the library or of the program uses none below it in the list. The include paths of the build keep the library's headers to that order; this
-test checks function calls, and the program's headers (a fifth rule). The third rule: every file that a page or a comment names exists.
+test checks function calls, and the program's headers (a fifth rule). A sixth: no C file outside src/base/system asks for Windows. The third rule: every file that a page or a comment names exists.
 The fourth keeps reflection models replaceable: only a lobe's row in src/lighting/lobes.h describes it."""
 import collections
 import functools
@@ -126,6 +126,8 @@ def circles(edges):
 
 
 TOPS = "src|classroom|tools|tests|include|web|scripts|bench|scenes|examples|docs"
+# What is asked of the system that a program is compiled for, outside the one folder that knows Windows.
+WINDOWS = re.compile(r"\b_WIN\w*\b|\b__MINGW\w*|<windows\.h>")
 NAMED = re.compile(r"(?<![\w./-])((?:%s)/[\w./-]*\w)" % TOPS)  # a path from the root
 BARE = re.compile(r"(?<![\w./<-])([a-z][a-z_0-9]+\.(?:c|inc|h))(?!\w)")  # a file without its folder, in a comment of the library
 ELSEWHERE = {"jpeglib.h", "teapots.c", "docs/turning"}  # a library's, a program's that is cited, a program that is built
@@ -151,6 +153,16 @@ def missing_files():
 
 NAMED_LOBE = re.compile(r"[!=]= *LAM_REFLECTION_(?!NONE\b|AUTO\b)\w+")
 STYLES = ("glsl/lecture.",)  # programs of courses: which model they print
+
+
+def windows_elsewhere():
+    """Files of C that ask for Windows outside src/base/system."""
+    for top in ("src", "tools", "classroom", "scenes", "include"):
+        for path, folders, names in os.walk(os.path.join(ROOT, top)):
+            folders[:] = [f for f in folders if os.path.relpath(os.path.join(path, f), ROOT) != os.path.join("src", "base", "system")]
+            for name in sorted(names):
+                if name.endswith((".c", ".h", ".inc")) and WINDOWS.search(open(os.path.join(path, name), encoding="utf-8").read()):
+                    yield os.path.relpath(os.path.join(path, name), ROOT)
 
 
 def lobes_asked_by_name():
@@ -191,7 +203,7 @@ def options_in_messages():
 def main():
     edges, order = graph(sys.argv[1]), library_folders() + floors()
     bad = 0
-    print("1..6")
+    print("1..7")
     found = circles(edges)
     print("%s 1 - no circle between files" % ("not ok" if found else "ok"))
     for part in found:
@@ -226,6 +238,11 @@ def main():
     for file, complaint in options:
         bad += 1
         print("#   %s: %s" % (file, complaint))
+    asking = sorted(windows_elsewhere())
+    print("%s 7 - Windows is known to src/base/system alone" % ("not ok" if asking else "ok"))
+    for file in asking:
+        bad += 1
+        print("#   %s asks for it" % file)
     if not edges:
         print("# no objects were found in %s" % sys.argv[1])
     return 1 if bad or not edges else 0

@@ -12,8 +12,10 @@ import shutil
 import subprocess
 import sys
 
+# packaging/windows.py sets others.
 CLANG = "clang-19"
 ARCHIVER = "/usr/lib/llvm-19/bin/llvm-ar"
+SIZE_T = "4" # bytes
 FLAGS = ["--target=wasm32-wasi", "-DNDEBUG", "-msimd128", "-mbulk-memory", "-mnontrapping-fptoint", "-ffp-contract=off", "-w",
          "-mllvm", "-wasm-enable-sjlj", "-isystem", os.path.join(os.path.dirname(os.path.abspath(__file__)), "libc")]
 
@@ -25,8 +27,8 @@ JPEG_WITHOUT = """DCT_IFAST DCT_FLOAT C_MULTISCAN_FILES C_PROGRESSIVE INPUT_SMOO
 QUANT_1PASS QUANT_2PASS""".split()
 ZLIB = "adler32 crc32 deflate inffast inflate inftrees trees zutil compress uncompr".split()
 
-# One row for each: Debian's source package, the files, the headers that others include, what pkg-config says, and flags: for size where
-# speed does not show.
+# One row for each: Debian's source package, the files, the headers that others include (or the folder of them, `include`), what pkg-config says, and
+# flags: for size where speed does not show.
 LIBRARIES = [
     {"source": "zlib", "library": "z", "files": [n + ".c" for n in ZLIB], "headers": ["zlib.h", "zconf.h"], "pc": "zlib", "flags": ["-O2"]},
     {"source": "jansson", "library": "jansson", "files": ["src/*.c"], "headers": ["src/jansson.h", "src/jansson_config.h"], "pc": "jansson",
@@ -92,7 +94,7 @@ def configure(name, path):
         fill("jconfig.h.in", {"JPEG_LIB_VERSION": "62", "VERSION": version, "LIBJPEG_TURBO_VERSION_NUMBER": number, "BITS_IN_JSAMPLE": "8"},
              ["D_ARITH_CODING_SUPPORTED", "MEM_SRCDST_SUPPORTED"])
         fill("jconfigint.h.in", {"BUILD": "lambent", "INLINE": "inline", "THREAD_LOCAL": "_Thread_local",
-                                 "CMAKE_PROJECT_NAME": name, "VERSION": version, "SIZE_T": "4"})
+                                 "CMAKE_PROJECT_NAME": name, "VERSION": version, "SIZE_T": SIZE_T})
         fill("jversion.h.in", {"COPYRIGHT_YEAR": "2023"})
         header = os.path.join(path, "jmorecfg.h")
         text = re.sub(r"^#define (%s)_SUPPORTED" % "|".join(JPEG_WITHOUT), r"#undef \1_SUPPORTED", open(header).read(), flags=re.M)
@@ -106,7 +108,7 @@ def build(row, folder):
     objects = os.path.join(folder, "objects", row["library"])
     os.makedirs(objects, exist_ok=True)
     files = [f for pattern in row["files"] for f in sorted(glob.glob(os.path.join(path, pattern)))]
-    flags = FLAGS + row.get("flags", []) + ["-I" + os.path.join(root, "include"), "-I" + path, "-I" + os.path.join(path, "src")]
+    flags = FLAGS + row.get("flags", []) + ["-I" + os.path.join(root, "include"), "-I" + path, "-I" + os.path.join(path, "src"), "-I" + os.path.join(path, "include")]
 
     def compile_one(source):
         target = os.path.join(objects, os.path.basename(source)[:-1] + "o")
@@ -122,28 +124,28 @@ def build(row, folder):
     # Debian's sources of zlib carry a suffix after the number.
     version = re.match(r"[\d.]*\d", os.path.basename(path).rsplit("-", 1)[1])[0]
     with open(os.path.join(root, "lib", "pkgconfig", row["pc"] + ".pc"), "w") as out:
-        out.write("Name: %s\nDescription: Debian's %s for WebAssembly\nVersion: %s\n%sLibs: %s\nCflags: -I%s\n" % (
+        out.write("Name: %s\nDescription: Debian's %s\nVersion: %s\n%sLibs: %s\nCflags: -I%s\n" % (
             row["pc"], row["source"], version, "Requires: %s\n" % row["needs"] if "needs" in row else "", archive,
-            os.path.join(root, "include")))
+            os.path.join(path, row["include"]) if "include" in row else os.path.join(root, "include")))
 
 
-def main():
-    folder = os.path.abspath(sys.argv[1])
+def make(folder, rows):
+    """Compiles the libraries of these rows to FOLDER/root, unless they are there."""
     done = os.path.join(folder, "root", "complete")
-    stamp = open(os.path.abspath(__file__)).read()
+    stamp = open(os.path.abspath(__file__)).read() + repr(rows)
     if os.path.exists(done) and open(done).read() == stamp:
         return
     for name in ("include", "lib/pkgconfig"):
         os.makedirs(os.path.join(folder, "root", name), exist_ok=True)
-    if any(unpacked(folder, row["source"]) is None for row in LIBRARIES):
-        print("web: fetching Debian's sources of " + ", ".join(row["source"] for row in LIBRARIES), flush=True)
-        fetch(folder, [row["source"] for row in LIBRARIES])
-    for row in LIBRARIES:
-        print("web: compiling " + row["source"], flush=True)
+    if any(unpacked(folder, row["source"]) is None for row in rows):
+        print("libraries: fetching Debian's sources of " + ", ".join(row["source"] for row in rows), flush=True)
+        fetch(folder, [row["source"] for row in rows])
+    for row in rows:
+        print("libraries: compiling " + row["source"], flush=True)
         build(row, folder)
     with open(done, "w") as out:
         out.write(stamp)
 
 
 if __name__ == "__main__":
-    main()
+    make(os.path.abspath(sys.argv[1]), LIBRARIES)

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""windows.py [FOLDER]: Lambent for Windows on x86-64 in FOLDER (build-windows): the program lambent.exe, which is a static one, the library lambent.dll
+and its lambent.dll.a for linkers, by mingw-w64 (make windows). The libraries inside are those of the module for the web (web/libraries.py) and of the
+static program (packaging/static.py), compiled from Debian's source packages."""
+import pathlib
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "web"))
+import libraries  # noqa: E402
+
+PREFIX = "x86_64-w64-mingw32-"
+COMPILER = PREFIX + "gcc-posix"
+INSIDE = ["fonts-dejavu-core", "gcc-mingw-w64-base", "mingw-w64-common"] # the font, the compiler's library, and Windows' with threads
+PROGRAMS = {COMPILER: "gcc-mingw-w64-x86-64-posix", PREFIX + "g++-posix": "g++-mingw-w64-x86-64-posix", "dpkg-source": "dpkg-dev", "meson": "meson", "ninja": "ninja-build"}
+
+# Of FreeType the modules in its list ftmodule.h.
+FREETYPE = """autofit bdf cff cid/type1cid lzw/ftlzw gzip/ftgzip pcf pfr psaux pshinter psnames raster sdf sfnt smooth svg truetype type1/type1 type42/type42 winfonts/winfnt
+base/ftbase base/ftbitmap base/ftdebug base/ftglyph base/ftinit base/ftmm base/ftsystem""".split()
+# Rows as those of libraries.LIBRARIES.
+MORE = [
+    {"source": "libdeflate", "library": "deflate", "files": ["lib/*.c", "lib/x86/cpu_features.c"], "headers": ["libdeflate.h"], "pc": "libdeflate", "flags": ["-O2"]},
+    {"source": "libwebp", "library": "webp", "files": ["sharpyuv/*.c", *("src/%s/*.c" % n for n in ("dec", "dsp", "enc", "utils"))], "headers": [], "include": "src", "pc": "libwebp",
+     "flags": ["-O2"]},
+    {"source": "libwebp", "library": "webpmux", "files": ["src/mux/*.c"], "headers": [], "include": "src", "pc": "libwebpmux", "needs": "libwebp", "flags": ["-O2"]},
+    {"source": "freetype", "library": "freetype", "files": ["src/%s.c" % (n if "/" in n else n + "/" + n) for n in FREETYPE], "headers": [], "include": "include",
+     "pc": "freetype2", "flags": ["-O2", "-DFT2_BUILD_LIBRARY", "-DFT_CONFIG_OPTION_SYSTEM_ZLIB"]},
+    {"source": "meshoptimizer", "library": "meshopt", "files": ["src/%s.cpp" % n for n in ("allocator", "indexcodec", "vertexcodec", "vertexfilter")], "headers": [],
+     "pc": "meshopt", "flags": ["-O2", "-fno-exceptions", "-fno-rtti"]},
+]
+
+
+def missing():
+    """The packages that are not installed."""
+    return [package for program, package in PROGRAMS.items() if not shutil.which(program)]
+
+
+def call(*command):
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode:
+        sys.exit("windows: %s failed:\n%s" % (" ".join(map(str, command[:4])), done.stdout[-4000:]))
+    return done.stdout
+
+
+def build(folder):
+    """Builds what is not up to date, and returns the folder of the build."""
+    folder.mkdir(parents=True, exist_ok=True)
+    libraries.CLANG, libraries.ARCHIVER, libraries.SIZE_T = COMPILER, PREFIX + "ar", "8"
+    libraries.FLAGS = ["-DNDEBUG", "-D__USE_MINGW_ANSI_STDIO=1", "-DSPNG_STATIC", "-ffp-contract=off", "-w"]
+    libraries.make(str(folder), libraries.LIBRARIES + MORE)
+    places = folder / "places.ini"
+    places.write_text("[constants]\nroot = '%s'\nheaders = '%s'\n" % (folder / "root", ROOT / "src/base/system/windows/include"))
+    made = folder / "build"
+    if not (made / "build.ninja").exists():
+        shutil.rmtree(made, ignore_errors=True)
+        call("meson", "setup", str(made), str(ROOT), "--cross-file", str(places), "--cross-file", str(ROOT / "packaging/windows.ini"),
+             "--buildtype=release", "-Dtests=false", "-Dclassroom=false", "-Dstatic_program=true")
+    output = call("ninja", "-C", str(made))
+    if "warning:" in output:
+        sys.exit("windows: the compiler warns:\n" + output[-4000:])
+    return made
+
+
+def write_licences(folder):
+    """The notices of what the program contains: what Debian's packages say of their source."""
+    sources = {row["source"]: pathlib.Path(libraries.unpacked(str(folder), row["source"])) / "debian" for row in libraries.LIBRARIES + MORE}
+    packages = {name: pathlib.Path("/usr/share/doc") / name for name in INSIDE}
+    texts = ["The program lambent.exe and the library lambent.dll contain the following software. What Debian's packages say of each:\n", (ROOT / "LICENSE").read_text()]
+    texts += ["==== %s\n\n%s" % (name, (place / "copyright").read_text()) for name, place in {**sources, **packages}.items()]
+    (folder / "LICENCES").write_text("\n".join(texts))
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build-windows").resolve()
+    if missing():
+        sys.exit("windows: not installed: " + " ".join(missing()))
+    made = build(folder)
+    for name in ("lambent.exe", "src/lambent.dll"):
+        target = folder / pathlib.Path(name).name
+        call(PREFIX + "strip", "-o", str(target), str(made / name))
+        print("%s: %.1f MB" % (target, target.stat().st_size / 1e6))
+    shutil.copy(made / "src/lambent.dll.a", folder)
+    write_licences(folder)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,21 @@
+// dirent.h: the names in a folder, in UTF-8.
+#ifndef WINDOWS_DIRENT_H
+#define WINDOWS_DIRENT_H
+
+struct dirent {
+    char d_name[1024];
+};
+typedef struct windows_folder DIR;
+
+DIR *opendir(const char *path);
+struct dirent *readdir(DIR *folder);
+int closedir(DIR *folder);
+// Removes a file of an open folder.
+int windows_remove_in(DIR *folder, const char *name);
+#define dirfd(folder)                 (folder)
+#define unlinkat(folder, name, flags) windows_remove_in(folder, name)
+int alphasort(const struct dirent **a, const struct dirent **b);
+int scandir(const char *path, struct dirent ***list, int filter(const struct dirent *),
+            int compare(const struct dirent **, const struct dirent **));
+
+#endif

@@ -1,0 +1,20 @@
+// stdio.h: mingw-w64's, with names of files in UTF-8, files without conversion of line ends, and streams in memory.
+#ifndef WINDOWS_STDIO_H
+#define WINDOWS_STDIO_H
+
+#include_next <stdio.h>
+
+FILE *windows_fopen(const char *path, const char *mode);
+int windows_rename(const char *from, const char *to); // replaces a file
+int windows_fclose(FILE *file);
+int windows_fflush(FILE *file);
+#define fopen  windows_fopen
+#define rename windows_rename
+// fclose and fflush give a stream in memory its text.
+#define fclose windows_fclose
+#define fflush windows_fflush
+
+FILE *open_memstream(char **text, size_t *size);
+ssize_t getline(char **line, size_t *capacity, FILE *file);
+
+#endif

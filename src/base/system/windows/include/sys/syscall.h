@@ -1,0 +1,1 @@
+// sys/syscall.h: Windows has no system calls with numbers.

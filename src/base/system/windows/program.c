@@ -1,0 +1,31 @@
+// program.c: where a program for Windows starts: its words become UTF-8, its streams carry bytes, and then main() runs.
+#include "names.h"
+
+#include <fcntl.h>
+#include <io.h>
+#include <stdlib.h>
+#include <windows.h>
+
+int main(int count, char **words);
+int wmain(int count, wchar_t **wide);
+
+static UINT before; // the console's code page
+
+static void restore_console(void) { SetConsoleOutputCP(before); }
+
+// Backslashes of the words become slashes: the program knows folders by these alone.
+int wmain(int count, wchar_t **wide)
+{
+    char **words = calloc((size_t)count + 1, sizeof *words);
+    for (int i = 0; words && i < count; i++)
+        if (!(words[i] = narrow_text(wide[i], 1)))
+            return 1;
+    if (!words)
+        return 1;
+    for (int stream = 0; stream <= 2; stream++)
+        _setmode(stream, _O_BINARY);
+    before = GetConsoleOutputCP();
+    if (before && SetConsoleOutputCP(CP_UTF8))
+        atexit(restore_console);
+    return main(count, words);
+}

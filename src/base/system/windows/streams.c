@@ -1,0 +1,141 @@
+// streams.c: streams in memory, lines of streams, and waiting for pipes.
+//
+// Windows' streams cannot call a program's functions: a stream in memory is a temporary file, which Windows keeps in its cache
+// and removes when it is closed. fflush and fclose copy its bytes.
+#include "names.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <io.h>
+#include <poll.h>
+#include <pthread.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <windows.h>
+
+#undef fclose
+#undef fflush
+
+// --- streams in memory
+
+static struct memory_stream {
+    FILE *file;
+    char **text;
+    size_t *size;
+    struct memory_stream *next;
+} *streams;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+FILE *open_memstream(char **text, size_t *size)
+{
+    wchar_t folder[MAX_PATH + 1], path[MAX_PATH + 1];
+    struct memory_stream *stream = calloc(1, sizeof *stream);
+    if (stream && GetTempPathW(MAX_PATH, folder) && GetTempFileNameW(folder, L"lam", 0, path))
+        stream->file = _wfopen(path, L"w+bTD");
+    if (!stream || !stream->file) {
+        free(stream);
+        return NULL;
+    }
+    stream->text = text;
+    stream->size = size;
+    *text = NULL;
+    *size = 0;
+    pthread_mutex_lock(&lock);
+    stream->next = streams;
+    streams = stream;
+    pthread_mutex_unlock(&lock);
+    return stream->file;
+}
+
+// Gives the caller the stream's bytes. Returns false if memory runs out, or an earlier write has failed.
+static bool give_text(const struct memory_stream *stream)
+{
+    if (fflush(stream->file) != 0 || ferror(stream->file))
+        return false;
+    long long end = _ftelli64(stream->file);
+    char *text = end >= 0 ? realloc(*stream->text, (size_t)end + 1) : NULL;
+    if (!text)
+        return false;
+    *stream->text = text;
+    rewind(stream->file);
+    *stream->size = fread(text, 1, (size_t)end, stream->file);
+    text[*stream->size] = 0;
+    return *stream->size == (size_t)end && _fseeki64(stream->file, end, SEEK_SET) == 0;
+}
+
+// Returns the pointer to a stream in the list, whose lock the caller holds; if the stream is not in the list, the pointer at its end.
+static struct memory_stream **find(FILE *file)
+{
+    struct memory_stream **at = &streams;
+    while (*at && (*at)->file != file)
+        at = &(*at)->next;
+    return at;
+}
+
+int windows_fflush(FILE *file)
+{
+    pthread_mutex_lock(&lock);
+    struct memory_stream *stream = file ? *find(file) : NULL;
+    pthread_mutex_unlock(&lock);
+    return stream ? (give_text(stream) ? 0 : EOF) : fflush(file);
+}
+
+int windows_fclose(FILE *file)
+{
+    pthread_mutex_lock(&lock);
+    struct memory_stream **at = find(file), *stream = *at;
+    if (stream)
+        *at = stream->next;
+    pthread_mutex_unlock(&lock);
+    bool ok = !stream || give_text(stream);
+    free(stream);
+    return fclose(file) == 0 && ok ? 0 : EOF;
+}
+
+// --- lines
+
+ssize_t getline(char **line, size_t *capacity, FILE *file)
+{
+    size_t size = 0;
+    for (int letter = 0; letter != '\n' && (letter = getc(file)) != EOF;) {
+        if (size + 2 > *capacity || !*line) {
+            size_t larger = *line && *capacity ? 2 * *capacity : 128;
+            char *grown = realloc(*line, larger);
+            if (!grown)
+                return -1;
+            *line = grown;
+            *capacity = larger;
+        }
+        (*line)[size++] = (char)letter;
+        (*line)[size] = 0;
+    }
+    return size ? (ssize_t)size : -1;
+}
+
+// --- waiting
+
+// Returns whether a read returns at once. Only a pipe is asked.
+static bool is_ready(int file)
+{
+    HANDLE handle = (HANDLE)_get_osfhandle(file);
+    DWORD bytes = 0;
+    return GetFileType(handle) != FILE_TYPE_PIPE || !PeekNamedPipe(handle, NULL, 0, NULL, &bytes, NULL) || bytes;
+}
+
+int poll(struct pollfd *files, nfds_t count, int wait_ms)
+{
+    for (ULONGLONG start = GetTickCount64();; Sleep(5)) {
+        int ready = 0;
+        for (nfds_t i = 0; i < count; i++) {
+            files[i].revents = 0;
+            if (files[i].fd >= 0)
+                files[i].revents =
+                    files[i].events & POLLIN && is_ready(files[i].fd) ? POLLIN : files[i].events & POLLOUT;
+            ready += files[i].revents != 0;
+        }
+        if (ready || (wait_ms >= 0 && GetTickCount64() - start >= (ULONGLONG)wait_ms))
+            return ready;
+    }
+}

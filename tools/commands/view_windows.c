@@ -1,0 +1,13 @@
+// view_windows.c: refuses the viewer, which draws in processes of its own.
+#include "command.h"
+
+#include "console.h"
+#include "report.h"
+
+int run_view(int operand_count, char **operands, const struct options *options)
+{
+    lam_error error = {0};
+    (void)operand_count, (void)operands;
+    complain(&error, LAM_UNSUPPORTED, "view: lambent for Windows has no viewer");
+    return report_failure(&error, options);
+}

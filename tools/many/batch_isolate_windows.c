@@ -1,0 +1,12 @@
+// batch_isolate_windows.c: refuses a process for each model: Windows makes no copies of a process.
+#include "batch_isolate.h"
+
+#include "console.h"
+
+void batch_isolate(struct batch *batch)
+{
+    lam_error error;
+    complain(&error, LAM_UNSUPPORTED, "%s: lambent for Windows draws all models in one process",
+             batch->options->batch.isolate ? "option '--isolate'" : "option '--resume' after a run that was killed");
+    batch_stop(batch, &error);
+}

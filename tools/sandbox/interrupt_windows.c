@@ -1,0 +1,28 @@
+// interrupt_windows.c: Ctrl-C sets a flag, so that a run stops cleanly and leaves no partial files. Windows calls the handler in a thread of its own.
+#include "interrupt.h"
+
+#include <signal.h>
+#include <stdlib.h>
+
+#include "writer.h"
+
+static lam_cancel cancel;
+static volatile sig_atomic_t caught;
+
+// A second Ctrl-C ends the program: Windows forgets the handler when it calls it.
+static void catch (int number)
+{
+    caught = number;
+    lam_cancel_raise(&cancel);
+}
+
+void interrupt_start(void) { signal(SIGINT, catch); }
+
+const lam_cancel *interrupt_flag(void) { return &cancel; }
+bool interrupted(void) { return caught != 0; }
+
+void interrupt_finish(void)
+{
+    writer_end();
+    _exit(128 + caught);
+}

@@ -25,6 +25,8 @@ class Resources(Case):
             render cube.ply -s 32 --ao screen --isa scalar -o a.webp
             render cube.obj cube.ply --views front,left --sizes 16,32 -o a/{stem}{ext}-{view}-{size}.png
             render cube.obj --turntable 3 -s 16 -o turn.webp
+            render cube.obj -s 16 --config settings.json -o set.png
+            config
             batch cube.obj cube.stl -s 16 -o b/{stem}{ext}.png
             batch cube.obj cube.stl -s 16 --isolate -o c/{stem}{ext}.png
             journal b/lambent.jsonl
@@ -55,6 +57,7 @@ class Resources(Case):
             help shading
             complete -- rend
             generate markdown""".strip().splitlines()]
+        (self.folder / "settings.json").write_text('{"shadows": true, "image": {"background": "white"}}')
         listed = re.search(r"\nCommands:\n(.*?)\n\n", self.good("help").stdout.decode(), re.S)[1]
         self.assertEqual({words[0] for words in runs} - {"render"}, set(re.findall(r"(?m)^  (\w+)", listed)))
         for words in runs:

@@ -183,7 +183,7 @@ def check_library(folder, environment):
 
 
 def exported(name):
-    library = glob.glob(os.path.join(BUILD, "*", name + ".so.*.*.*"))
+    library = [path for path in glob.glob(os.path.join(BUILD, "*", name + ".so.*.*.*")) if os.path.isfile(path)]
     lines = run(["nm", "-D", "--defined-only", library[0]]).stdout.split("\n") if library else []
     return [line.split()[2] for line in lines if len(line.split()) == 3]
 

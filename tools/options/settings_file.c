@@ -185,13 +185,13 @@ static bool is_decided(const struct reader *r, const struct option *option)
 static bool take_value(struct reader *r, const char *group, const char *key, const struct option *option,
                        const json_t *value)
 {
-    char reason[400], *text = r->values;
-    FILE *out = fmemopen(text, FILE_MAX, "w");
+    char reason[400], *text = r->values, *made = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&made, &size);
     bool ok = out && put_value(out, option, value);
-    if (out) {
-        putc(0, out);
-        fclose(out);
-    }
+    ok = out && fclose(out) == 0 && ok && size < FILE_MAX; // the room that is left in `values`
+    strcpy(text, ok ? made : "");
+    free(made);
     if (!ok) {
         snprintf(reason, sizeof reason, "found %s, expected %s", kind_of(value), expected_of(option));
         return wrong(r, group, key, reason);

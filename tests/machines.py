@@ -14,7 +14,7 @@ import tempfile
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 ROOMS = ["base", "json", "image", "geometry", "environment", "texture", "scene", "export", "shapes", "import", "scene_file", "load", "frame", "rays", "edges", "occlusion", "device", "cpu"]
 INCLUDES = ["include", "src/lighting"] + [os.path.relpath(path, ROOT) for room in ROOMS
-                                         for path, _, _ in os.walk(os.path.join(ROOT, "src", room))]
+                                         for path, _, _ in os.walk(os.path.join(ROOT, "src", room)) if "windows" not in path]
 FLAGS = ["-std=gnu11", "-fsyntax-only", "-D_GNU_SOURCE", "-DNDEBUG", "-ffp-contract=off", "-fno-math-errno", "-Wall", "-Werror", "-Wno-psabi"]
 MACHINES = {
     "arm64": {"flags": ["--target=aarch64-linux-gnu", "-isystem", "/usr/aarch64-linux-gnu/include"],
@@ -37,7 +37,7 @@ def sources(machine, long):
                                                   "edge_rays.c"]
     for_each = [("src/cpu/kernels.c", kernel) for kernel in machine["kernels"]]
     for_each += [("src/environment/environment_kernels.c", ("scalar", 4))]
-    for_each += [("src/geometry/normals/%s_simd.c" % name, ("scalar", 1)) for name in ("corner_fan", "position")]
+    for_each += [("src/geometry/normals/%s_simd.c" % name, ("scalar", 1)) for name in ("corner_fan", "positions/position")]
     for_each += [("src/geometry/tangents/tangent_kernels.c", ("scalar", 1))]
     for_each += [("src/edges/edge_rays.c", ("scalar", 1))]
     return [(f, []) for f in files if os.path.basename(f) not in skipped] + [

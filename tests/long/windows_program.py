@@ -18,7 +18,7 @@ from static_program import PROGRAM, report, words_of  # noqa: E402
 
 FOLDER = ROOT / "build-windows"
 WINE = shutil.which("wine64") or "/usr/lib/wine/wine64"
-REFUSED = [*static_program.REFUSED, ["check", "a.frag"], ["cube.obj", "--sandbox", "require", "-o", "x.png"], ["batch", "cube.obj", "--isolate", "-o", "x.png"]]
+REFUSED = [*static_program.REFUSED, ["check", "a.frag"], ["plot", "attenuation"], ["cube.obj", "--sandbox", "require", "-o", "x.png"], ["batch", "cube.obj", "--isolate", "-o", "x.png"]]
 SIZE_MAX = 8_000_000
 environment = {**os.environ, "WINEDEBUG": "-all", "WINEDLLOVERRIDES": "winemenubuilder.exe,mscoree,mshtml=", "LC_ALL": "C.UTF-8"}
 

@@ -12,21 +12,21 @@
 extern "C" {
 #endif
 
-// A contract: the names of a course's shader inputs, and the requirements of its exercise. It is a file of JSON
-// (docs/check.md, "Contracts"). Nothing changes it, so any number of checks may share one.
+// A contract: the names of a course's shader inputs, and the requirements of its exercise. It is read from a JSON file
+// (docs/check.md, "Contracts"). It is immutable, so any number of checks may share one.
 typedef struct lam_check_contract lam_check_contract;
 
-// Returns the names of the contracts that are built in: "lambent", "pittsburgh", "oregon", … NULL past the last.
+// Returns the name of a built-in contract: "lambent", "pittsburgh", "oregon", … Returns NULL past the last one.
 LAM_API const char *lam_check_contract_shipped(int index);
-// Returns the file of a contract that is built in, by its name. Returns NULL if there is none.
+// Returns the file of a built-in contract by its name. Returns NULL if there is none.
 LAM_API const char *lam_check_contract_text(const char *name);
 
 // Reads a contract. `file`: its name, for messages, or NULL if there is none. The caller frees the contract. Fails with
-// LAM_CANNOT_READ, with the place that is wrong, or LAM_LIMIT.
+// LAM_CANNOT_READ, with the position of the error, or LAM_LIMIT.
 LAM_API lam_check_contract *lam_check_contract_read(const char *text, size_t size, const char *file, lam_error *error);
-LAM_API void lam_check_contract_free(lam_check_contract *contract); // NULL is fine
+LAM_API void lam_check_contract_free(lam_check_contract *contract); // NULL is allowed
 
-// Its name and its title, a line. Both belong to the contract.
+// Return the contract's name and its one-line title. Both strings belong to the contract.
 LAM_API const char *lam_check_contract_name(const lam_check_contract *contract);
 LAM_API const char *lam_check_contract_title(const lam_check_contract *contract);
 
@@ -35,7 +35,7 @@ typedef struct lam_check_name {
     const char *name; // "lights[].lightPosition" for members of a list
     const char *type; // "vec4"
     const char *role; // "light_position": the name of a lam_check_role
-    // Of positions and directions: "eye", "world" or "object"; NULL: none.
+    // The space of a position or direction: "eye", "world" or "object"; NULL: none.
     const char *space;
     const char *meaning; // one line
     // Other accepted names, separated by blanks. NULL: none.
@@ -44,20 +44,20 @@ typedef struct lam_check_name {
     LAM_RESERVED(4);
 } lam_check_name;
 
-// Row `row` of a contract, counted from 0. False past the last one.
+// Gets row `row` of a contract, counted from 0. Returns false past the last one.
 LAM_API bool lam_check_contract_row(const lam_check_contract *contract, int row, lam_check_name *name);
 
-// A role that a contract can give to a name. Strings are static.
+// A role that a contract can give to a name. The strings are static.
 typedef struct lam_check_role {
     const char *name;    // as in contract files: "light_position"
     const char *meaning; // one line
-    // That an attribute, a uniform, or a number in a shader's text can have it.
+    // Whether an attribute, a uniform, or a number in a shader's text can have this role.
     bool attribute, uniform, constant;
-    bool in_space; // it has a space
+    bool in_space; // whether names of this role have a space
     LAM_RESERVED(4);
 } lam_check_role;
 
-// Row `row` of the roles, counted from 0. False past the last one.
+// Gets row `row` of the roles, counted from 0. Returns false past the last one.
 LAM_API bool lam_check_role_row(int row, lam_check_role *role);
 
 // Returns the known mistakes: their ids ("no-gate") and a sentence about each. Returns NULL past the last.
@@ -79,9 +79,9 @@ LAM_API bool lam_check_draw(const void *request, size_t size, const char *gl_dev
 typedef enum lam_check_draw_status {
     LAM_CHECK_DRAW_DONE = 0, // `result` contains the bytes from lam_check_draw
     LAM_CHECK_DRAW_FAILED,   // `error` says why
-    LAM_CHECK_DRAW_TIMEOUT,  // it was stopped at its deadline
+    LAM_CHECK_DRAW_TIMEOUT,  // the process was stopped at its deadline
     LAM_CHECK_DRAW_CRASHED,  // the process crashed
-    LAM_CHECK_DRAW_MEMORY,   // it was ended because it used too much memory
+    LAM_CHECK_DRAW_MEMORY,   // the process was stopped because it used too much memory
 } lam_check_draw_status;
 // Runs lam_check_draw on `request`, usually in another process.
 typedef lam_check_draw_status lam_check_draw_fn(void *user, const lam_bytes *request, lam_bytes *result,
@@ -89,21 +89,21 @@ typedef lam_check_draw_status lam_check_draw_fn(void *user, const lam_bytes *req
 
 // --- drawing for a check
 
-// A check draws the shaders under test, and its own shaders with known mistakes, by OpenGL that it finds at run time,
-// or by a painter of the caller: a page draws with WebGL 2 (web/check/painter.js). The check alone decides the drawn
-// meshes, their inputs and the conclusion from the pictures, so that every painter gets the same verdict.
+// A check draws the shaders under test, and its own shaders with known mistakes. It uses OpenGL, which it finds at run
+// time, or a painter of the caller: a page draws with WebGL 2 (web/check/painter.js). The check alone chooses the
+// meshes and their inputs and compares the pictures, so that every painter gets the same verdict.
 
 // The compiler of a pair of shaders.
 typedef enum lam_check_language {
     LAM_CHECK_LANGUAGE_CORE = 0, // OpenGL 3.3 core
     LAM_CHECK_LANGUAGE_ES,       // OpenGL ES 3.0, which is WebGL 2
-    // OpenGL with everything since 1.0, such as gl_Vertex and gl_NormalMatrix.
+    // OpenGL with all names since 1.0, such as gl_Vertex and gl_NormalMatrix.
     LAM_CHECK_LANGUAGE_COMPATIBILITY,
 } lam_check_language;
 
 // The type of an input.
 typedef enum lam_check_type {
-    LAM_CHECK_TYPE_OTHER = 0, // none of those below
+    LAM_CHECK_TYPE_OTHER = 0, // none of the types below
     LAM_CHECK_TYPE_FLOAT,     // float
     LAM_CHECK_TYPE_INT,       // int
     LAM_CHECK_TYPE_BOOL,      // bool
@@ -115,25 +115,25 @@ typedef enum lam_check_type {
     LAM_CHECK_TYPE_SAMPLER2D, // sampler2D
 } lam_check_type;
 
-// An attribute or a uniform that a program reads, also one in a block.
+// An attribute or a uniform that a program reads, also in a uniform block.
 typedef struct lam_check_input {
-    // As OpenGL says it: "lights[0].position", "numbers[0]" for a whole list of numbers.
+    // The name that OpenGL reports: "lights[0].position", or "numbers[0]" for a whole array of numbers.
     char name[128];
     lam_check_type type; // of one element
-    int elements;        // of a list; 1: no list
+    int elements;        // length of an array; 1: not an array
     bool attribute;      // false: a uniform
     LAM_RESERVED(2);
 } lam_check_input;
 
-// A compiled program. Its members belong to the painter.
+// A compiled program. The painter owns the data that its members point to.
 typedef struct lam_check_program {
-    void *program;                         // NULL: it does not compile or link
-    lam_check_input *inputs;               // the inputs that they read
+    void *program;                         // NULL: the program does not compile or link
+    lam_check_input *inputs;               // the inputs that the shaders read
     int input_count;                       // of `inputs`
-    bool refused_vertex, refused_fragment; // which of the texts do not compile
+    bool refused_vertex, refused_fragment; // which of the shaders do not compile
     char vertex_log[4096];                 // the compiler's messages; ""
     char fragment_log[4096];               // likewise
-    char link_log[4096];                   // the linker's
+    char link_log[4096];                   // the linker's messages
     LAM_RESERVED(4);
 } lam_check_program;
 

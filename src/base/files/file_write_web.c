@@ -1,5 +1,5 @@
-// file_write_web.c: writes whole files on WebAssembly, whose files are the host's affair: a page keeps them in memory, and no
-// signal ends a write halfway (file_write.c is for systems where that happens).
+// file_write_web.c: writes whole files on WebAssembly. The host provides the file system: a page keeps files in memory,
+// and no signal can interrupt a write, so the precautions of file_write.c are not needed.
 #include "file.h"
 
 #include "fail.h"

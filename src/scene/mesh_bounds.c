@@ -1,5 +1,5 @@
-// mesh_bounds.c: the vertices that a mesh's triangles, lines or points use, bounding boxes of meshes and scenes, the origin of meshes
-// that lie far from zero, and translucency of vertex colours.
+// mesh_bounds.c: the used vertices of a mesh, bounding boxes of meshes and scenes, the origin of meshes far from zero,
+// and translucency of vertex colours.
 #include "scene_internal.h"
 
 #include "linear.h"
@@ -8,7 +8,7 @@
 #include <float.h>
 #include <string.h>
 
-// Corners or colours per parallel piece; constant, so that the result does not depend on the number of threads.
+// Corners or colours per parallel chunk; constant, so that the result does not depend on the number of threads.
 enum { PIECE = 1 << 16 };
 
 struct marking {
@@ -26,12 +26,12 @@ static void mark_piece(void *user, size_t index, int thread)
     size_t first = index * (size_t)PIECE, end = first + PIECE;
     if (end > marking->corners)
         end = marking->corners;
-    // Several threads may mark the same vertex, with the same value.
+    // Several threads may mark the same vertex with the same value.
     for (size_t i = first; i < end; i++)
         __atomic_store_n(&used[indices[i]], 1, __ATOMIC_RELAXED);
 }
 
-// Sets the list of used vertices if some are unused. Returns false if memory runs out.
+// Builds the list of used vertices if some are unused. Returns false if memory runs out.
 static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
                       lam_error *error)
 {
@@ -107,7 +107,7 @@ struct shifting {
     double by[3];
 };
 
-// A vertex that no triangle uses may lie anywhere: it is kept finite.
+// Vertices that no triangle uses may be anywhere, so the result is clamped to finite numbers.
 static float shifted(float value, double by)
 {
     double moved = (double)value - by;
@@ -126,10 +126,10 @@ static void shift_piece(void *user, size_t index, int thread)
             shifting->to[3 * i + axis] = shifted(shifting->from[3 * i + axis], shifting->by[axis]);
 }
 
-// Gives a mesh that lies far from zero an origin, so that drawing, which computes in floats, keeps the detail that its
-// positions have. The new positions are exact: they and the origin are multiples of the old ones' last places, and
-// smaller. The mesh's arrays are the scene's own; if meshes share them, the mesh gets an array of its own. Returns
-// false if memory runs out.
+// Gives a mesh far from zero an origin, because drawing computes in floats and would lose the detail of its positions.
+// The new positions are exact: they and the origin are multiples of the last bits of the old positions, and smaller.
+// The scene owns the mesh's arrays; if several meshes share them, the mesh gets its own copy. Returns false if memory
+// runs out.
 static bool move_origin(struct lam_scene *scene, lam_mesh *mesh, struct aabb_tree *boxes, struct pool *pool,
                         lam_error *error)
 {
@@ -193,7 +193,7 @@ static lam_vec3 upper(lam_vec3 a, lam_vec3 b)
     return v3(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
 }
 
-// Returns whether the transform maps boxes to boxes: it only scales and permutes axes.
+// Returns whether the transform maps boxes to boxes, because it only scales and permutes axes.
 static bool keeps_boxes(const lam_mat4 *m)
 {
     for (int i = 0; i < 3; i++)

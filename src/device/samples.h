@@ -1,4 +1,4 @@
-// samples.h: the positions of samples in a pixel.
+// samples.h: the sample positions in a pixel.
 #ifndef SAMPLES_H
 #define SAMPLES_H
 
@@ -6,7 +6,7 @@
 
 enum { SAMPLES_MAX = 16 };
 
-// Positions of samples, in 1/16 pixel from the pixel's centre (y down), and their order by distance from it.
+// Sample positions in 1/16 pixel from the pixel's centre (y down), and their order by distance from it.
 struct sample_pattern {
     int count;
     int8_t x[SAMPLES_MAX], y[SAMPLES_MAX];

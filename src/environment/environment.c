@@ -1,4 +1,4 @@
-// environment.c: builds cube maps from pictures: six faces, a cross, or an equirectangular picture.
+// environment.c: makes cube maps from pictures: six faces, a cross, or an equirectangular picture.
 #include "codec.h"
 #include "cube_map.h"
 #include "fail.h"
@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// --- the limits of the call
+// --- limits of the call
 
-// `call` may be NULL everywhere here.
+// `call` may be NULL in all functions of this section.
 static struct lam_environment *cube_within(struct call_control *call, int size, lam_error *error)
 {
     if (call && !call_charge(call, cube_bytes(size))) {
@@ -27,9 +27,9 @@ static bool continues(struct call_control *call, int row, lam_error *error)
     return row % 16 != 0 || call_should_continue(call) || call_error(call, error);
 }
 
-// --- faces from parts of a picture
+// --- faces from sections of a picture
 
-// A square of a linear picture that becomes a face; `turned` by 180°.
+// A square section of a linear picture that becomes a face; `turned` by 180°.
 struct piece {
     const lam_image *image;
     int x, y;
@@ -98,8 +98,8 @@ static struct lam_environment *cube_of_faces(const lam_image *faces, const char 
 typedef float pixel __attribute__((vector_size(16)));
 typedef float pixel_memory __attribute__((vector_size(16), aligned(4), may_alias));
 
-// The positions of longitudes and latitudes in the picture, in pixels from the centre of the first. Longitude 0 is −z,
-// latitude 0 +y.
+// Return the position of a longitude or latitude in the picture, in pixels from the centre of the first pixel.
+// Longitude 0 is −z, latitude 0 is +y.
 static double column_of(const lam_image *image, double longitude)
 {
     return (0.5 + longitude / (2 * PI)) * image->width - 0.5;
@@ -107,7 +107,8 @@ static double column_of(const lam_image *image, double longitude)
 
 static double row_of(const lam_image *image, double latitude) { return latitude / PI * image->height - 0.5; }
 
-// A row of a face. Texel s lies at columns[s] and rows[s], or with `below` as far from the last row as that is from the first.
+// Samples a row of a face. Texel s reads at columns[s] and rows[s]; with `below`, rows are mirrored: counted from the
+// last row of the picture instead of the first.
 static void sample_row(const lam_image *image, const double *columns, const double *rows, bool below,
                        struct lam_environment *cube, int face, int t)
 {
@@ -128,13 +129,13 @@ static void sample_row(const lam_image *image, const double *columns, const doub
               e = *(const pixel_memory *)(beneath + 4 * (size_t)right);
         a = a * (1 - across) + b * across;
         c = c * (1 - across) + e * across;
-        // Its fourth number lies in the next texel, or in the border, which is filled later.
+        // The fourth number overwrites the next texel, or the border, both of which are filled later.
         *(pixel_memory *)cube_texel(cube, face, s, t) = a * (1 - down) + c * down;
     }
 }
 
-// Rows t, above the middle, and size − 1 − t of the four faces around: texels of a column have one longitude, and the faces
-// share their latitudes. `rows`: for one row of a face.
+// Samples row t, above the middle, and row size − 1 − t of the four side faces: the texels of a column have one
+// longitude, and the faces share their latitudes. `rows`: memory for one row of a face.
 static void sample_around(const lam_image *image, struct lam_environment *cube, const double *const columns[4],
                           double *rows, int t)
 {
@@ -151,8 +152,8 @@ static void sample_around(const lam_image *image, struct lam_environment *cube, 
     }
 }
 
-// The same rows of the upper and the lower face. Their halves mirror each other: longitudes change their sign, and are taken from
-// a half turn. `memory`: for three rows.
+// Samples the same rows of the upper and the lower face. Their halves mirror each other: longitudes change their sign,
+// or are subtracted from a half turn. `memory`: space for three rows.
 static void sample_ends(const lam_image *image, struct lam_environment *cube, double *memory, int t)
 {
     int size = cube->size;
@@ -229,7 +230,7 @@ static struct lam_environment *cube_of_sphere(const lam_image *image, const char
     return cube;
 }
 
-// From one linear picture, by its aspect ratio.
+// Makes a cube from one linear picture, by its aspect ratio.
 static struct lam_environment *cube_of_image(const lam_image *image, const char *name, struct call_control *call,
                                              lam_error *error)
 {
@@ -259,7 +260,7 @@ static struct lam_environment *cube_of_image(const lam_image *image, const char 
 
 // --- the caller's pictures
 
-// A linear copy, freed by the caller of this function.
+// Makes a linear copy, which the caller frees.
 static bool linear_copy(const lam_image *image, lam_color_mode color, lam_image *out, lam_error *error)
 {
     *out = (lam_image){0};
@@ -302,7 +303,7 @@ lam_environment *lam_environment_from_image(const lam_image *image, lam_color_mo
 
 // --- files
 
-// A file's picture, linear; the caller frees it with picture_free.
+// Reads a file's picture as linear numbers; the caller frees it with picture_free.
 static bool read_picture(const struct picture_source *source, int index, lam_color_mode color,
                          struct call_control *call, lam_image *image, const char **name, lam_error *error)
 {

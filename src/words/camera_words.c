@@ -1,4 +1,4 @@
-// camera_words.c: cameras as people write them, and the named sides of a scene.
+// camera_words.c: parses cameras, and lists the named sides of a scene.
 #include <lambent/camera.h>
 
 #include <string.h>
@@ -51,7 +51,7 @@ static const char *const keys[] = {"eye", "target", "up", "fovy", "ortho", "near
 const char *lam_camera_key(int index) { return index >= 0 && index < KEY_COUNT ? keys[index] : NULL; }
 
 struct reading {
-    lam_camera camera; // with fovy in degrees
+    lam_camera camera; // its fovy is in degrees
     bool seen[KEY_COUNT];
 };
 

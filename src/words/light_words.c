@@ -1,4 +1,4 @@
-// light_words.c: lights as people write them.
+// light_words.c: parses lights.
 #include <lambent/words.h>
 
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "up_axis.h"
 #include "word_values.h"
 
-// Keys: the fields by their index in the table of lam_light_field (the first row of a key), then these.
+// Key numbers: the fields by their index in the table of lam_light_field (the first row of a key), then these.
 enum { TARGET = LAM_FIELDS_MAX, COLOR, INTENSITY, FRAME, NAME, KEYS };
 _Static_assert((int)KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 
@@ -27,19 +27,19 @@ static const struct {
     [NAME - LAM_FIELDS_MAX] = {"name", ~0u},
 };
 
-// The keys read so far.
+// The values of the keys read so far.
 struct reading {
     lam_light light;
     lam_vec3 target;
     bool has_position, has_direction, has_target;
     bool position_in_radii, target_in_radii, linear_in_radii, quadratic_in_radii, range_in_radii, size_in_radii;
     lam_color_mode mode;
-    uint64_t seen; // BIT(key)
+    uint64_t seen; // bits BIT(key)
     double numbers[KEYS][4];
-    double w; // the position's fourth number
+    double w; // the fourth number of the position
 };
 
-// Returns the index of the first row of a key, or −1 if it is no field's.
+// Returns the index of the first row of a key, or −1 if it is not a field.
 static int field_index(const char *key)
 {
     for (int i = 0; lam_light_field(i); i++)
@@ -62,7 +62,7 @@ static bool is_of_type(int key, lam_light_type type)
     if (key >= LAM_FIELDS_MAX)
         return other_keys[key - LAM_FIELDS_MAX].light_types >> type & 1;
     const char *name = lam_light_field(key)->key;
-    if (strcmp(name, "position") == 0 && type == LAM_LIGHT_DIRECTIONAL) // the point that it comes from
+    if (strcmp(name, "position") == 0 && type == LAM_LIGHT_DIRECTIONAL) // the direction towards the light
         return true;
     const lam_field *field;
     for (int i = key; (field = lam_light_field(i)); i++)
@@ -89,9 +89,9 @@ static bool key_seen(const struct reading *reading, int key) { return reading->s
 
 static bool seen(const struct reading *reading, const char *name) { return key_seen(reading, field_index(name)); }
 
-// --- single values
+// --- values of keys
 
-// A point: in the model's units, or in radii of its sphere (a 0 may go without its r). `w` NULL: three numbers only.
+// Parses a point in the model's units, or in radii of its sphere (a 0 needs no r). `w` NULL: exactly three numbers.
 static bool point_for(const char *key, const char *value, lam_vec3 *out, bool *in_radii, double *w, lam_error *error)
 {
     double numbers[4];
@@ -147,7 +147,7 @@ static bool read_range(const char *value, struct reading *reading, lam_error *er
     return true;
 }
 
-// The radius of a ball, or of a disc in degrees: which one is known with the last key.
+// Parses the radius of a sphere, or of a disc in degrees; the last key determines which one it is.
 static bool read_size(const char *value, struct reading *reading, lam_error *error)
 {
     double *number = reading->numbers[field_index("radius")];
@@ -243,9 +243,9 @@ static bool read_pair(struct reading *reading, char *pair, lam_error *error)
     return read_value(reading, key, value, error);
 }
 
-// --- the light from its values
+// --- making the light from its values
 
-// A colour that was not given by its own key.
+// Sets a colour that has no key of its own.
 static void set_color(struct reading *reading, const char *name, bool by_color, double factor)
 {
     lam_light *light = &reading->light;
@@ -269,7 +269,7 @@ static void set_colors(struct reading *reading)
         if (!seen(reading, "ambient"))
             set_color(reading, "ambient", true, intensity);
         return;
-    case LAM_LIGHT_HEMISPHERE: // whose own colours are multiplied too
+    case LAM_LIGHT_HEMISPHERE: // its own colours are multiplied too
         set_color(reading, "sky", true, intensity);
         set_color(reading, "ground", false, intensity);
         return;
@@ -306,11 +306,11 @@ static bool set_cone(struct reading *reading, lam_error *error)
                     outer ? reading->numbers[field_index("outer")] : NULL, error))
         return false;
     if (!cutoff && !outer && seen(reading, "exponent"))
-        light->cutoff_rad = 0; // no edge: the exponent alone shapes it
+        light->cutoff_rad = 0; // no edge: only the exponent shapes it
     return true;
 }
 
-// Position and direction: w = 0 and directional lights have rules of their own.
+// Sets position and direction; w = 0 and directional lights have special rules.
 static bool set_place(struct reading *reading, lam_error *error)
 {
     lam_light *light = &reading->light;
@@ -381,7 +381,7 @@ static bool read_light(char *text, struct reading *reading, lam_error *error)
     return (!seen(reading, "radius") || set_size(reading, error)) && set_cone(reading, error);
 }
 
-// --- from radii and targets to a light of the scene
+// --- converting radii and targets for the scene
 
 struct sphere {
     lam_vec3 centre;
@@ -417,7 +417,7 @@ static int find_object(const lam_scene *scene, const char *name, lam_error *erro
     return -1;
 }
 
-// The sphere in the light's frame.
+// Gets the sphere in the light's frame.
 static bool sphere_in_frame(const lam_light *light, const lam_light_text_params *params, const lam_scene *scene,
                             struct sphere *out, lam_error *error)
 {
@@ -438,8 +438,8 @@ static bool sphere_in_frame(const lam_light *light, const lam_light_text_params 
     return true;
 }
 
-// A default, defined for Y up, in the axes of the scene: a light of the world is in front of the model for every up
-// axis.
+// Rotates a default, defined for y up, to the axes of the scene, so that a light in the world frame is in front of the
+// model for every up axis.
 static lam_vec3 turned(const lam_light *light, const lam_scene *scene, lam_vec3 v)
 {
     return light->frame == LAM_FRAME_WORLD || light->frame == LAM_FRAME_MODEL ? from_y_up(lam_scene_up(scene), v) : v;
@@ -456,7 +456,8 @@ static bool place_light(struct reading *reading, const lam_light_text_params *pa
     if (reading->has_position && reading->position_in_radii)
         light->position = about(&here, light->position);
     else if (stands && !reading->has_position && light->frame != LAM_FRAME_CAMERA)
-        light->position = about(&here, turned(light, scene, v3(1, 2, 3))); // a light of the camera is at the eye
+        // a light in the camera's frame is at the eye
+        light->position = about(&here, turned(light, scene, v3(1, 2, 3)));
     else if (light->type == LAM_LIGHT_DIRECTIONAL && !reading->has_direction && !reading->has_target)
         light->direction = turned(light, scene, light->direction);
     lam_vec3 target = !reading->has_target       ? here.centre

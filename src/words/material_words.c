@@ -1,4 +1,4 @@
-// material_words.c: materials as people write them.
+// material_words.c: parses materials.
 #include <lambent/words.h>
 
 #include <string.h>
@@ -9,8 +9,8 @@
 #include "spelling.h"
 #include "word_values.h"
 
-// Keys: the fields by their index in the table of lam_material_field, then a factor for each (of colours, named by their
-// symbols: ka, kd, ks, kr), then shorthands.
+// Key numbers: the fields by their index in the table of lam_material_field, then a factor for each (for colours, named
+// by their symbols: ka, kd, ks, kr), then shorthands.
 enum { MATERIAL_COLOR = 2 * LAM_FIELDS_MAX, MATERIAL_SPECULAR_COLOR, MATERIAL_KEYS };
 _Static_assert((int)MATERIAL_KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 
@@ -25,7 +25,7 @@ struct reading {
     lam_material_id id; // a named material; LAM_MATERIAL_COUNT: none
     const char *words;  // of one of `others`; NULL: none
     bool given[MATERIAL_KEYS];
-    bool ambient_is_diffuse; // ambient=diffuse
+    bool ambient_is_diffuse; // whether ambient=diffuse was given
     double numbers[MATERIAL_KEYS][4];
 };
 
@@ -33,7 +33,7 @@ static bool given(const struct reading *reading, int key) { return reading->give
 
 static bool is_color(const lam_field *field) { return field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA; }
 
-// Shares of light have a symbol; emission has none.
+// Colours that are shares of light have a symbol; emission has none.
 static bool is_share(const lam_field *field) { return is_color(field) && field->symbol; }
 
 static int factor_of(int field) { return LAM_FIELDS_MAX + field; }
@@ -57,7 +57,7 @@ const char *lam_material_key(int index)
     return NULL;
 }
 
-// A flag may go without its value.
+// Flags may omit their value.
 static bool is_flag(const char *name, size_t length)
 {
     for (int i = 0; lam_material_field(i); i++) {
@@ -94,7 +94,8 @@ static bool read_pair(char *pair, lam_color_mode mode, struct reading *reading, 
     return word_field(&color, value, mode, reading->numbers[key], error);
 }
 
-// A colour without a key: #rrggbb, r/g/b or a name. A number alone is more likely a key's value without its key.
+// Detects a colour without a key: #rrggbb, r/g/b or a name. A single number is more likely a value whose key was
+// forgotten.
 static bool is_color_alone(const char *word, lam_color_mode mode)
 {
     lam_rgba color;
@@ -124,7 +125,7 @@ static bool unknown_material(const char *name, lam_error *error)
                 nearest ? "'?" : "; expected a name of `lambent materials`, a colour or key=value");
 }
 
-// Sets the first three numbers of a colour: an alpha stays.
+// Sets the first three numbers of a colour and keeps its alpha.
 static void set_color(const lam_field *field, lam_material *m, const double color[4], double factor)
 {
     double numbers[4];
@@ -142,7 +143,7 @@ static void set_factor(const struct reading *reading, int index, lam_material *m
     lam_field_get(field, m, color);
     const double *from = color;
     if (field->standard[0] == 0 &&
-        !given(reading, index)) // a factor of a colour that is black by default starts from white
+        !given(reading, index)) // a factor for a colour that is black by default multiplies white
         from = given(reading, MATERIAL_SPECULAR_COLOR) ? reading->numbers[MATERIAL_SPECULAR_COLOR] : white;
     set_color(field, m, from, reading->numbers[factor_of(index)][0]);
 }

@@ -1,5 +1,5 @@
 // ply_columns.c: converts columns of a PLY table to normals, tangents, texture coordinates and colours, in parallel
-// pieces.
+// chunks.
 #include "parallel_rows.h"
 #include "srgb.h"
 #include "linear.h"
@@ -65,7 +65,7 @@ struct vectors {
     enum kind kind;
     int properties[4]; // −1: the constant 1
     float divisors[4];
-    int width; // numbers in each vector
+    int width; // numbers per vector
     bool contiguous;
     float *out;
 };
@@ -77,7 +77,7 @@ static void clean_vector(const struct vectors *vectors, float *v)
             v[c] = v[c] >= 0.0f ? (v[c] <= FLT_MAX ? v[c] : FLT_MAX) : 0.0f; // NaN becomes 0
             if (c == 3)
                 v[c] = v[c] < 1.0f ? v[c] : 1.0f;
-            else if (vectors->kind == COLORS && v[c] <= 1.0f) // above 1, sRGB is not defined: linear
+            else if (vectors->kind == COLORS && v[c] <= 1.0f) // sRGB is not defined above 1, so the value is linear
                 v[c] = (float)srgb_linear((double)v[c]);
         }
         return;
@@ -250,7 +250,7 @@ bool ply_colors(const struct import_source *source, const struct ply_table *tabl
     memcpy(vectors.properties, found, sizeof found);
     for (int c = 0; c < numbers; c++) {
         enum ply_type type = table->types[found[c]];
-        // Programs that write colours as int or uint mean 0…255.
+        // For colours of type int or uint, programs use 0…255.
         vectors.divisors[c] = type == PLY_I32 || type == PLY_U32 ? 255.0f : divisor_of(type);
     }
     const float *floats = NULL;

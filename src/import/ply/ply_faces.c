@@ -20,9 +20,9 @@ struct polygons {
     const struct import_source *source;
     const struct ply_table *faces;
     const float *positions;
-    uint32_t *first_triangles; // of each piece
+    uint32_t *first_triangles; // of each chunk
     uint32_t *indices;
-    uint32_t *face_of;    // each triangle's face; NULL: not needed
+    uint32_t *face_of;    // the face of each triangle; NULL: not needed
     uint8_t *inner_edges; // as lam_mesh.inner_edges; NULL: not needed
 };
 
@@ -188,9 +188,9 @@ bool ply_faces(const struct import_source *source, const struct ply_table *faces
     return done;
 }
 
-// Writes the triangles of a strip to `out` (may be NULL) and returns their number. Each item from the third on makes a
-// triangle with the two before it, with the winding of every second one reversed. Triangles with equal corners only
-// join pieces of a strip and are skipped.
+// Writes the triangles of a strip to `out` (may be NULL) and returns their number. Each item from the third on forms a
+// triangle with the two items before it; the winding of every second triangle is reversed. Triangles with equal corners
+// only connect parts of a strip and are skipped.
 static size_t strip_triangles(const uint32_t *items, size_t count, uint32_t *out)
 {
     size_t triangles = 0, length = 0; // items of the strip so far

@@ -15,7 +15,7 @@ struct positions {
     struct box {
         double minimum[3], maximum[3];
         bool finite;
-    } *boxes; // one for each piece
+    } *boxes; // one per chunk
     double origin[3];
 };
 
@@ -25,7 +25,7 @@ static bool fail_position(const struct positions *positions, size_t row, int axi
     const uint8_t *at = table->rows + row * table->stride + table->offsets[positions->properties[axis]];
     const struct import_source *source = positions->source;
     uintptr_t offset = (uintptr_t)at - (uintptr_t)source->bytes;
-    if (offset < source->size) // a binary row within the file
+    if (offset < source->size) // binary rows point into the file
         return fail_byte(error, source, offset, "vertex %zu of %zu: found %s as %c, expected a finite number", row + 1,
                          table->count, found, "xyz"[axis]);
     return fail(error, LAM_CANNOT_READ, "%s: vertex %zu of %zu: found %s as %c, expected a finite number", source->name,
@@ -65,7 +65,7 @@ static bool copy_piece(void *user, size_t index, lam_error *error)
         memcpy(&bits, &positions->out[i], sizeof bits);
         nonfinite |= (bits & 0x7fffffff) + 0x00800000;
     }
-    if (positions->boxes) { // an ASCII file: choose_origin decides whether floats are exact enough
+    if (positions->boxes) { // an ASCII file: choose_origin decides whether floats are precise enough
         struct box *box = &positions->boxes[index];
         box->finite = !(nonfinite & 0x80000000);
         for (int axis = 0; axis < 3; axis++) {
@@ -90,7 +90,7 @@ static bool copy_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-// Doubles and 32-bit integers take two passes: their bounding box, which decides the origin, then the rounding.
+// Doubles and 32-bit integers take two passes: their bounding box, which determines the origin, then the rounding.
 static bool measure_piece(void *user, size_t index, lam_error *error)
 {
     const struct positions *positions = user;
@@ -126,7 +126,7 @@ static bool round_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-// Unites the pieces' boxes and chooses the origin. Returns whether floats are not exact enough.
+// Unites the chunks' boxes and chooses the origin. Returns whether floats are not precise enough.
 static bool choose_origin(struct positions *positions, size_t pieces)
 {
     struct box all = positions->boxes[0];

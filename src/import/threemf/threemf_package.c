@@ -1,4 +1,4 @@
-// threemf_package.c: the ZIP archive of a 3MF file, read by libzip, which is opened when a file needs it.
+// threemf_package.c: reads the ZIP archive of a 3MF file with libzip, which is opened on demand.
 #include "threemf.h"
 
 #include "fail.h"
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <zip.h>
 
-// Of Debian 12 and of Debian 13: what is called here is the same in both.
+// The libraries of Debian 12 and of Debian 13; the functions used here are the same in both.
 #define LIBRARY       "libzip.so.4"
 #define NEWER_LIBRARY "libzip.so.5"
 
@@ -24,15 +24,15 @@
 struct zip_library {
     void *handle;
     zip_t *archive;
-    size_t charged; // of what libzip takes for the list of entries
+    size_t charged; // bytes charged for libzip's list of entries
 #define MEMBER(name) __typeof__(&name) name;
     FUNCTIONS(MEMBER)
 };
 
-// --- the archive's claims, before libzip takes memory for them
+// --- checking the declared size before libzip allocates memory
 
 enum { END_BYTES = 22, COMMENT_MAX = 65535, LOCATOR_BYTES = 20, END64_BYTES = 56, ENTRY_BYTES = 46 };
-// Bytes that libzip takes for an entry of the list, beside its name.
+// Bytes that libzip uses for an entry of the list, beside its name.
 enum { ENTRY_MEMORY = 512 };
 
 static uint64_t little(const uint8_t *at, int bytes)
@@ -43,7 +43,7 @@ static uint64_t little(const uint8_t *at, int bytes)
     return value;
 }
 
-// The entries that the record at `end`, which closes an archive, says there are.
+// Returns the number of entries in the record at `end`, which closes an archive.
 static uint64_t entries_of(const uint8_t *bytes, size_t size, size_t end)
 {
     uint64_t count = little(bytes + end + 10, 2);
@@ -57,7 +57,8 @@ static uint64_t entries_of(const uint8_t *bytes, size_t size, size_t end)
     return large > count ? large : count;
 }
 
-// The largest number of entries that any closing record claims; libzip may believe any. Returns false if there is none.
+// Finds the largest number of entries in any closing record, since libzip may use any of them. Returns false if there
+// is no record.
 static bool claimed_entries(const uint8_t *bytes, size_t size, uint64_t *out)
 {
     bool found = false;
@@ -155,7 +156,7 @@ void threemf_package_close(struct threemf *file)
     library_close(file->zip->handle);
 }
 
-// --- its parts
+// --- parts of the archive
 
 static bool fail_part(struct threemf *file, const char *name, const char *why)
 {
@@ -164,8 +165,8 @@ static bool fail_part(struct threemf *file, const char *name, const char *why)
                 shown_name(name, shown), why);
 }
 
-// Returns the index of a part. Names differ in capitals between programs, but a list of many entries is searched by the
-// hash of its names alone.
+// Returns the index of a part. The case of names differs between programs, but a list of many entries is only searched
+// by the hash of exact names.
 static zip_int64_t locate(const struct zip_library *zip, const char *name)
 {
     enum { FEW = 1000 };

@@ -1,4 +1,4 @@
-// gltf_numbers.c: reads the numbers of accessors as floats, indices and colours, in parallel pieces.
+// gltf_numbers.c: reads the numbers of accessors as floats, indices and colours, in parallel chunks.
 #include "gltf_numbers.h"
 
 #include "gltf_accessors.h"
@@ -30,7 +30,8 @@ static inline uint32_t load_32(const uint8_t *at)
 
 static inline float at_least_minus_one(float x) { return x > -1.0f ? x : -1.0f; }
 
-// Elements [first, last) as floats. Matrices of one- and two-byte numbers, whose columns are padded, are not read here.
+// Converts elements [first, last) to floats. Matrices of one- and two-byte numbers, whose columns are padded, are not
+// supported here.
 static void convert(const struct gltf_accessor *a, size_t first, size_t last, float *out)
 {
     size_t width = (size_t)a->width, stride = a->stride;
@@ -82,7 +83,7 @@ static uint32_t index_at(int component, const uint8_t *run, size_t i)
     return component == GLTF_U8 ? run[i] : component == GLTF_U16 ? load_16(run + 2 * i) : load_32(run + 4 * i);
 }
 
-// Calls put(user, element, values) with each element that replaces another. Returns false if an index is out of range.
+// Calls put(user, element, values) for each element that is replaced. Returns false if an index is out of range.
 static bool each_sparse(struct gltf *gltf, const struct gltf_accessor *a,
                         void (*put)(void *user, size_t element, const uint8_t *value), void *user)
 {
@@ -119,7 +120,7 @@ struct conversion {
     const struct gltf_accessor *accessor;
     float *out;
     bool required;
-    uint32_t replaced; // atomic: numbers that were not finite
+    uint32_t replaced; // atomic: how many numbers were not finite
 };
 
 static bool convert_piece(void *user, size_t index, lam_error *error)
@@ -140,7 +141,7 @@ static bool check_piece(void *user, size_t index, lam_error *error)
     size_t first, last, width = (size_t)conversion->accessor->width;
     parallel_rows_range(conversion->accessor->count, index, &first, &last);
     const uint8_t *bytes = (const uint8_t *)conversion->out;
-    uint32_t nonfinite = 0; // bit 31: some number is NaN or infinite
+    uint32_t nonfinite = 0; // bit 31: a number is NaN or infinite
     for (size_t i = first * width; i < last * width; i++)
         nonfinite |= (load_32(bytes + 4 * i) & 0x7fffffff) + 0x00800000;
     if (!(nonfinite & 0x80000000))
@@ -175,7 +176,7 @@ static bool check_finite(struct gltf *gltf, const struct place *place, const str
     return true;
 }
 
-// Returns whether the elements lie one after the other, as arrays of 4-byte numbers do.
+// Returns whether the elements are contiguous, like arrays of 4-byte numbers.
 static bool in_place(const struct gltf_accessor *a, int component)
 {
     return a->data && a->component == component && a->stride == 4 * (size_t)a->width && !a->sparse_count &&
@@ -204,7 +205,7 @@ const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gl
     if (a->floats[1])
         return a->floats[1];
     if (!a->floats[0] || (keep && !own_bytes)) {
-        // The bytes of the file belong to this load, and may be cleaned in place.
+        // This load owns the bytes of the file and may change them in place.
         float *floats =
             own_bytes ? (float *)(uintptr_t)a->data : convert_all(gltf, a, keep ? &gltf->scene->arena : gltf->scratch);
         if (!floats || !check_finite(gltf, place, a, floats, flags & GLTF_REQUIRED))
@@ -222,7 +223,7 @@ const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gl
 
 struct indexing {
     const struct gltf_accessor *accessor;
-    uint32_t *out; // NULL: the numbers are in place
+    uint32_t *out; // NULL: the numbers are used in place
     uint32_t max;  // atomic
 };
 
@@ -359,7 +360,7 @@ bool gltf_colors(struct gltf *gltf, const struct place *place, struct gltf_acces
         out->items = a->colors[opaque] = a->data;
         return true;
     }
-    // Floats of four channels are cleaned in place.
+    // Floats of four channels are clamped in place.
     coloring.out = bytes || opaque ? arena_array(&gltf->scene->arena, a->count, bytes ? 4 : 4 * sizeof(float))
                                    : (float *)(uintptr_t)coloring.floats;
     if (!coloring.out)

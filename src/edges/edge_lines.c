@@ -1,4 +1,5 @@
-// edge_lines.c: tasks of the edges: selects drawn edges, clips them to the picture, and finds their visible parts.
+// edge_lines.c: the tasks that draw edges: they select the drawn edges, clip them to the picture, and find their
+// visible parts.
 #include "edge_pieces.h"
 
 #include "fail.h"
@@ -13,12 +14,12 @@ enum {
     HALVINGS = 4, // the end of a visible part is found to 1/32 of a pixel
 };
 
-// Of one thread.
+// The scratch memory of one thread.
 struct scratch {
     struct edge_line lines[EDGE_PIECE];
     struct edge_point points[POINTS];
     uint8_t hidden[POINTS];
-    // The border of a visible part: between the shares from and to.
+    // The end of a visible part, between the shares from and to.
     struct change {
         double from, to;
         uint8_t hidden; // at `from`
@@ -30,7 +31,7 @@ struct scratch {
 
 size_t edge_scratch_bytes(void) { return (sizeof(struct scratch) + 63) / 64 * 64; }
 
-// --- which edges
+// --- selecting edges
 
 static double dot(const double a[3], const double b[3]) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
 
@@ -41,7 +42,8 @@ static void position(const struct edge_piece *piece, uint32_t corner, double p[3
     ray_point(piece->view->hierarchy, p, p);
 }
 
-// A triangle's normal of any length, in the hierarchy's space and on the side that its winding says, and whether that faces the eye.
+// Computes a triangle's normal of any length, in the hierarchy's space and on the side given by its winding. Returns
+// whether it faces the eye.
 static bool faces_eye(const struct edge_piece *piece, uint32_t triangle, double n[3])
 {
     const struct edge_view *view = piece->view;
@@ -62,7 +64,7 @@ static bool is_culled(const struct frame_draw *draw, bool front)
     return draw->cull == (front ? LAM_CULL_FRONT : LAM_CULL_BACK);
 }
 
-// Returns the style that an edge is drawn in, or −1 if it is not.
+// Returns the style of an edge, or −1 if it is not drawn.
 static int style_of(const struct edge_piece *piece, const struct mesh_edge *edge)
 {
     const lam_draw_params *settings = &piece->view->frame->settings;
@@ -91,7 +93,7 @@ static int style_of(const struct edge_piece *piece, const struct mesh_edge *edge
 
 // --- clipping to the picture
 
-// Cuts a line off where a·q falls below 0; `a` at its two ends. False: nothing is left of 0 … 1.
+// Clips a line where a·q is below 0; `a` is given at its two ends. Returns false if nothing of 0 … 1 remains.
 static bool cut(double at_0, double at_1, double range[2])
 {
     if (at_0 >= 0 && at_1 >= 0)
@@ -106,7 +108,7 @@ static bool cut(double at_0, double at_1, double range[2])
     return range[0] < range[1];
 }
 
-// A position's place in the window: X·w, Y·w, z, w.
+// Computes a position's window coordinates X·w, Y·w, z, w.
 static void to_window(const struct edge_view *view, const double p[3], double q[4])
 {
     const struct hierarchy *h = view->hierarchy;
@@ -119,8 +121,8 @@ static void to_window(const struct edge_view *view, const double p[3], double q[
     }
 }
 
-// Returns the height of a triangle over a line, pixels, from the corner that the line has not; a great one where that
-// is not before the eye.
+// Returns the height of a triangle over one of its edges in pixels, from the corner that is not on the edge. If that
+// corner is not in front of the eye, the result is large.
 static double height_over(const struct edge_piece *piece, uint32_t corner, const struct edge_line *line)
 {
     double p[3], q[4];
@@ -133,8 +135,8 @@ static double height_over(const struct edge_piece *piece, uint32_t corner, const
     return (across < 0 ? -across : across) / line->length;
 }
 
-// If both triangles at an edge of the wireframe are narrower than FADE widths, the line is drawn thinner, in
-// proportion, down to the share 1/FADE: a fine mesh is an even grey, and not a black that hides the surface.
+// If both triangles of a wireframe edge are narrower than FADE widths, the line is drawn thinner in proportion, down to
+// 1/FADE of its width. A fine mesh then looks evenly grey instead of black.
 enum { FADE = 5 };
 static double half_width(const struct edge_piece *piece, const struct mesh_edge *edge, const struct edge_line *line)
 {
@@ -146,7 +148,7 @@ static double half_width(const struct edge_piece *piece, const struct mesh_edge 
     return (share < least ? least : share < 1 ? share : 1) * width / 2;
 }
 
-// Sets up the line of an edge, but for its points. Returns false if it is outside of the picture.
+// Sets up the line of an edge, except for its points. Returns false if it is outside the picture.
 static bool set_line(const struct edge_piece *piece, const struct mesh_edge *edge, int style, struct edge_line *line)
 {
     const struct edge_view *view = piece->view;
@@ -197,7 +199,7 @@ static bool add_part(struct edge_piece *piece, const struct edge_line *line, dou
     return edge_stroke_add(piece->strokes, stroke, piece->view->loop->call);
 }
 
-// Dashes of 5 widths and gaps of 3, widths below a pixel taken as one, counted along the chain of the line.
+// Adds dashes of 5 widths and gaps of 3, measured along the chain of the line; widths below a pixel count as one.
 static bool add_dashes(struct edge_piece *piece, const struct edge_line *line, double from, double to)
 {
     if (line->reversed) {
@@ -226,7 +228,7 @@ static bool add_run(struct edge_piece *piece, const struct edge_line *line, doub
     return piece->view->frame->settings.hidden_lines != LAM_HIDDEN_LINES_DASH || add_dashes(piece, line, from, to);
 }
 
-// Halves the stretches in which lines change, all of them side by side.
+// Bisects the intervals in which visibility changes, for all lines at once.
 static void narrow_changes(struct edge_piece *piece, struct scratch *s, uint32_t count)
 {
     for (int round = 0; round < HALVINGS; round++) {
@@ -243,7 +245,7 @@ static void narrow_changes(struct edge_piece *piece, struct scratch *s, uint32_t
     }
 }
 
-// Decides about the lines at hand, and draws them.
+// Determines the visibility of the collected lines, and draws them.
 static bool flush(struct edge_piece *piece, struct scratch *s)
 {
     uint32_t changes = 0;
@@ -294,7 +296,7 @@ bool edge_piece_draw(struct edge_piece *piece, void *memory)
         line->first = s->point_count;
         line->count = 0;
         if (!shows_all) {
-            // One point for each pixel of its length, each in the middle of its share.
+            // One point per pixel of its length, each in the middle of its interval.
             line->count = line->length < 1                 ? 1
                           : line->length < POINTS_PER_LINE ? (uint32_t)(line->length + 0.5)
                                                            : POINTS_PER_LINE;

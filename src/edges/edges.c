@@ -1,4 +1,4 @@
-// edges.c: the edges of a frame: listed once for a scene, found again for each view.
+// edges.c: the edges of a frame, listed once for a scene, with visibility computed for each view.
 #include "edge_pieces.h"
 
 #include "cpu_features.h"
@@ -14,7 +14,8 @@ edge_rays *edge_rays_for(int lanes) { return CPU_WIDEST(lanes, edge_rays_scalar,
 
 // --- the list of edges
 
-// Everything that a draw's edges depend on: equal pointers mean equal contents, since a scene never modifies its arrays.
+// Everything that a draw's edges depend on. Equal pointers mean equal contents, since a scene never modifies its
+// arrays.
 struct source {
     const float *positions;
     const uint32_t *indices;
@@ -105,14 +106,14 @@ static void set_view(struct edge_view *view, const struct frame *frame, const st
         view->every_hides &= frame->draws[i].cull == LAM_CULL_NONE;
 }
 
-// --- pieces
+// --- tasks
 
 struct search {
     struct edge_memory *memory;
     struct edge_view view;
     edge_rays *rays_of;
-    size_t *first_pieces; // of each draw, and one more
-    bool measures;        // the pieces are measured, not drawn
+    size_t *first_pieces; // of each draw, plus one
+    bool measures;        // whether the tasks measure instead of drawing
     uint64_t drawn, rays; // atomic
 };
 
@@ -123,7 +124,7 @@ static void piece_task(void *user, size_t index, int thread)
     int low = 0, high = frame->draw_count - 1;
     if (!should_continue(search->view.loop))
         return;
-    while (low < high) { // the last draw whose pieces begin at `index` or before
+    while (low < high) { // the last draw that begins at or before `index`
         int middle = (low + high + 1) / 2;
         if (search->first_pieces[middle] <= index)
             low = middle;
@@ -165,7 +166,7 @@ static bool reserve_threads(struct edge_memory *memory, int threads, struct call
     return buffer_reserve(&memory->scratch, (size_t)threads * edge_scratch_bytes(), call, error);
 }
 
-// Measures all edges, and links them to chains along which dashes run.
+// Measures all edges, and links them to chains for dashes.
 static bool find_chains(struct search *search, size_t pieces, struct pool *pool, struct call_control *call,
                         lam_error *error)
 {

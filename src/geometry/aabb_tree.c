@@ -7,10 +7,10 @@
 #include <string.h>
 
 enum {
-    // Vertices of a box. A mesh with indices shares its vertices, so that the same number spans more of it.
+    // Vertices per box. Indexed meshes share vertices, so that a given number covers more of the surface.
     BLOCK_SHARED = 64,
     BLOCK_CORNERS = 256,
-    PIECE = 1 << 16, // vertices of one piece of parallel work: whole boxes of the two lowest levels
+    PIECE = 1 << 16, // vertices per task: whole boxes of the two lowest levels
 };
 
 struct boxing {
@@ -30,7 +30,7 @@ static void widen(box_of_six box, const float low[3], const float high[3])
     }
 }
 
-// Consecutive vertices, four at a time: their twelve numbers are x, y and z in turn.
+// Computes the box of consecutive vertices, four at a time: their twelve numbers alternate x, y and z.
 static void box_of_row(const float *p, size_t count, box_of_six box)
 {
     num low[3], high[3];
@@ -75,7 +75,7 @@ static void box_of_boxes(const box_of_six *below, size_t count, box_of_six box)
         widen(box, below[i], below[i] + 3);
 }
 
-// Makes the boxes `first` to `end` of a level from the level below.
+// Computes the boxes `first` to `end` of a level from the level below.
 static void box_level(const struct boxing *boxing, int level, size_t first, size_t end)
 {
     const struct aabb_tree *tree = boxing->tree;

@@ -21,7 +21,7 @@ enum { OCCLUSION_RAYS_MAX = 1024, OCCLUSION_TURNS = 256 };
 // Rays about +z; neighbours in the list have similar directions.
 struct occlusion_pattern {
     int count;
-    double x[OCCLUSION_RAYS_MAX], y[OCCLUSION_RAYS_MAX], z[OCCLUSION_RAYS_MAX]; // unit
+    double x[OCCLUSION_RAYS_MAX], y[OCCLUSION_RAYS_MAX], z[OCCLUSION_RAYS_MAX]; // the rotations of occlusion_turn
     double length[OCCLUSION_RAYS_MAX];                     // 0…1, from the longest ray to the shortest
     double cosine[OCCLUSION_TURNS], sine[OCCLUSION_TURNS]; // of the turns of occlusion_turn
 };

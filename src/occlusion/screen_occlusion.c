@@ -6,8 +6,9 @@
 
 enum { LANES_MAX = 16 };
 
-// Rows have LANES_MAX floats more at either end, and planes of cells precede the planes of pixels. In pieces, by all
-// threads: first use of the memory of a large picture takes seconds, in which the call may be stopped.
+// Rows have LANES_MAX more floats at either end, and planes of cells precede the planes of pixels. All threads fill
+// them in chunks: the first use of the memory of a large picture takes seconds, and the call may be stopped during that
+// time.
 enum { PIECE = 1 << 17, CELL_PLANES = 5 };
 struct emptying {
     float *at;
@@ -73,11 +74,11 @@ static void fill_beside(const struct screen_occlusion *o, float *plane, int y, f
         row[x] = value;
     for (int x = o->grid_width; x < o->stride - LANES_MAX; x++)
         row[x] = value;
-    for (int x = o->stride - LANES_MAX; x < o->stride && y + 1 < o->grid_height; x++) // before the next row
+    for (int x = o->stride - LANES_MAX; x < o->stride && y + 1 < o->grid_height; x++) // up to the next row
         row[x] = value;
 }
 
-// Beside the cells a filter reads numbers, which do not count, and sees no surface.
+// Outside the cells, filters read arbitrary numbers with weight 0 and no surface.
 static void fill_rows_beside(const struct screen_occlusion *o, int first, int end)
 {
     for (int y = first; y < end; y++) {

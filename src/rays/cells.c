@@ -1,10 +1,10 @@
 // cells.c: divides large ranges of a hierarchy's triangles, and distributes small ranges to threads.
 //
-// The middles of a large range's triangles are sorted into the cells of a grid, and the range is divided by the boxes
-// of its cells in place of the far more numerous triangles. A range of few triangles leaves its cells and is divided by
-// one thread (splits.c); so is one that fills a cell, within a grid of its own if it is large. Tasks follow from the
-// number of triangles, and a range's nodes have a position that follows only from its triangles, so neither the threads
-// nor their number matter.
+// The centres of a large range's triangles are sorted into the cells of a grid, and the range is divided by the boxes
+// of its cells instead of the far more numerous triangles. A range of few triangles is removed from its cells and
+// divided by one thread (splits.c), and so is a range within one cell; if that range is large, it gets its own grid.
+// Tasks depend only on the number of triangles, and the position of a range's nodes depends only on its triangles, so
+// the result does not depend on threads.
 #include "ranges.h"
 
 #include "fail.h"
@@ -12,21 +12,22 @@
 #include <string.h>
 
 enum {
-    PART = 32,                    // triangles of a part of a node that cells do not divide any more
-    SMALL = NODE_CHILDREN * PART, // triangles of a range that one thread divides; above, a node has all its children
+    PART = 32, // triangles of a node's part that cells no longer divide
+    // a range up to this size is divided by one thread; the nodes of larger ones have all their children
+    SMALL = NODE_CHILDREN * PART,
     CELL_BITS_MAX = 16,
     PIECES_MAX = 16,
-    CELLS_PIECE = 256 // cells that are measured together
+    CELLS_PIECE = 256 // cells measured together
 };
 
-// A grid over the middles of a range's triangles.
+// A grid over the centres of a range's triangles.
 struct grid {
-    num start, factor, last; // from twice a middle to the column, row and layer, and the last of these
-    int shift[3];            // where their bits are in a cell's number
+    num start, factor, last; // from twice a centre to column, row and layer, and the last of these
+    int shift[3];            // the positions of their bits in a cell's number
     uint32_t cell_count;
 };
 
-// Ranges that are still to be divided.
+// Ranges that remain to be divided.
 struct list {
     struct buffer memory;
     size_t count;
@@ -37,18 +38,18 @@ struct large {
     const struct range *range;
     struct grid grid;
     uint32_t piece, pieces;  // triangles sorted together
-    uint16_t *keys;          // of each triangle, its cell
+    uint16_t *keys;          // the cell of each triangle
     uint32_t *places;        // of each task and cell: the number of triangles, then the position of the next one
-    struct primitive *cells; // those with triangles
+    struct primitive *cells; // cells that contain triangles
     uint32_t used_cells;
-    struct box *boxes;          // of each piece: of its triangles, and of twice their middles
+    struct box *boxes;          // of each task: the box of its triangles, and of twice their centres
     struct list small, waiting; // to be divided by one thread; in grids of their own
     struct buffer keys_memory, places_memory, cells_memory;
 };
 
 // --- the grid
 
-// Each bit of a cell's number halves the longest side that is left.
+// Each bit of a cell's number halves the longest remaining side.
 static struct grid grid_over(const struct box *middles, uint32_t count)
 {
     int bits = 31 - __builtin_clz(count) - 2, of_axis[3] = {0, 0, 0};
@@ -142,7 +143,7 @@ static void cells_task(void *user, size_t index, int thread)
     }
 }
 
-// Sorts the primitives of a range into cells, with the range's box and middles.
+// Sorts the primitives of a range into cells, and computes the range's box and centres.
 static bool sort_into_cells(struct large *l, struct range *r)
 {
     struct builder *b = l->builder;
@@ -191,7 +192,7 @@ static bool sort_into_cells(struct large *l, struct range *r)
     return true;
 }
 
-// --- the division
+// --- dividing ranges
 
 static struct range *ranges_of(const struct list *list) { return list->memory.data; }
 
@@ -213,7 +214,7 @@ static void add(struct large *l, const struct range *r, struct list *list)
     ranges_of(list)[list->count++] = *r;
 }
 
-// Divides a range by its cells. Returns false if it has one, or all their middles are the same, or it is too deep.
+// Divides a range by its cells. Returns false if it has only one cell, all its centres are equal, or it is too deep.
 static bool halve_cells(struct large *l, struct range *r, struct range *right)
 {
     struct split split;
@@ -232,7 +233,7 @@ static bool halve_cells(struct large *l, struct range *r, struct range *right)
     return true;
 }
 
-// The triangles of a range leave their cells.
+// Removes the triangles of a range from their cells.
 static void leave_cells(const struct large *l, struct range *r)
 {
     struct primitive *to = l->builder->primitives + r->first;
@@ -256,7 +257,7 @@ static void divide_by_cells(struct large *l, const struct range *r)
     while (count < NODE_CHILDREN && (i = widest_part(parts, open, count)) >= 0) {
         if (!halve_cells(l, &parts[i], &parts[count])) {
             leave_cells(l, &parts[i]);
-            if (!range_halve(l->builder, &parts[i], &parts[count])) // no memory
+            if (!range_halve(l->builder, &parts[i], &parts[count])) // memory ran out
                 return;
         }
         open[i] = parts[i].count > PART;

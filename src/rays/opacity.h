@@ -1,11 +1,11 @@
-// opacity.h: computes the fractions of light that a triangle blocks and lets pass.
+// opacity.h: computes the fractions of light that a triangle blocks and transmits.
 #ifndef OPACITY_H
 #define OPACITY_H
 
 #include "frame.h"
 
-// Returns the opacity of a triangle of the frame, 0…1, where its corners have the weights 1 − b1 − b2, b1 and b2,
-// textures taken at their level 0. A masked surface has 0 or 1. `back`: of its back side.
+// Returns the opacity, 0…1, of a triangle of the frame at the point with the weights 1 − b1 − b2, b1 and b2; textures
+// are read at level 0. A masked surface has 0 or 1. `back`: for its back side.
 float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b1, float b2);
 
 // The light that such a point lets pass, red, green, blue: 1 − opacity, and of the opaque share the light that

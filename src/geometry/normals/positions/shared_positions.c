@@ -1,8 +1,8 @@
 // shared_positions.c: finds the vertices of a mesh at the positions of given triangles.
 //
-// The vertices of these triangles go into a hash table of positions. Then every other vertex of the mesh is looked up in
-// it; a filter turns most of them away before the table is searched. The order in which threads run decides only where
-// data lie, never a normal.
+// The vertices of these triangles are inserted into a hash table of positions. Then every other vertex of the mesh is
+// looked up; a filter rejects most of them before the table is searched. The order of the threads affects only the
+// addresses of data, never a normal.
 #include "shared_positions.h"
 
 #include "corner_fan.h"
@@ -11,14 +11,14 @@
 #include <string.h>
 
 enum {
-    WORDS = 1 << 8,      // of a bit set, in one piece of work
-    AHEAD = 16,          // words by which the positions of triangles are prefetched
-    TOGETHER = 8,        // words whose vertices are looked up together, after prefetches
-    SLAB = 2 << 20,      // bytes of blocks that are allocated together
-    CACHE_MAX = 1 << 13, // positions that a thread caches: they fit the second-level cache
+    WORDS = 1 << 8,      // words of a bit set per task
+    AHEAD = 16,          // how many words ahead the positions of triangles are prefetched
+    TOGETHER = 8,        // words whose vertices are looked up together, after prefetching
+    SLAB = 2 << 20,      // bytes of blocks allocated together
+    CACHE_MAX = 1 << 13, // positions in a thread's cache, which fits the second-level cache
 };
 
-// Memory that is free again before any fan is made, which may lie where normals will.
+// Memory that is free again before the first fan is computed; it may overlap the memory for normals.
 static void *alloc_until_fans(struct position_search *s, size_t count, size_t size)
 {
     for (int i = 0; i < 2; i++) {
@@ -89,7 +89,7 @@ bool find_wanted(struct position_search *s)
         return false;
     if (triangles_before(s, s->mesh->triangle_count) < s->mesh->triangle_count) {
         pool_run(s->pool, pieces_of(triangle_words(s), WORDS), add_wanted, s);
-    } else if (words) { // all vertices: one without a triangle is a position without corners
+    } else if (words) { // all vertices; a vertex without a triangle is a position without corners
         memset(s->wanted.bits, 0xff, words * sizeof *s->wanted.bits);
         s->wanted.bits[words - 1] >>= 64 * words - s->vertices;
     }
@@ -99,7 +99,7 @@ bool find_wanted(struct position_search *s)
 
 // --- the table
 
-// Puts a vertex into its part's bin, unless another one at its position was recently.
+// Puts a vertex into its part's bin, unless another vertex at its position was added recently.
 static inline bool spread(struct position_search *s, int thread, size_t vertex)
 {
     struct block_lists *lists = &s->lists[thread];
@@ -190,14 +190,14 @@ void position_search_free(struct position_search *s)
     arena_free(&s->arena);
 }
 
-// No position's bits are all ones.
+// Cache entries are cleared to all ones, which is no valid position.
 static void clear_caches(struct position_search *s)
 {
     for (int i = 0; i < pool_threads(s->pool); i++)
         memset(s->caches[i], 0xff, (s->caches_mask + (size_t)1) * sizeof **s->caches);
 }
 
-// Without indices the same positions come again and again, mostly soon after one another.
+// Without indices the same positions recur, usually soon after one another.
 static bool start_caches(struct position_search *s)
 {
     size_t threads = (size_t)pool_threads(s->pool), capacity = 64;
@@ -249,9 +249,10 @@ static bool fill_table(struct position_search *s)
     return true;
 }
 
-// --- the other vertices of a mesh with indices
+// --- the other vertices of indexed meshes
 
-// Looks up the vertices of some words of the set that are not wanted and pass the filter, which are few. Returns the probes.
+// Looks up the few vertices of some words of the set that are not wanted but pass the filter. Returns the number of
+// probes.
 static size_t place_some(const struct position_search *s, size_t word, size_t end)
 {
     uint32_t looked_up[WORD * TOGETHER], hash[WORD * TOGETHER], lookups = 0;
@@ -289,7 +290,7 @@ static void place_words(void *user, size_t index, int thread)
         probes += place_some(s, w, w + TOGETHER < end ? w + TOGETHER : end);
 }
 
-// Numbers the wanted vertices whose position another one represents.
+// Numbers the wanted vertices whose position another vertex represents.
 static void place_duplicates(void *user, size_t index, int thread)
 {
     (void)thread;
@@ -319,7 +320,7 @@ static bool place_vertices(struct position_search *s)
     return true;
 }
 
-// --- all
+// --- all steps
 
 static int compare_keys(const void *left, const void *right)
 {

@@ -1,10 +1,11 @@
-// check_fit.c: compares a shader whose strengths and colours are its own with sums of an ambient, a diffuse and a
+// check_fit.c: compares a shader that has its own strengths and colours with sums of an ambient, a diffuse and a
 // specular term.
 //
-// The fault shader draws each term of a scene in a channel of its own (shader_interface_scene). A reading is a
-// highlight, an exponent, and forms or a fault. The factors of its terms, the same in every scene, are found by least
-// squares. The shader passes if some reading of a correct shader explains every scene, and differs if one with a single
-// known mistake does. Otherwise there is no verdict: a shader that the check does not understand may be right.
+// The fault shader draws each term of a scene in a separate channel (shader_interface_scene). An interpretation
+// ("reading") consists of a highlight, an exponent, and forms or a fault. The factors of its terms, which are the same
+// in every scene, are found by least squares. The shader passes if some interpretation of a correct shader explains
+// every scene, and differs if one with a single known mistake does. Otherwise there is no verdict: a shader that the
+// check does not understand may be correct.
 #include "readings.h"
 
 #include <stdio.h>
@@ -19,16 +20,16 @@
 
 enum { FIRST_SCENES = 1, MAX_BASES = 12, MAX_NEAREST = 3 };
 
-static const double min_diffuse = 0.02;  // the least factor of a diffuse term that is evidence of lighting
-static const double min_mean = 0.02;     // the least difference that is one without an explanation
-static const double max_negative = 0.01; // a factor below its negative is no strength
+static const double min_diffuse = 0.02;  // a smaller factor of a diffuse term is no evidence of lighting
+static const double min_mean = 0.02;     // smaller differences need no explanation
+static const double max_negative = 0.01; // a factor below the negative of this is not a strength
 
 struct fit {
     struct run *r;
-    struct fault_shader *shader; // of the strided pictures
+    struct fault_shader *shader; // for the strided pictures
     int stride, size;
     uint32_t *from[MAX_SCENES],
-        *to[MAX_SCENES]; // indices of the pixels: in the shader's pictures, and in those drawn here
+        *to[MAX_SCENES]; // indices of the pixels: in the shader's pictures, and in the ones drawn here
     size_t count[MAX_SCENES];
     float *basis[MAX_SCENES], *pixels;
 };
@@ -44,7 +45,7 @@ static bool draw_terms(struct run *r, struct fault_shader *shader, int scene, co
 
 static double decode(double x, bool decoded) { return decoded && x > 0 ? math_pow(x, 2.2) : x; }
 
-// The factors of least squares of the first `scene_count` scenes.
+// Finds the factors by least squares over the first `scene_count` scenes.
 static void solve(const struct fit *f, int scene_count, struct reading *g)
 {
     for (int c = 0; c < 3; c++) {
@@ -62,7 +63,7 @@ static void solve(const struct fit *f, int scene_count, struct reading *g)
                     a[k][3] += (double)b[k] * y;
                 }
             }
-        for (int k = 0; k < 3; k++) { // Gauss, without a term that is nowhere
+        for (int k = 0; k < 3; k++) { // Gaussian elimination, without terms that are zero everywhere
             if (a[k][k] < 1e-6 || (k == 2 && !g->has_highlight))
                 continue;
             for (int m = 0; m < 3; m++) {
@@ -78,7 +79,7 @@ static void solve(const struct fit *f, int scene_count, struct reading *g)
 
 static double clamped(double x) { return x > 0 ? (x < 1 ? x : 1) : 0; }
 
-// Measures a reading in the first `scene_count` scenes.
+// Measures an interpretation in the first `scene_count` scenes.
 static bool measure(struct fit *f, int scene_count, struct reading *g, lam_error *error)
 {
     for (int s = 0; s < scene_count; s++) {
@@ -122,7 +123,7 @@ static bool measure(struct fit *f, int scene_count, struct reading *g, lam_error
     return true;
 }
 
-// Measures a reading in all scenes, if it fits the first ones.
+// Measures an interpretation in all scenes, if it fits the first ones.
 static bool try_reading(struct fit *f, struct reading *g, lam_error *error)
 {
     int first = f->r->scene_count < FIRST_SCENES ? f->r->scene_count : FIRST_SCENES;
@@ -139,7 +140,7 @@ static bool has_bit(const struct fault *row, enum fault_bit bit)
     return false;
 }
 
-// Adds each fault to each of the readings until one explains every scene. `nearest`: the MAX_NEAREST that come nearest.
+// Adds each fault to each interpretation until one explains every scene. `nearest`: the MAX_NEAREST best ones.
 static bool add_faults(struct fit *f, const struct reading *readings, int count, struct reading nearest[MAX_NEAREST],
                        struct reading *best, lam_error *error)
 {
@@ -171,7 +172,8 @@ static bool add_faults(struct fit *f, const struct reading *readings, int count,
     return true;
 }
 
-// The first fault, or else two, that explain every scene with one of the readings: `best` fits.
+// Finds the first fault, or else two faults, that explain every scene with one of the interpretations: `best` then
+// fits.
 static bool find_faults(struct fit *f, const struct reading *readings, int count, struct reading *best,
                         lam_error *error)
 {
@@ -182,7 +184,7 @@ static bool find_faults(struct fit *f, const struct reading *readings, int count
 
 // --- the report
 
-// Draws the references: a correct shader of this reading, with its factors.
+// Draws the references: a correct shader of this interpretation, with its factors.
 static bool draw_references(struct run *r, const struct reading *g, lam_error *error)
 {
     size_t pixels = (size_t)r->size * (size_t)r->size;
@@ -244,8 +246,8 @@ static int by_mean(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// The readings with which faults are tried: they differ from the nearest one only in the highlight and its forms. If
-// the text has reflect(), the highlight is Phong's.
+// Lists the interpretations with which faults are tried: they differ from the nearest one only in the highlight and its
+// forms. If the text contains reflect(), the highlight is Phong's.
 static int choose_bases(const struct run *r, struct reading *readings, int count, const struct reading *best)
 {
     static const enum fault_bit same[] = {BIT_VIEWER_INFINITE, BIT_INVERSE_SQUARE, BIT_INVERSE_DISTANCE,
@@ -290,8 +292,8 @@ static bool open_fit(struct fit *f, struct run *r, lam_error *error)
     return ok;
 }
 
-// Finds the pixels to compare. `missing`: the least share of a scene's that the shader does not draw; one that faces away may be
-// black and transparent.
+// Finds the pixels to compare. `missing`: the smallest share of a scene that the shader does not draw; a scene that
+// faces away may be black and transparent.
 static bool find_inside(struct run *r, double *missing, lam_error *error)
 {
     const struct reading plain = {.reflection = LAM_REFLECTION_PHONG};
@@ -356,7 +358,7 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
     if (r->report->verdict == LAM_CHECK_NOT_NUMBER)
         *outcome = FIT_EXPLAINED;
     else if ((explained || plain) == (r->report->verdict == LAM_CHECK_PASSES))
-        *outcome = FIT_UNKNOWN; // the full pictures say something else
+        *outcome = FIT_UNKNOWN; // the full pictures do not confirm it
     if (*outcome == FIT_UNKNOWN)
         snprintf(reason, capacity, "its pictures are close to a correct shader's, but not equal");
     else if (explained)

@@ -1,4 +1,4 @@
-// readings.c: lists the readings of a shader by the words of its text.
+// readings.c: lists the possible interpretations of a shader from the words of its text.
 #include "readings.h"
 
 #include <ctype.h>
@@ -35,7 +35,7 @@ static void add_exponent(float out[MAX_EXPONENTS], int *count, double x)
         out[(*count)++] = (float)x;
 }
 
-// The second argument of pow, whose bracket is word `at`: a number, or a variable that is given one.
+// Gets the second argument of pow, whose bracket is word `at`: a number, or a variable that is set to one.
 static bool read_exponent(const struct declarations *d, int at, double *out)
 {
     int depth = 0;
@@ -57,7 +57,7 @@ static bool read_exponent(const struct declarations *d, int at, double *out)
     return false;
 }
 
-// The factor of the exponent that the text writes in pow(x, shininess * factor); 0: none.
+// Returns the factor of the exponent in pow(x, shininess * factor), or 0 if there is none.
 static float find_factor(const struct declarations *d)
 {
     for (int i = 0; i + 2 < d->word_count; i++) {
@@ -80,7 +80,7 @@ static float find_factor(const struct declarations *d)
     return 0;
 }
 
-// The numbers of the text that may be the exponent.
+// Finds the numbers of the text that may be the exponent.
 static int find_exponents(const struct run *r, float out[MAX_EXPONENTS])
 {
     const struct declarations *d = r->interface.vertex_lit ? &r->interface.vertex : &r->interface.fragment;
@@ -94,7 +94,7 @@ static int find_exponents(const struct run *r, float out[MAX_EXPONENTS])
         if (strcmp(d->words[i].text, "pow") == 0 && read_exponent(d, i + 1, &x))
             add_exponent(out, &count, x);
     }
-    for (int i = 0; i < d->word_count && !count && readings_use(r, "pow"); i++) { // behind a parameter, perhaps
+    for (int i = 0; i < d->word_count && !count && readings_use(r, "pow"); i++) { // it may be a parameter of a function
         double x = 0;
         if (read_literal(d->words[i].text, &x))
             add_exponent(out, &count, x);
@@ -136,7 +136,7 @@ int readings_list(const struct run *r, struct reading out[MAX_READINGS])
     bool eye = shader_interface_uses(interface, SEMANTIC_EYE_POSITION);
     bool attenuated = is_attenuated(r), direction = has_direction(interface);
     bool gamma = declarations_uses(&interface->fragment, "2.2");
-    // reversed, falloff, viewer, phong, exponent, gate, late, dim, gamma
+    // The bits are: reversed, falloff, viewer, phong, exponent, gate, late, dim, gamma.
     for (int k = 0; k < 2 * 3 * 2 * 2 * MAX_EXPONENTS * 2 * 2 * 2 * 2; k++) {
         int n = k, choices[9];
         const int sizes[9] = {2, 2, 2, 2, 3, 2, 2, 2, MAX_EXPONENTS};
@@ -174,7 +174,7 @@ int readings_list(const struct run *r, struct reading out[MAX_READINGS])
     return count;
 }
 
-// Faults of colours, strengths and alpha are within the factors, or no matter of them.
+// Faults of colours, strengths and alpha are part of the factors, or do not matter.
 static bool is_geometric(const struct fault *row)
 {
     static const enum fault_bit others[] = {BIT_KD_KS_SWAPPED,
@@ -245,11 +245,12 @@ bool readings_are_plain(const struct run *r)
             for (int k = 1; call && k < sides[s]->word_count && !own; k++)
                 own = strcmp(sides[s]->words[k].text, w->text) == 0 && sides[s]->words[k].depth == 0 &&
                       isalpha((unsigned char)sides[s]->words[k - 1].text[0]);
-            double divisor = 0; // a division by w belongs to a projection; by a distance, it may be an attenuation
+            // a division by w belongs to a projection; a division by a distance may be an attenuation
+            double divisor = 0;
             bool of_w = i + 3 < sides[s]->word_count && strcmp(w[2].text, ".") == 0 && strcmp(w[3].text, "w") == 0;
             bool quotient = strcmp(w->text, "/") == 0 && !read_literal(next, &divisor) && !of_w;
             bool number = read_literal(w->text, &x);
-            bool compared = false; // with anything but 0, outside of a loop's head
+            bool compared = false; // compared with something other than 0, outside of a loop's head
             if (w->text[0] == '<' || w->text[0] == '>') {
                 const char *after = next[0] == '=' ? w[2].text : next;
                 double zero = 1;

@@ -1,7 +1,7 @@
-// ray_triangles.c: the triangles of a frame in the hierarchy's space, and their boxes.
+// ray_triangles.c: transforms the triangles of a frame to the hierarchy's space, and computes their boxes.
 //
-// Corners are computed on demand, three times: for the total extent, for boxes, and for the leaves. To store them first
-// would take more time, most of it for memory.
+// Corners are computed on demand, three times: for the total extent, for boxes, and for the leaves. Storing them would
+// take longer, mostly for memory access.
 #include "ray_triangles.h"
 
 #include "fail.h"
@@ -14,7 +14,7 @@ struct bounds {
 
 struct preparation {
     struct builder *builder;
-    struct bounds *bounds; // of each piece, in world space
+    struct bounds *bounds; // of each task, in world space
 };
 
 static void place_task(void *user, size_t index, int thread)
@@ -42,7 +42,7 @@ static void place_task(void *user, size_t index, int thread)
     store_point(high, bounds->high);
 }
 
-// The boxes in the hierarchy's space, rounded to the nearest floats (ray_lanes.h takes care of that).
+// Computes the boxes in the hierarchy's space, rounded to the nearest floats; ray_lanes.h allows for the rounding.
 static void box_task(void *user, size_t index, int thread)
 {
     (void)thread;
@@ -63,7 +63,7 @@ static void box_task(void *user, size_t index, int thread)
     }
 }
 
-// A space in which all coordinates lie within −1…1.
+// Chooses a space in which all coordinates are within −1…1.
 static void choose_space(struct hierarchy *h, const struct bounds *bounds)
 {
     double half = 0;

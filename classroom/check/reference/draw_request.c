@@ -1,5 +1,5 @@
-// draw_request.c: the request and its result as bytes. Both ends are the same program, so structs are copied as they
-// are. The result is validated nevertheless, since the process that sent it has run untrusted shaders.
+// draw_request.c: the request and its result as bytes. Both sides are the same program, so structs are copied as they
+// are. The result is validated nevertheless, because its process has run untrusted shaders.
 #include "draw_request.h"
 
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 
 #include <lambent/check.h>
 
-// `device`: as lam_gl_params.device, kept as long as places are opened; NULL: the first usable one.
+// `device`: as lam_gl_params.device, used as long as contexts are opened; NULL: the first usable one.
 lam_check_painter gl_painter(const char *device);
 
 #endif

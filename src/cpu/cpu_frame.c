@@ -1,4 +1,4 @@
-// cpu_frame.c: sets a frame up: memory of the threads, pieces of work, products.
+// cpu_frame.c: sets up a frame: memory of the threads, parallel tasks, products.
 #include "cpu_frame.h"
 
 #include "fail.h"
@@ -9,7 +9,7 @@
 
 // --- the arrays of a thread
 
-// Suballocates a block in parts that are aligned to 64 bytes. Without a block it only counts.
+// Suballocates parts of a block, aligned to 64 bytes. Without a block it only computes the size.
 struct suballocator {
     char *block;
     size_t used;
@@ -142,9 +142,10 @@ void thread_free(struct thread_state *thread, struct thread_bins *bins)
     free(thread->shading.ray_layers.list);
 }
 
-// --- pieces of work
+// --- parallel tasks
 
-// How many vertices are transformed and stored before triangles are binned: those that triangles share (corners.inc).
+// Returns the number of vertices that are transformed and stored before triangles are binned: vertices that triangles
+// share (corners.inc).
 static uint32_t vertices_of(const lam_mesh *mesh) { return mesh->indices ? mesh->vertex_count : 0; }
 
 static size_t pieces_of(uint32_t count, uint32_t size) { return ((size_t)count + size - 1) / size; }
@@ -155,7 +156,7 @@ static void fill_pieces(struct piece *pieces, size_t *at, int draw, uint32_t cou
         pieces[(*at)++] = (struct piece){(uint32_t)draw, first, count - first < size ? count - first : size};
 }
 
-// Lists the pieces of work and reserves memory for the vertices.
+// Lists the parallel tasks and reserves memory for the vertices.
 static bool list_pieces(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
 {
     const struct frame *frame = cpu->raster.frame;
@@ -222,7 +223,7 @@ bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_er
         occlusion_pattern_fill(memory->occlusion.data, frame->settings.occlusion_samples);
         cpu->shade.occlusion_pattern = memory->occlusion.data;
     } else if (frame->settings.occlusion == LAM_OCCLUSION_SCREEN) {
-        // Once fragments are kept, the transformed vertices are no longer needed.
+        // If fragments are kept, the transformed vertices are no longer needed.
         struct scratch_memory lent = {0};
         if (keeps_fragments(cpu) && !frame->makes_normals)
             lent = (struct scratch_memory){.memory = memory->vertices.data, .capacity = memory->vertices.capacity};

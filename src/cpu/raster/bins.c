@@ -1,4 +1,4 @@
-// bins.c: memory for bins and clipped pieces, and the binning of large triangles.
+// bins.c: memory for bins and clipped triangles, and the binning of large triangles.
 #include "bins.h"
 
 #include "pages.h"
@@ -7,10 +7,10 @@
 
 enum {
     SLAB = 2 << 20,   // a huge page
-    FILLED = 1 << 18, // number of triangles that nearly fills the first slab of each thread
+    FILLED = 1 << 18, // number of triangles that nearly fill the first slab of each thread
 };
 
-// Takes `bytes` from a list of slabs. New slabs come from the system and stay for later frames.
+// Allocates `bytes` from a list of slabs. New slabs come from the system and are kept for later frames.
 static void *slab_take(const struct raster_frame *raster, struct slab_list *list, size_t bytes)
 {
     if (list->count == 0 || list->used + bytes > SLAB) {
@@ -64,7 +64,7 @@ struct bin_block *new_bin_block(const struct raster_frame *raster, struct thread
     return slab_take(raster, &bins->blocks, sizeof(struct bin_block));
 }
 
-// A power of two, so that the slab follows from a piece's number.
+// A power of two, so that a clipped triangle's index gives its slab.
 enum { PIECES_PER_SLAB = SLAB / 64 };
 _Static_assert(sizeof(struct clipped_piece) <= 64, "a clipped piece fits 64 bytes");
 
@@ -100,7 +100,7 @@ void bin_large(const struct raster_frame *raster, struct thread_bins *bins, cons
     y0 = y0 < 0 ? 0 : y0;
     x1 = x1 >= raster->tiles_across ? raster->tiles_across - 1 : x1;
     y1 = y1 >= raster->tiles_down ? raster->tiles_down - 1 : y1;
-    // Edge functions, positive inside. A tile is missed if even its innermost corner is outside of an edge.
+    // Edge functions, positive inside. A tile is missed if even its innermost corner is outside an edge.
     int64_t sign = area > 0 ? 1 : -1, size = (int64_t)1 << shift;
     int64_t a[3], b[3], max[3];
     for (int k = 0; k < 3; k++) {

@@ -1,7 +1,7 @@
 // clip.c: clips triangles that cross the near or far plane or leave the guard band, in homogeneous coordinates.
 //
 // Sutherland and Hodgman, "Reentrant polygon clipping", 1974. An edge is always cut from its inner towards its outer
-// end, so that two triangles that share the edge get the same point, bit for bit, and no gap opens between them.
+// end, so that two triangles that share the edge get the same point, bit for bit, without a gap between them.
 #include "clip.h"
 
 #include <string.h>
@@ -10,12 +10,12 @@ struct corner {
     float x, y, z, w; // pixels·w (y down), clip z, w
 };
 
-// Each plane adds one corner to a convex polygon, and at most doubles the corners of a thin one that rounding
-// has folded.
+// Each plane adds one corner to a convex polygon, and at most doubles the corners of a thin polygon that rounding has
+// folded.
 enum { PLANES = 6, CORNERS_MAX = 3 << PLANES };
 
-// The distance to a plane times a positive number; ≥ 0 inside. Near and far come first: w > 0 then holds for the
-// guard band.
+// Returns the distance to a plane times a positive number; ≥ 0 inside. Near and far come first, so that w > 0 holds for
+// the guard band.
 static float distance(const struct raster_frame *raster, const struct corner *c, int plane)
 {
     float dx = c->x - 0.5f * (float)raster->frame->width * c->w;

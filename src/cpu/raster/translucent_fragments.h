@@ -11,9 +11,8 @@ struct layer_rows {
     // Some fragments belong to parts of clipped triangles; two parts of one triangle may share a pixel.
     bool clipped;
     bool masked; // some samples were omitted because of the opacity of a surface
-    bool
-        // transmitting triangles were omitted (raster_frame.without_glass); the listing sets it and never clears it
-        glass;
+    // Transmitting triangles were omitted (raster_frame.without_glass); the listing sets it and never clears it.
+    bool glass;
 };
 
 #endif

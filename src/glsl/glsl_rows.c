@@ -267,16 +267,16 @@ int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_
     if (c->colors && ((f->lit && !f->output_vector) || f->value_masks))
         rows[count++] = (struct glsl_attribute){
             2, "vec4", "color",
-            flat && glsl_120 ? "linear, not premultiplied; at all three vertices the value of the triangle's last vertex"
+            flat && glsl_120 ? "linear, not premultiplied; the last vertex's value at all three vertices"
                              : "linear, not premultiplied"};
     if (f->signed_tangent)
         rows[count++] = (struct glsl_attribute){3, "vec4", "tangent",
                                                 "mesh tangent, unit, and the sign of the bitangent (MikkTSpace)"};
     else if (f->needs_tangent && c->tangents)
-        rows[count++] = (struct glsl_attribute){
-            3, "vec3", "tangent",
-            flat && glsl_120 ? "mesh tangent; at all three vertices the value of the triangle's last vertex"
-                             : "mesh tangent, along the surface"};
+        rows[count++] =
+            (struct glsl_attribute){3, "vec3", "tangent",
+                                    flat && glsl_120 ? "mesh tangent; the last vertex's value at all three vertices"
+                                                     : "mesh tangent, along the surface"};
     if (f->application) {
         rows[count++] = (struct glsl_attribute){4, "vec4", "front_color",
                                                 "light that leaves the front at the vertex, and the opacity"};

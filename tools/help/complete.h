@@ -1,4 +1,4 @@
-// complete.h: the words that may come next on a command line.
+// complete.h: completions for a command line.
 #ifndef COMPLETE_H
 #define COMPLETE_H
 

@@ -24,7 +24,7 @@
 
 // --- messages
 
-// Prints each warning once; returns how many there are.
+// Prints each warning once. Returns the number of warnings.
 static int print_warnings(const struct job *job, bool print)
 {
     int count = 0;
@@ -48,7 +48,7 @@ static bool sees_nothing(const struct job *job)
     return job->written && !frame->pixels_covered && !frame->edges_drawn;
 }
 
-// Returns true if a sentence begins with the name, in which it shows control characters as '?'.
+// Returns whether a sentence begins with the name, with its control characters as '?'.
 static bool names(const char *sentence, const char *name)
 {
     for (; *name; name++, sentence++) {
@@ -59,8 +59,7 @@ static bool names(const char *sentence, const char *name)
     return *sentence == ':';
 }
 
-// Puts the model's name before a sentence of the library that lacks it, and the user's limit in place of the remaining
-// one.
+// Adds the model's name to a sentence of the library without it, and replaces the remaining limit by the user's.
 static void name_model(const struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
@@ -84,10 +83,10 @@ struct files {
     int count;
     char (*hashes)[XXH64_TEXT];
     const char **texts; // of the hashes
-    bool changed;       // since the model was read: their hashes say nothing about the picture
+    bool changed;       // since the model was read; the hashes then do not describe the picture
 };
 
-// Returns whether a file may have changed after `start`, a time of the clock that file systems use.
+// Returns whether a file may have changed after `start`, a time of the file systems' clock.
 static bool changed_since(const char *path, const struct timespec *start)
 {
     struct stat about;
@@ -190,7 +189,7 @@ static void add_hash(json_t *record, const struct batch_item *item, int view, co
     set_text(record, "hash", text);
 }
 
-// The files that were read, and the key.
+// Adds the files that were read, and the key.
 static void add_key(json_t *record, const struct batch_item *item, int view, const struct job *job,
                     const struct files *files)
 {
@@ -205,7 +204,7 @@ static void add_key(json_t *record, const struct batch_item *item, int view, con
     }
     set(record, "files", list);
     if (files->changed || item->model_bytes || strcmp(item->model, "-") == 0)
-        return; // without a key, the picture is never taken for the same
+        return; // without a key, the picture is never skipped as unchanged
     const struct job_view *v = &item->views[view];
     struct batch_key_parts parts = {.options = item->options_text,
                                     .parsed = item->options,
@@ -250,15 +249,15 @@ static json_t *record_of(const struct batch_item *item, int view, const struct j
 
 // --- drawing
 
-// The state of one reading of a model.
+// The state of reading one model.
 struct reading {
     const struct batch_item *item;
     const struct batch_artist *artist;
     struct batch_result *result;
-    struct timespec start; // of the clock that file systems use
+    struct timespec start; // of the file systems' clock
     struct files files;
     bool hashed;
-    json_t *found; // by the use of the picture; NULL: it is written
+    json_t *found; // result of the picture's use; NULL: it is written
 };
 
 // Prints and records the result of a picture.
@@ -387,7 +386,7 @@ void batch_draw(const struct batch_item *item, const struct batch_artist *artist
         result->record_count = 0;
         return;
     }
-    // Markers of lights are objects of the scene, and belong to one camera: each picture reads the model itself.
+    // Markers of lights are objects of the scene and depend on the camera, so each picture then reads the model itself.
     int together = item->options->shading.show_lights ? 1 : item->view_count;
     for (int i = 0; i < item->view_count; i += together) {
         struct batch_item part = *item;

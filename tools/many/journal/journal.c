@@ -308,7 +308,7 @@ static bool open_running(struct journal *j, lam_error *error)
     return true;
 }
 
-// The slots of this run replace those of the previous run, which remain if this run cannot begin.
+// Replaces the previous run's slots by the slots of this run; if this run cannot begin, the previous slots remain.
 static bool take_over_running(struct journal *j, int slots, lam_error *error)
 {
     j->begun = ftruncate(j->running, 0) == 0 && ftruncate(j->running, (off_t)slots * SLOT) == 0;

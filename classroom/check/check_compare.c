@@ -14,7 +14,7 @@
 
 // Some seconds with a software driver on one processor (docs/check.md).
 static const uint64_t default_max_pictures = 10000;
-static const double max_dark = 2.0 / 255; // of a picture that is black
+static const double max_dark = 2.0 / 255; // the largest value in a picture that counts as black
 // of the difference, so that names are reported although they do not explain everything
 static const double max_left = 0.25;
 

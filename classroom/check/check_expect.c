@@ -171,7 +171,7 @@ static const double same_pictures = 1e-5; // mean difference
 struct open_number {
     enum uniform_semantic semantic;
     double values[MAX_NUMBERS][3];
-    int count, own; // 1 + the index of the contract's own value; 0: the text does not contain it
+    int count, own; // 1 + the index of the contract's own value; 0 means the text does not contain it
 };
 
 // Finds the open numbers, and the number of their combinations.

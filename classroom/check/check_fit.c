@@ -26,7 +26,7 @@ static const double max_negative = 0.01; // a factor below the negative of this 
 
 struct fit {
     struct run *r;
-    struct fault_shader *shader; // for the strided pictures
+    struct fault_shader *shader; // draws the strided pictures
     int stride, size;
     uint32_t *from[MAX_SCENES],
         *to[MAX_SCENES]; // indices of the pixels: in the shader's pictures, and in the ones drawn here

@@ -22,7 +22,7 @@ struct run {
     struct shader_interface interface;
     int size;
     double tolerance;
-    lam_light_frame frame; // of the first light
+    lam_light_frame frame; // the space of the first light
     lam_reflection reflection;
     char *vertex;    // generated if none is given
     lam_bytes bytes; // the drawing process's message; `drawn` points into it
@@ -31,7 +31,7 @@ struct run {
     int scene_count;
     unsigned expectation;        // bits of enum expectation
     float *numbers;              // scratch memory for the samples of a picture
-    struct fault_shader *shader; // draws references for which the CPU device has no equations; NULL: not open
+    struct fault_shader *shader; // draws references that the CPU device cannot compute; NULL if not open
 };
 
 // Draws the references of `scenes`, for the first possible expectation that the pictures meet, or else the nearest.

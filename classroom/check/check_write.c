@@ -15,7 +15,7 @@
 #include "json_parse.h"
 #include "prefix.h"
 
-// The advice on correcting an entry, by its role; "": only the role can be wrong.
+// The advice on correcting an entry, by its role. It is "" if only the role can be wrong.
 static const struct {
     const char *role, *correct;
 } corrections[] = {

@@ -94,7 +94,8 @@ static int find_exponents(const struct run *r, float out[MAX_EXPONENTS])
         if (strcmp(d->words[i].text, "pow") == 0 && read_exponent(d, i + 1, &x))
             add_exponent(out, &count, x);
     }
-    for (int i = 0; i < d->word_count && !count && readings_use(r, "pow"); i++) { // it may be a parameter of a function
+    // the exponent may be a parameter of a function
+    for (int i = 0; i < d->word_count && !count && readings_use(r, "pow"); i++) {
         double x = 0;
         if (read_literal(d->words[i].text, &x))
             add_exponent(out, &count, x);

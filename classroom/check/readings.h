@@ -16,7 +16,7 @@ struct reading {
     int form_count;
     const struct fault *faults[MAX_FAULTS];
     int fault_count;
-    double factors[3][3]; // for red, green and blue; for the ambient, diffuse and specular term
+    double factors[3][3]; // indexed by colour channel and by term: ambient, diffuse, specular
     double mean;          // mean difference
     bool fits;
 };

@@ -31,7 +31,7 @@ struct subject {
 struct sheet_layout {
     double unit; // the panel's unit; 1 for a picture 640 pixels high
     double left, right;
-    double y; // of the next line
+    double y; // the position of the next line
 };
 
 static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }

@@ -28,7 +28,7 @@
 // A thread's own state. Its bins are stored elsewhere (struct raster_frame), because all threads read them.
 struct thread_state {
     struct tile_samples samples;
-    struct fragments fragments; // of translucent surfaces first, then of opaque ones
+    struct fragments fragments; // fragments of translucent surfaces first, then of opaque ones
     struct layer_rows layers;   // like the next member, only allocated for frames with translucent surfaces
     struct blend_scratch blend;
     struct shading shading;
@@ -44,12 +44,12 @@ struct cpu_frame {
     const struct kernels *kernels;
     struct call_control *call;
     struct pool *pool;
-    struct thread_bins *bins; // of each thread
+    struct thread_bins *bins; // the bins of each thread
     struct thread_state *threads;
     const struct piece *vertex_pieces, *triangle_pieces;
     size_t vertex_piece_count, triangle_piece_count;
     struct screen_occlusion occlusion;      // if the frame has ambient occlusion
-    struct fragment_store *fragment_stores; // one per tile; NULL: each tile is drawn in one pass
+    struct fragment_store *fragment_stores; // one per tile; NULL if each tile is drawn in one pass
     enum failure failure;
     struct work work;
 };
@@ -68,7 +68,7 @@ static inline struct tile tile_number(const struct cpu_frame *cpu, size_t index)
 // Memory that the device keeps from frame to frame.
 struct frame_memory {
     struct buffer vertices;  // x, y and key of the vertices of indexed meshes
-    struct buffer pieces;    // of parallel tasks; and the first vertex of each draw
+    struct buffer pieces;    // chunks of parallel tasks, and the first vertex of each draw
     struct buffer products;  // materials × lights
     struct buffer lights;    // the rows of light_bounds
     struct buffer bins;      // list heads of all threads' bins

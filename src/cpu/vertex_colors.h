@@ -23,7 +23,7 @@ struct vertex_run {
 struct vertex_colors {
     const struct kernels *kernels;
     struct shade_frame shade;
-    struct shading shading; // with its counters, and the results in `vertices`
+    struct shading shading; // includes its counters and the results in `vertices`
     struct light_pattern pattern;
     struct work work; // limited only by the call
     enum failure failure;
@@ -31,7 +31,7 @@ struct vertex_colors {
     float decode_srgb[256], decode_linear[256];
 };
 
-// `light`: the environment's light on physical materials; NULL: none. `hierarchy`: NULL if nothing casts shadows.
+// `light` is the environment's light on physical materials (may be NULL). `hierarchy` is NULL if nothing casts shadows.
 bool vertex_colors_start(struct vertex_colors *colors, const struct frame *frame, const struct environment_light *light,
                          const struct hierarchy *hierarchy, struct call_control *call, lam_error *error);
 // Fills shading.vertices.color and .rest, a row for each vertex of the run, of at most VERTEX_RUN_MAX. If memory runs

@@ -26,11 +26,11 @@ struct lam_device {
     char name[96];
     lam_isa isa; // AUTO and 0 threads if they do not apply
     int threads;
-    struct pool *pool; // NULL: only the calling thread works
+    struct pool *pool; // NULL if only the calling thread works
     struct frame frame;
-    struct hierarchy_memory hierarchy; // for edges, and for the CPU device's shadows
+    struct hierarchy_memory hierarchy; // used for edges and for the CPU device's shadows
     struct edge_memory edges;
-    struct recorder *recorder; // records one pixel (recorder.h); NULL: none
+    struct recorder *recorder; // records one pixel (recorder.h), or NULL
     lam_frame_report report;
 };
 

@@ -319,7 +319,7 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
     out->stops = params ? params->exposure : 0;
     copy_lights(&recorder, &device->frame);
     complete(&recorder, scene, camera, &device->frame);
-    explanation->arena = recorder.arena; // it has grown
+    explanation->arena = recorder.arena; // copied back because it has grown
     if (recorder.failed) {
         lam_explanation_free(out);
         fail(error, LAM_LIMIT, "out of memory");

@@ -11,7 +11,7 @@
 #define TARGET 0.8
 #define SHARE  0.95
 
-enum { SIDE_MAX = 512 }; // of the measured picture
+enum { SIDE_MAX = 512 }; // the largest side of the measured picture
 
 static int ascending(const void *a, const void *b)
 {

@@ -16,7 +16,7 @@ struct pick_ray {
 };
 
 struct pick_hit {
-    int draw; // −1: none
+    int draw; // the index of the draw, or −1
     uint32_t triangle;
     bool back;
     double distance;

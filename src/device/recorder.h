@@ -15,7 +15,7 @@ struct recorder {
     int capacity;
     bool failed; // out of memory
     int pixel;   // index of the pixel in its tile
-    // For each translucent fragment, its index + 1 in the explanation; 0: the fragment belongs to another pixel.
+    // For each translucent fragment, 1 + its index in the explanation, or 0 if it belongs to another pixel.
     uint32_t *layer_slots;
 
     // The current fragment.
@@ -25,7 +25,7 @@ struct recorder {
     float weight_1, weight_2;
     int lit_sample;
     float picture_x, picture_y;
-    float received, unobstructed; // for a ground that catches shadows
+    float received, unobstructed; // set for a ground that catches shadows
     lam_explained_map maps[LAM_MAP_COUNT];
     int map_count;
     lam_explained_values values;

@@ -27,7 +27,7 @@ struct edge_line {
     bool reversed;             // the chain runs from its second end to its first
     int style;
     bool whole[2];         // whether the end is an end of the edge itself
-    uint32_t first, count; // its points
+    uint32_t first, count; // the range of its points
 };
 
 // A point of a line, given as a fraction of the line's length in the window.

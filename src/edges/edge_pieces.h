@@ -7,7 +7,7 @@
 // An edge in the view, if dashes run along chains of edges (edge_chains.c).
 struct edge_measure {
     double x[2], y[2], length; // in the window, clipped to the picture; pixels
-    int style;                 // −1: it is not drawn
+    int style;                 // −1 if it is not drawn
     bool whole[2];             // whether the end is not clipped
     uint32_t link[2];          // the end that continues this end: twice the index of its edge, plus 0 or 1; or NO_LINK
     bool placed;
@@ -23,7 +23,7 @@ struct edge_piece {
     const struct frame_draw *draw;
     const struct mesh_edge *edges;
     uint32_t count;
-    struct edge_measure *measures; // one per edge; NULL: no chains
+    struct edge_measure *measures; // one per edge; NULL if there are no chains
     edge_rays *rays_of;
     struct edge_strokes *strokes; // out: strokes of the thread
     uint64_t drawn, rays;         // out: added to

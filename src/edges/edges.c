@@ -112,7 +112,7 @@ struct search {
     struct edge_memory *memory;
     struct edge_view view;
     edge_rays *rays_of;
-    size_t *first_pieces; // of each draw, plus one
+    size_t *first_pieces; // the first chunk of each draw, plus one at the end
     bool measures;        // whether the tasks measure instead of drawing
     uint64_t drawn, rays; // atomic
 };

@@ -21,10 +21,10 @@ struct edge_memory {
     // The edges of the draws' meshes, in the order of the draws, and their meshes.
     struct buffer edges, sources;
     int source_count;
-    struct scene_token *token; // the scene of the list; NULL: nothing is listed
+    struct scene_token *token; // the scene of the list; NULL if nothing is listed
     struct edge_strokes *strokes;
-    struct buffer scratch;  // for the threads
-    struct buffer measures; // of the edges, if hidden lines are dashed
+    struct buffer scratch;  // temporary memory of the threads
+    struct buffer measures; // measures of the edges, if hidden lines are dashed
     int thread_count;
     struct buffer coverage[EDGE_STYLES]; // one float per pixel
     bool styles[EDGE_STYLES];            // the styles in the last frame

@@ -17,7 +17,7 @@ enum {
 struct mesh_edge {
     uint32_t corner;
     uint32_t other; // a corner too; for EDGE_OPEN `corner` itself
-    uint32_t kind;  // of EDGE_…
+    uint32_t kind;  // EDGE_… bits
 };
 
 static inline uint32_t edge_end(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }

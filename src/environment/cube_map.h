@@ -16,7 +16,7 @@ struct lam_environment {
     int size;                        // texels per side of a face, without the border
     float *texels;                   // 6 faces of (size + 2)² times r, g, b; row t = −1 first
     size_t held;                     // bytes of the pages of its own texels
-    struct environment_light *light; // for physical materials, made on first use (environment_light.h)
+    struct environment_light *light; // the light on physical materials, made on first use (environment_light.h)
 };
 
 static inline size_t cube_row(const struct lam_environment *cube) { return (size_t)(cube->size + 2) * 3; }

@@ -28,7 +28,7 @@ struct cube_sums {
 
 struct environment_kernels {
     // Computes row t of a face of `out`: the sums of the cells from `first` to `end`, plus a cube that contains the
-    // sums of other cells (NULL: none).
+    // sums of other cells (may be NULL).
     void (*prefilter_row)(const struct lobe_cells *cells, int first, int end, const struct lam_environment *others,
                           struct lam_environment *out, int face, int t);
     // Computes such a row from all texels of a small copy. `alpha` < 0: the irradiance; else GGX's lobe with alpha =

@@ -15,7 +15,7 @@
 
 #define BRIGHT       3.0
 #define LAMP_COSINE  0.87 // cosine of 29.5 degrees
-#define LEAST_SHARE  0.05 // of the mean light; weaker lamps are ignored
+#define LEAST_SHARE  0.05 // as a share of the mean light; weaker lamps are ignored
 #define SOLID_ANGLE  12.566370614359172
 #define RADIUS_LEAST 0.0047 // the radius of the sun
 enum { LAMP_SIZE = 64, CANDIDATE_SIZE = 8 };

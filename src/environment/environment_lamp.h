@@ -6,10 +6,10 @@
 #include "environment_light.h"
 
 struct environment_lamp {
-    bool present;             // false: no part of the environment is much brighter than its mean
+    bool present;             // false if no part of the environment is much brighter than its mean
     double direction[3];      // towards the lamp, unit, in the environment's axes
     float color[3];           // the light of a white matt surface facing it: its irradiance / pi
-    float angular_radius_rad; // of a disc with the lamp's angular spread
+    float angular_radius_rad; // the radius of a disc with the lamp's angular spread
 };
 
 // Finds the lamp once and keeps it with the environment. Fails with LAM_LIMIT or LAM_CANCELLED. `call` may be NULL.

@@ -58,7 +58,7 @@ static struct sampled_light light_at(const struct lam_environment *cube, const f
 struct drawing {
     const struct lam_environment *cube, *small;
     const float (*to_environment)[3];
-    double *rows, *weights, total; // of the small copy: brightness per row, per texel of one row, and in total
+    double *rows, *weights, total; // the brightness of the small copy: per row, per texel of one row, and in total
 };
 
 // Draws directions towards light. The first coordinate of the point set selects the row, the second the texel in it;

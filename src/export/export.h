@@ -27,9 +27,9 @@ struct lam_export {
 
 // The state of an export.
 struct exporting {
-    const struct lam_scene *scene; // NULL: only a mesh
+    const struct lam_scene *scene; // NULL if there is only a mesh
     const lam_export_params *params;
-    const char *name;    // of the model's file
+    const char *name;    // the name of the model's file
     struct arena *arena; // memory of the export
     struct lam_export *out;
     lam_up from, to; // the up axis of the scene and of the format

@@ -6,34 +6,35 @@
 
 #include <jansson.h>
 
-// The accessors for the arrays of a scene's mesh in the buffer; −1: none.
+// The indices of the accessors for the arrays of a scene's mesh, −1 if missing.
 struct glb_arrays {
     bool ready;
     int position, normal, texcoords[2], tangent, color;
     int first_indices; // indices of its parts, consecutive
-    int first_mesh;    // the latest mesh of the file that uses it (glb_mesh.before); −1: none
+    int first_mesh;    // the latest mesh of the file that uses it (glb_mesh.before), or −1
 };
 
 // A mesh of the file: a mesh of the scene with the materials of an object.
 struct glb_mesh {
-    int material; // the object's; −1: the parts' materials
+    int material; // the object's material; −1 if the parts' materials are used
     bool double_sided;
-    int before; // the previous one that uses the same mesh of the scene; −1: none
+    int before; // the previous one that uses the same mesh of the scene, or −1
 };
 
 struct glb_image {
     const lam_texture *texture;
-    int index; // in `images`; −1: it cannot be written
+    int index; // the index in `images`; −1 if it cannot be written
 };
 
 struct glb {
     struct exporting *e;
     json_t *root, *accessors, *views, *meshes, *materials, *nodes, *images, *textures, *samplers, *lights, *cameras,
         *used;
-    struct text bytes;          // the buffer
-    struct glb_arrays *arrays;  // one per mesh of the scene
-    struct scene_list own;      // struct glb_mesh: one per mesh of the file
-    int *material_index[2];     // by double-sidedness: of each material, then the default one; −1: not written yet
+    struct text bytes;         // the buffer
+    struct glb_arrays *arrays; // one per mesh of the scene
+    struct scene_list own;     // struct glb_mesh: one per mesh of the file
+    // indexed by double-sidedness: for each material and the default one; −1 if not written yet
+    int *material_index[2];
     struct scene_list pictures; // struct glb_image
     int thumbnail;              // index of its image
     bool failed;                // memory ran out in the JSON
@@ -57,7 +58,7 @@ bool glb_append(struct glb *glb, struct scene_list *list, const void *item, size
 // Returns the index of the file's mesh for an object, or −1 if memory runs out.
 int glb_mesh_of(struct glb *glb, const lam_object *object);
 
-// Returns the index of a material (−1: the default one) in the file.
+// Returns the index of a material in the file. −1 is the default material.
 int glb_material(struct glb *glb, int material, bool double_sided);
 
 // Returns the JSON object for a map's texture, with its texture coordinates and transform. Returns NULL if there is no

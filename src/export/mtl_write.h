@@ -5,8 +5,8 @@
 #include "export.h"
 
 struct mtl_names {
-    const char *file;         // file of the materials; NULL: none
-    const char *const *names; // of each material of the scene, then of the default one; NULL: not used
+    const char *file;         // the file of the materials, or NULL
+    const char *const *names; // the names of the scene's materials, then of the default one; NULL if not used
     int count;
     // The texture coordinates follow glTF, in which t points down, so t is written as 1 − t.
     bool flips;

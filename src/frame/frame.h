@@ -47,9 +47,9 @@ struct frame_draw_range {
     int draw;
     int front, back;           // indices into materials
     bool translucent;          // an opacity may be below 1, or it transmits: the triangles are blended or masked
-    lam_reflection reflection; // of both sides; never AUTO
+    lam_reflection reflection; // the model for both sides, never AUTO
     bool passes_rays;          // translucent for rays, for every output
-    bool transmits;            // it transmits light (LAYER_TRANSMISSION), and the output shows that
+    bool transmits;            // the material transmits light (LAYER_TRANSMISSION), and the output shows that
 };
 
 // A point, directional or spot light in eye space.
@@ -58,19 +58,20 @@ struct frame_light {
     float position[3];
     float axis[3]; // unit, direction of travel of the light
     float attenuation[3];
-    float inverse_range; // 0: none
+    float inverse_range; // 0 if there is none
     float cos_cutoff, exponent;
     float cos_outer, inverse_width;
-    float ambient[3]; // with gl1: the light's own ambient term; otherwise it is part of the frame's sum
+    float ambient[3]; // the light's own ambient term with gl1; otherwise it is part of the frame's sum
     float diffuse[3], specular[3];
     float occluded; // share of the light that ambient occlusion dims
-    int light;      // index in the scene; −1: a light of the rig
+    int light;      // the index in the scene; −1 for a light of the rig
     const lam_light *source;
     // With shadows only.
     bool casts_shadows;
     double world_position[3]; // point, spot
     double world_axis[3];     // unit, direction of travel of the light
-    double radius;            // point, spot: of the sphere; directional: of the disc at distance 1; 0: a point
+    // the radius of a sphere (point, spot) or of a disc at distance 1 (directional); 0 is a point
+    double radius;
 };
 
 // Sets the kind, falloff, attenuation, range and cone of a light, and zeroes position, axis and colours.
@@ -79,13 +80,13 @@ void frame_light_init(struct frame_light *out, const lam_light *light);
 struct frame_hemisphere {
     float up[3]; // unit, eye space
     float sky[3], ground[3];
-    int light; // as in frame_light
+    int light; // same as in frame_light
     const lam_light *source;
 };
 
 // The ground under the scene (frame_ground.h).
 struct frame_ground {
-    lam_ground kind; // NONE: no ground, or only its underside is visible
+    lam_ground kind; // NONE if there is no ground, or only its underside is visible
     // World space: the point under the scene's centre, and unit vectors.
     lam_vec3 middle, right, up, front;
     double whole, end;                          // distances from `middle` at which fading begins and ends
@@ -93,7 +94,7 @@ struct frame_ground {
     float eye_middle[3], eye_up[3], eye_height; // eye space: the plane's points p have p·eye_up = eye_height
     lam_mesh mesh;
     lam_material material;
-    uint32_t first_id; // of its triangles, the frame's last
+    uint32_t first_id; // the first of its triangles, which are the frame's last
     struct buffer memory;
 };
 
@@ -116,14 +117,14 @@ struct frame {
     lam_draw_params settings;
     float exposure;            // 2^stops
     int point_triangles;       // triangles per point (frame_strokes.h)
-    double eye_to_world[3][4]; // with rays only
+    double eye_to_world[3][4]; // only set with rays
     bool draws_edges;          // `edges` is set
     struct frame_edges edges;
     bool distant_viewer; // v = +z at every point: the camera is orthographic, or the viewer is LAM_VIEWER_INFINITE
     bool orthographic;
     float pixel_size;       // size of a pixel in eye units, at distance 1 or, if orthographic, everywhere
-    float occlusion_radius; // eye units; 0: none at this radius
-    float cavity_radius;    // eye units; 0: no cavity
+    float occlusion_radius; // eye units; 0 if there is none at this radius
+    float cavity_radius;    // eye units; 0 if there is no cavity
     bool ridges;            // cavity shading lightens ridges
     bool translucent;       // whether any range is translucent
     bool passes_rays;       // whether any range has passes_rays
@@ -148,7 +149,7 @@ struct frame {
 
     struct frame_draw *draws;
     int draw_count;
-    struct frame_draw_range *ranges; // by first_id, without gaps
+    struct frame_draw_range *ranges; // sorted by first_id, without gaps
     int range_count;
     uint32_t triangle_count;
     // 0: the default material; 1 + i: material i of the scene. If some materials are the back of a front that the other
@@ -166,7 +167,7 @@ struct frame {
     int hemisphere_count;
     float ambient[3]; // La_global + Σ La of all lights (gl1: of lights without a position only)
 
-    const lam_environment *environment; // NULL: none
+    const lam_environment *environment; // may be NULL
     bool environment_lights;            // whether it lights a range with a physical model (environment_light.h)
     float to_environment[3][3];         // from eye space to the environment's axes
 

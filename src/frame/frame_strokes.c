@@ -197,7 +197,7 @@ struct builder {
     double near_plane;                   // the depth that the offset moves to the near plane
     double half;                         // half the width, pixels
     size_t corners;                      // corners per polygon
-    double corner[POINT_CORNERS_MAX][2]; // of a point's polygon, pixels from its centre
+    double corner[POINT_CORNERS_MAX][2]; // the corners of a point's polygon, in pixels from its centre
     double bitangent;                    // sign of mirroring transforms
 };
 

@@ -19,14 +19,14 @@ typedef float box_of_six[6];
 // Box i of the lowest level contains `block` used vertices from number i · block on; a box of the next level contains
 // BOX_CHILDREN boxes. The topmost level has at most BOX_CHILDREN boxes.
 struct aabb_tree {
-    const box_of_six *boxes; // one level after the other from the lowest; NULL: no vertices
+    const box_of_six *boxes; // one level after the other from the lowest; NULL means no vertices
     size_t block;
     size_t vertices;
     int levels;
     size_t first[BOX_LEVELS], count[BOX_LEVELS];
 };
 
-// `used` lists the vertices of the tree, in order (NULL: the first `count`). Returns false if memory runs out.
+// `used` lists the vertices of the tree, in order (NULL means the first `count`). Returns false if memory runs out.
 bool box_tree_make(struct aabb_tree *tree, const lam_mesh *mesh, const uint32_t *used, size_t count,
                    struct arena *arena, struct pool *pool, lam_error *error);
 

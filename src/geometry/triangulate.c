@@ -34,7 +34,7 @@ struct corner {
     int32_t x, y;
     uint32_t previous, next; // around the remaining polygon
     uint32_t earlier, later; // in the queue of its level
-    uint32_t slot;           // in the tree; NONE: not in it
+    uint32_t slot;           // in the tree; NONE if not in it
     uint8_t level;           // LEVELS: in no queue
 };
 
@@ -49,7 +49,7 @@ struct clip {
     uint32_t first[LEVELS], last[LEVELS]; // queues
     uint32_t *points;                     // corner numbers in Morton order
     struct box *boxes; // a complete binary tree, node i's children 2i and 2i + 1, leaves from `leaves` on
-    uint32_t leaves;   // a power of two; 0: no points
+    uint32_t leaves;   // a power of two; 0 means no points
     uint64_t steps;    // nodes and points of the tree visited by tests
     uint64_t most;     // limit of `steps`
 };

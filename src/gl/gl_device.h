@@ -31,8 +31,8 @@ enum texture_unit {
     UNIT_ENVIRONMENT,
     UNIT_LIGHTS,
     UNIT_PRODUCTS,
-    UNIT_NEARER_DEPTH_IDS, // of the previous layer
-    UNIT_OPAQUE_DEPTH_IDS, // of the opaque surfaces
+    UNIT_NEARER_DEPTH_IDS, // depth and number of the previous layer
+    UNIT_OPAQUE_DEPTH_IDS, // depth and number of the opaque surfaces
     UNIT_OCCLUSION =
         UNIT_NEARER_DEPTH_IDS, // only translucent surfaces read these, and occlusion dims only the ground among them
     UNIT_ENVIRONMENT_LIGHT = UNIT_OPAQUE_DEPTH_IDS + 1,
@@ -66,7 +66,7 @@ struct mesh_run {
 };
 
 struct gl_mesh {
-    struct scene_token *token; // referenced; NULL: the entry is free
+    struct scene_token *token; // referenced; NULL means the entry is free
     lam_mesh mesh;             // the arrays from which the buffers were made
     enum vertex_form form;
     bool passing; // the arrays belong to one frame only
@@ -82,7 +82,7 @@ struct gl_mesh {
 // --- textures
 
 struct gl_texture {
-    struct lam_texture *texture; // shared; NULL: the entry is free
+    struct lam_texture *texture; // shared; NULL means the entry is free
     struct scene_token *token;   // referenced: the scene that was drawn when the texture was uploaded
     GLuint name;
     uint64_t bytes;
@@ -91,7 +91,7 @@ struct gl_texture {
 
 // The state of a texture unit that determines wrapping and filtering.
 struct gl_sampler {
-    GLuint name; // 0: not made
+    GLuint name; // 0 if not made
     int anisotropy;
 };
 enum { SAMPLER_COUNT = LAM_WRAP_COUNT * LAM_WRAP_COUNT * LAM_FILTER_COUNT * LAM_FILTER_COUNT * LAM_MIP_COUNT };
@@ -139,8 +139,8 @@ enum uniform {
 struct gl_program {
     struct glsl_choices choices;
     GLuint name;
-    GLint locations[UNIFORM_COUNT];      // −1: the program does not have the uniform
-    uint8_t map_units[2][LAM_MAP_COUNT]; // texture units of the maps of the front and the back; 0: none
+    GLint locations[UNIFORM_COUNT];      // −1 if the program does not have the uniform
+    uint8_t map_units[2][LAM_MAP_COUNT]; // texture units of the maps of the front and the back, or 0
     // The current values, and whether any has been set.
     float values[UNIFORM_FLOATS][16];
     int ints[UNIFORM_COUNT - UNIFORM_FLOATS];
@@ -149,16 +149,17 @@ struct gl_program {
 
 // --- targets
 
-// A framebuffer and its textures; 0: the target does not have it. depth_id: depth and triangle number of each pixel.
+// A framebuffer and its textures, which are 0 if the target does not have them. depth_id: depth and triangle number of
+// each pixel.
 struct gl_target {
     GLuint framebuffer, color, depth_id, depth;
     GLuint through; // transmittance of a layer for each channel
 };
 
 struct gl_targets {
-    int width, height; // of all textures; at least the part's size
+    int width, height; // the size of all textures, at least the part's size
     bool layered, tinted;
-    struct gl_target tint;      // with `tinted`: transmittance of all layers so far
+    struct gl_target tint;      // with `tinted`, the transmittance of all layers so far
     struct gl_target sample;    // one sample of each pixel: the opaque surfaces
     struct gl_target layers[2]; // the current layer of translucent surfaces, and the previous one
     struct gl_target sum;       // the layers composited
@@ -190,17 +191,17 @@ enum gl_blending {
 // caller's context.
 struct gl_current_state {
     GLuint program, array, framebuffer;
-    int unit; // active texture unit; −1: unknown
+    int unit; // active texture unit; −1 if unknown
     GLuint textures[UNIT_COUNT], samplers[UNIT_COUNT];
     struct {
         GLuint buffer;
         size_t offset, size;
     } blocks[POINT_COUNT];
-    int cull;                  // lam_cull; −1: unknown
-    lam_cull culled;           // the argument of the last glCullFace; LAM_CULL_NONE: unknown
-    int front;                 // 1: mirrored
+    int cull;                  // lam_cull; −1 if unknown
+    lam_cull culled;           // the argument of the last glCullFace; LAM_CULL_NONE if unknown
+    int front;                 // 1 if mirrored
     enum gl_blending blending; // BLENDING_UNKNOWN: unknown
-    enum gl_blending factors;  // of the last glBlendFunc
+    enum gl_blending factors;  // the arguments of the last glBlendFunc
     int width, height;         // viewport
 };
 
@@ -218,11 +219,11 @@ struct gl_device {
     struct gl_context context;
     bool external_context;         // the context is the caller's
     bool lecture, hardware_filter; // lam_gl_params
-    int mistake;                   // as glsl_choices.mistake
+    int mistake;                   // same as glsl_choices.mistake
     GLint block_size_max, block_alignment, texture_size_max;
     GLint unit_count;    // number of texture units of the fragment shader that are used, up to UNIT_COUNT
     bool has_norm16;     // textures of 16 bits for 0…1
-    GLenum float_format; // of the targets: GL_RGBA32F, or GL_RGBA16F if the driver supports no more
+    GLenum float_format; // the format of the targets: GL_RGBA32F, or GL_RGBA16F if the driver supports no more
 
     struct gl_mesh *meshes;
     int mesh_count, mesh_capacity;
@@ -246,7 +247,7 @@ struct gl_device {
     struct gl_targets targets;
     struct buffer occlusion; // planes of struct screen_occlusion
     struct buffer occlusion_rows;
-    GLuint occlusion_texture; // for the current part
+    GLuint occlusion_texture; // the occlusion of the current part
     struct gl_light_buffer lights, products;
     struct lam_environment *environment; // referenced; its faces are in environment_texture
     GLuint environment_texture, environment_light_texture;
@@ -260,8 +261,8 @@ struct gl_device {
     struct gl_current_state current;
     struct buffer scratch;    // vertices before an upload
     struct buffer pixels;     // pixels after a readback
-    struct buffer draw_calls; // of the frame
-    struct buffer runs;       // of the draw being set up
+    struct buffer draw_calls; // the frame's draw calls
+    struct buffer runs;       // the runs of the current draw
 
     float decode_srgb[256];
     uint64_t frame_number;
@@ -288,10 +289,10 @@ struct gl_frame {
     struct gl_draw_call *draw_calls;
     int draw_call_count;
     enum glsl_storage storage;
-    const struct environment_light *environment_light; // on physical materials; NULL: none
+    const struct environment_light *environment_light; // the environment's light on physical materials, or NULL
     bool layered;                                      // whether translucent surfaces are drawn by depth peeling
     bool only_opaque;                                  // translucent and masked surfaces are omitted
-    const struct screen_occlusion *occlusion;          // NULL: none
+    const struct screen_occlusion *occlusion;          // may be NULL
     lam_stage stage;
     size_t material_stride; // distance between the products of consecutive materials, in bytes or texels
     // The current part of the picture, and the sample's offset from the pixel's centre (pixels, y down).
@@ -324,7 +325,8 @@ void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum 
 void gl_use_program(struct gl_device *device, GLuint program);
 void gl_use_array(struct gl_device *device, GLuint array);
 void gl_use_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture);
-void gl_use_sampler(struct gl_device *device, enum texture_unit unit, GLuint sampler); // 0: the texture's own sampler
+// Binds a sampler to a texture unit; 0 selects the texture's own sampler.
+void gl_use_sampler(struct gl_device *device, enum texture_unit unit, GLuint sampler);
 // Does the same as gl_use_texture, and makes the unit active, which uploads need.
 void gl_edit_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture);
 void gl_use_framebuffer(struct gl_device *device, GLuint framebuffer);
@@ -340,8 +342,8 @@ bool mesh_can_share(const lam_mesh *mesh);
 void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form, uint32_t first,
                    uint32_t count, struct mesh_vertex *out);
 uint32_t mesh_vertex_count(const lam_mesh *mesh, enum vertex_form form);
-// Returns the mesh's buffers, created on first use; `passing` arrays may change after the frame. With runs (NULL: none)
-// the elements are ordered by call. The pointer is valid until the next call. Returns NULL on failure.
+// Returns the mesh's buffers, created on first use; `passing` arrays may change after the frame. With runs (may be
+// NULL) the elements are ordered by call. The pointer is valid until the next call. Returns NULL on failure.
 struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form, bool passing,
                             const struct mesh_run *runs, int run_count, lam_error *error);
 // Frees the meshes of scenes that no longer exist, and meshes that the frame's scene no longer draws.
@@ -403,7 +405,7 @@ bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count
 void surfaces_pack(struct gl_frame *f, size_t first, float *out);
 uint64_t surfaces_bytes(const struct gl_device *device);
 void surfaces_free(struct gl_device *device);
-// Returns the position of a triangle's record, by its number in the frame; 0: it transmits no light.
+// Returns the position of a triangle's record, by its number in the frame; 0 if it transmits no light.
 size_t surfaces_record(const struct gl_frame *f, uint32_t number);
 
 // --- gl_shadows.c

@@ -39,7 +39,7 @@ struct packed_pixels {
 // Everything is packed twice. The first pass only computes the size and the key. Pictures and meshes are identified by
 // their addresses, because a scene never changes arrays and keeps them as long as it exists.
 struct packer {
-    float *out; // NULL: only size and key are computed
+    float *out; // NULL means only size and key are computed
     size_t first, used;
     uint8_t *key;
     size_t key_size;

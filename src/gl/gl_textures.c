@@ -18,7 +18,7 @@
 
 // The format of an uploaded texture.
 struct format {
-    GLenum stored, type; // of the graphics card's texels, and of the uploaded numbers
+    GLenum stored, type; // the formats of the stored texels and of the uploaded numbers
     size_t bytes;        // per uploaded texel, and approximately per stored one
 };
 

@@ -32,7 +32,7 @@ struct egl {
 #define EGL_FIELD(name) __typeof__(&egl##name) name;
     EGL_FUNCTIONS(EGL_FIELD)
 #undef EGL_FIELD
-    // Extensions; NULL: not available.
+    // Extensions; NULL if not available.
     PFNEGLGETPLATFORMDISPLAYEXTPROC GetPlatformDisplay;
     PFNEGLQUERYDEVICESEXTPROC QueryDevices;
     PFNEGLQUERYDEVICESTRINGEXTPROC QueryDeviceString;
@@ -47,7 +47,7 @@ bool egl_open(struct egl *egl, const char *library, lam_error *error);
 // Returns the error of the last EGL call as a phrase.
 const char *egl_reason(const struct egl *egl);
 
-// Returns whether a space-separated list (NULL: empty) contains the word.
+// Returns whether a space-separated list (NULL if empty) contains the word.
 bool list_has(const char *list, const char *word);
 
 // Fills the table of functions. Fails with LAM_UNSUPPORTED, and names the first missing one.

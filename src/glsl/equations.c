@@ -108,7 +108,7 @@ static int split_definitions(struct definition *definitions, int count, char *so
 
 enum { BUCKETS = 256 };
 struct definition_index {
-    int first[BUCKETS], next[DEFINITIONS_MAX]; // chains of definitions whose names have the same hash; -1: the end
+    int first[BUCKETS], next[DEFINITIONS_MAX]; // chains of definitions whose names have the same hash; -1 means the end
 };
 
 static unsigned hash_of(const char *name, size_t length)

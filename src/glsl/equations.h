@@ -6,10 +6,10 @@
 
 // A part of a stage: definitions in the order of their calls, with their comments.
 struct stage_source {
-    const char *title; // heading of the called definitions; NULL: none
-    const char *text;  // NULL: none
+    const char *title; // heading of the called definitions, or NULL
+    const char *text;  // may be NULL
     bool made;         // the text is generated for this stage and printed unchanged
-    bool whole;        // its functions keep unread parameters and variables
+    bool whole;        // keeps unread parameters and variables of its functions
 };
 
 // Appends the definitions that the function `main` needs, directly or indirectly: those in the equations first, then

@@ -56,7 +56,7 @@ enum { GLSL_KINDS = 5, GLSL_FALLOFFS = 3, GLSL_GROUPS_MAX = GLSL_KINDS * GLSL_FA
 struct glsl_map {
     uint8_t used;
     uint8_t texels; // maps of a range with the same number have the same texels everywhere
-    uint8_t texcoords, wrap_s, wrap_t, magnify, minify, mip, channel; // as in lam_texture_map
+    uint8_t texcoords, wrap_s, wrap_t, magnify, minify, mip, channel; // same as in lam_texture_map
 };
 
 // The choices that determine a shader's text. Zero the struct before assigning members if memcmp is to compare it.
@@ -80,13 +80,13 @@ struct glsl_choices {
     bool single_scattering;
     bool passed;          // each light is multiplied by a share, a uniform that the program sets (texels: position.w)
     bool shadows;         // traverses the hierarchy in a texture (shadows.glsl); not in 120
-    bool passes_rays;     // with shadows: some triangles transmit light
-    bool tints_rays;      // with passes_rays: they also tint the light
+    bool passes_rays;     // with shadows, some triangles transmit light
+    bool tints_rays;      // with passes_rays, they also tint the light
     bool catches;         // a shadow catcher: black, with the blocked share of the light as opacity
-    lam_tone tone;        // for GLSL_ENCODED; AUTO, NONE: the light is clamped
+    lam_tone tone;        // used for GLSL_ENCODED; with AUTO and NONE the light is clamped
     bool exposes;         // the fragment multiplies its light by the uniform `exposure`
     bool lecture;         // the lecture style (lecture.h)
-    int mistake;          // in the lecture style: mistake_find; 0: none
+    int mistake;          // mistake_find in the lecture style, or 0
     bool products;        // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
     bool two_sided;       // the back is lit with −n
     bool back_material;   // the back has its own material
@@ -141,7 +141,7 @@ struct glsl_light {
     float position[4];
     // eye space, unit, direction of travel; w 0, or with `occlusion` the share that occlusion dims
     float direction[4];
-    float attenuation[4]; // constant, linear, quadratic, 1 / range (0: none)
+    float attenuation[4]; // constant, linear, quadratic, 1 / range (0 if there is none)
     float cone[4];        // cos cutoff, exponent, cos outer, 1 / max(0.001, cos inner − cos outer)
     float diffuse[4], specular[4], ambient[4];
 };
@@ -200,7 +200,7 @@ float glsl_alpha_cutoff(const struct frame *frame, const lam_material *material)
 void glsl_mapped_emission(const struct frame *frame, const struct frame_draw_range *range, bool back, float out[4]);
 
 // Gets the rows of a map's uniforms NAME_map_s and NAME_map_t: the matrix from the mesh's texture coordinates to the
-// picture's, with the scale and the offset of the texel. NULL: a map whose value is 1 everywhere.
+// picture's, with the scale and the offset of the texel. A NULL map has the value 1 everywhere.
 void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4], float t[4]);
 
 // Returns whether a mesh has the texture coordinates that a map uses.

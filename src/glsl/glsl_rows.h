@@ -42,13 +42,13 @@ struct glsl_row {
     enum glsl_semantic semantic;
     const char *type; // "vec4", "Light"
     char name[32];
-    int count;         // elements of an array; 0: not an array
-    const char *block; // NULL: a plain uniform
+    int count;         // elements of an array; 0 if not an array
+    const char *block; // NULL for a plain uniform
     const char *meaning;
     bool back; // belongs to the back material
     // Offset in floats of a member or a head: in struct glsl_light, in the material, or in up, sky, ground.
     int at;
-    lam_map map; // of GLSL_MAP…
+    lam_map map; // the map of GLSL_MAP…
 };
 enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
 
@@ -151,7 +151,7 @@ struct glsl_layer_input {
     bool color;
 };
 const struct glsl_layer_input *glsl_layer_input(int index);                             // NULL past the end
-const struct glsl_layer_input *glsl_layer_input_of(const struct material_field *field); // NULL: none
+const struct glsl_layer_input *glsl_layer_input_of(const struct material_field *field); // may be NULL
 // Appends the lines that set the variable `given`, of struct layer_values, except for its vectors.
 void glsl_add_layers(struct text *text, const struct glsl_facts *facts);
 // Appends the struct of values from maps, and the functions that fill it.
@@ -162,7 +162,7 @@ void glsl_add_parameter(struct text *text, const struct glsl_facts *facts, const
 // Appends the call that evaluates the lobe for the light sample `t`: "reflected_of(phong_lobe(s, t.l), shininess)".
 void glsl_add_lobe(struct text *text, const struct glsl_facts *facts);
 
-// Returns the name of a tone curve's function; "": none.
+// Returns the name of a tone curve's function, or "".
 const char *glsl_tone_function(lam_tone tone);
 
 // Lists the uniforms of both shaders in the order of their declaration, which is also the layout of each block. Returns

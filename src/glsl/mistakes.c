@@ -26,7 +26,7 @@ struct edit {
 struct mistake {
     const char *id, *looks, *needs;
     struct edit edits[EDITS_MAX];
-    const char *contains; // a text that the shader must contain; NULL: none
+    const char *contains; // a text that the shader must contain, or NULL
     enum { ANY_LIGHTS, ONE_LIGHT, MORE_LIGHTS } lights;
 };
 

@@ -349,7 +349,7 @@ static int block_offset(int *end, const char *type)
 struct uniform_list {
     lam_shader_uniform *out;
     int count;
-    int end; // of the block's values so far
+    int end; // the end of the block's values so far
     const char *block;
     bool failed;
 };

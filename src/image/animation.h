@@ -11,7 +11,7 @@
 struct animation_settings {
     int width, height;
     double frames_per_second;
-    int loops;              // 0: forever
+    int loops;              // 0 means forever
     lam_save_params frames; // without a control
 };
 

@@ -18,8 +18,8 @@ struct picture_file {
 struct codec {
     const char *name;  // "png"; also the file extension, without its dot
     const char *title; // for messages: "PNG"
-    const char *alias; // another file extension; NULL: none
-    // One line for lists about the stored numbers. NULL: this format is only read, and `write` is NULL too.
+    const char *alias; // another file extension, or NULL
+    // One line for lists about the stored numbers. NULL means this format is only read, and `write` is NULL too.
     const char *written;
     lam_pixel_format pixels;
     // Its files have no signature, so it is tried after all others, by the file extension.
@@ -39,11 +39,11 @@ struct codec {
 
     // Decodes without loss of precision. With more than 8 bits per channel, `image` becomes LAM_RGBA32F with the file's
     // numbers, 0…1, neither decoded nor premultiplied, and *wide becomes true. With 8 bits and no alpha it becomes
-    // LAM_RGB8. NULL: use `read`.
+    // LAM_RGB8. NULL means use `read`.
     bool (*read_wide)(const struct picture_file *file, lam_image *image, bool *wide, lam_error *error);
 
     // Returns whether the first bytes of a file of this format (CODEC_HEAD bytes or the whole file) state that Lambent
-    // wrote it. NULL: the format cannot store this.
+    // wrote it. NULL means the format cannot store this.
     bool (*ours)(const uint8_t *bytes, size_t size);
 };
 
@@ -64,7 +64,7 @@ const struct codec *codec_of(const uint8_t *bytes, size_t size, const char *name
 // Checks the parameters. Fails with LAM_BAD_ARGUMENT.
 bool save_params_check(const lam_save_params *params, lam_error *error);
 
-// Returns the threads for encoding a picture; NULL: only this thread. `threads` is as in lam_save_params.
+// Returns the threads for encoding a picture; NULL means only this thread. `threads` is as in lam_save_params.
 struct pool *encoding_pool(const lam_image *image, int threads);
 
 // Returns whether a picture of this size may be read, before memory is allocated for it. Fails with LAM_LIMIT

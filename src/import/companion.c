@@ -211,7 +211,7 @@ bool companions_of_model(const struct import_source *scene, const char *name, co
     *out = *(const struct companions *)scene->open_state;
     const char *path = model->path;
     if (!path) {
-        copy_components(name, inside, sizeof inside); // as open_of_scene does
+        copy_components(name, inside, sizeof inside); // same as in open_of_scene
         path = inside;
     }
     const char *folder = arena_string_of(arena, path, (size_t)(path_name(path) - path));

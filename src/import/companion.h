@@ -7,9 +7,10 @@
 // The state of import_source.open and .open_of_scene: the search locations.
 struct file_list;
 struct companions {
-    const char *folder; // of the naming file, with its '/' ("": the current one); NULL: the naming file is not on disk
-    const char *inside; // prefix of names for `open`: the folder of a model within a scene, with its '/'; "": none
-    lam_open_fn *open;  // the caller's function; NULL: files are opened in `folder`
+    // the folder of the naming file with its '/' ("" is the current folder); NULL if the naming file is not on disk
+    const char *folder;
+    const char *inside; // prefix of names for `open`: the folder of a model within a scene, with its '/', or ""
+    lam_open_fn *open;  // the caller's function; NULL if files are opened in `folder`
     lam_release_fn *release;
     void *user;
     struct file_list *files; // receives every path that is tried; may be NULL
@@ -18,9 +19,9 @@ struct companions {
 // An opened file. The caller releases `file`.
 struct companion {
     struct file_bytes file;
-    const char *path;  // its path; NULL: it came from the caller's function
+    const char *path;  // the file's path; NULL if it came from the caller's function
     const char *real;  // identifies the file: its path without links, or its name for the caller's function
-    const char *shown; // its name in messages: the folder, then the name shortened by shown_name
+    const char *shown; // the file's name in messages: the folder, then the name shortened by shown_name
 };
 
 // Implements import_source.open. The name is confined first (companion_name). After following links, the file must be

@@ -18,7 +18,7 @@ void file_list_start(struct file_list *list);
 // Adds a copy of a path, from any thread. Returns whether the path is new. `list` may be NULL.
 bool file_list_add(struct file_list *list, const char *path);
 
-// Passes the model's own path (NULL: none) and then the other paths, in alphabetical order without duplicates, to the
+// Passes the model's own path (may be NULL) and then the other paths, in alphabetical order without duplicates, to the
 // scene, whose arena copies them. Returns false if memory runs out.
 bool file_list_give(struct file_list *list, const char *model, struct lam_scene *scene, lam_error *error);
 

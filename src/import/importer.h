@@ -16,7 +16,7 @@ typedef bool open_companion(const struct import_source *source, const char *name
 
 struct import_source {
     const char *name;     // for messages: the path as the user wrote it
-    const char *path;     // its path; NULL: from memory or standard input
+    const char *path;     // the file's path; NULL if it is in memory or standard input
     const uint8_t *bytes; // FILE_PADDING zero bytes follow the last one
     size_t size;
     // The owner of `bytes`. An importer whose arrays point into them may move it to the scene's arena
@@ -57,8 +57,8 @@ struct importer {
 IMPORTERS(IMPORTER)
 #undef IMPORTER
 
-// Returns the crease angle for scene_prepare in a load with these parameters (0: the default). Flat normals are facet
-// normals.
+// Returns the crease angle for scene_prepare in a load with these parameters (0 means the default). Flat normals are
+// facet normals.
 static inline double importer_crease(const struct importer *importer, lam_normals normals, double crease_angle_rad)
 {
     return importer->flat_normals && normals == LAM_NORMALS_FILE && crease_angle_rad == 0 ? FACET_CREASE_RAD

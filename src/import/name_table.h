@@ -5,7 +5,7 @@
 #include "arena.h"
 
 struct name_entry {
-    const char *name; // NULL: free
+    const char *name; // NULL if free
     int32_t value;
 };
 

@@ -11,17 +11,17 @@
 #include <stdarg.h>
 
 struct json_reader {
-    const char *file; // its name, for messages
+    const char *file; // the file's name for messages
     lam_error
         *error; // LAM_CANNOT_READ with "FILE: PLACE: sentence", or "FILE:LINE: PLACE: sentence" if there is a text
-    const char *text; // the file's text, of `size` bytes; NULL: errors name no line
+    const char *text; // the file's text, of `size` bytes; if NULL, errors name no line
     size_t size;
 };
 
 // A value's position in the file, objects[1].material.shininess, stored from the innermost member outwards.
 struct place {
-    const struct place *within; // NULL: the file itself
-    const char *key;            // NULL: an element of a list
+    const struct place *within; // NULL means the file itself
+    const char *key;            // NULL means an element of a list
     size_t index;
 };
 #define KEY_OF(parent, name)       (&(struct place){.within = (parent), .key = (name)})

@@ -12,7 +12,7 @@ STRUCT(layer_values)
     vec3 base; // base colour
     num metallic;
     num roughness;
-    num ior;                 // of the dielectric
+    num ior;                 // the dielectric's index of refraction
     num specular_weight;     // reflectance at grazing angles
     vec3 f0_color;           // factor of the reflectance along the normal
     num specular_glossiness; // share of the reflectance along the normal that the matt part loses
@@ -27,7 +27,7 @@ STRUCT(layer_values)
     num iridescence_ior;
     num film; // thickness in nanometres
     num transmission;
-    num thickness;        // of the volume behind the surface
+    num thickness;        // the thickness of the volume behind the surface
     num path;             // distance that light travels in it, in units of attenuation_distance
     vec3 attenuation_log; // log2 of the volume's colour after a path of 1
 };

@@ -13,7 +13,7 @@
 STRUCT(surface)
 {
     vec3 p; // the point
-    vec3 n; // its normal, on the visible side
+    vec3 n; // the surface's normal, on the visible side
     vec3 v; // towards the eye
     vec3 t; // along the surface, perpendicular to n; for the lobes of threads
 };

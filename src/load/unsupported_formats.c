@@ -5,7 +5,7 @@
 #include <string.h>
 #include <strings.h>
 
-// A file is of the first kind whose `magic` is at `offset` and whose `within` occurs in it (NULL: not required).
+// A file is of the first kind whose `magic` is at `offset` and whose `within` occurs in it (NULL if not required).
 static const struct kind {
     struct unsupported_format kind;
     unsigned offset, length;

@@ -23,7 +23,7 @@ struct occlusion_pattern {
     int count;
     double x[OCCLUSION_RAYS_MAX], y[OCCLUSION_RAYS_MAX], z[OCCLUSION_RAYS_MAX]; // the rotations of occlusion_turn
     double length[OCCLUSION_RAYS_MAX];                     // 0…1, from the longest ray to the shortest
-    double cosine[OCCLUSION_TURNS], sine[OCCLUSION_TURNS]; // of the turns of occlusion_turn
+    double cosine[OCCLUSION_TURNS], sine[OCCLUSION_TURNS]; // the cosines and sines of the turns of occlusion_turn
 };
 
 // Returns the turn at a pixel: interleaved gradient noise (Jimenez 2014) in whole numbers, whose neighbours differ as

@@ -19,20 +19,20 @@ struct pool;
 // pixels, cells of two by two pixels, which take a quarter of the time. Each pixel then gets the mean of the
 // surrounding cells on its surface.
 struct screen_occlusion {
-    int width, height;           // of the picture
+    int width, height;           // the size of the picture
     int step;                    // pixels along the side of a cell: 1 or 2
     int grid_width, grid_height; // cells; cells at the picture's edge may be one pixel smaller
     int stride;                  // floats from row to row of a plane
     size_t plane;                // floats from plane to plane
     bool orthographic;
     float pixel_size;    // size of a pixel in eye units, at distance 1 or, if orthographic, everywhere
-    float radius;        // radius of occlusion, eye units; 0: none at this radius
+    float radius;        // radius of occlusion, eye units; 0 if there is none at this radius
     float cavity_radius; // radius of cavity shading (lam_cavity)
     bool ridges;         // whether cavity shading lightens ridges
     // The distance of the visible surface in front of the eye at each pixel, or SCREEN_EMPTY: one plane for each pixel
     // of a cell (screen_pixel). The caller fills it; screen_occlusion_start writes SCREEN_EMPTY around the picture.
     float *depth;
-    float *cell_depth; // of the first pixel of each cell that shows a surface
+    float *cell_depth; // the depth of the first pixel of each cell that shows a surface
     // The slope of each cell's surface, computed with its occlusion: the change of distance from cell to cell.
     float *slope_x, *slope_y;
     float *noisy, *smoothed; // before the filter, and after its first pass
@@ -79,7 +79,7 @@ static inline float screen_ground_depth(const struct frame *frame, int x, int y)
     return seen && (dx * dx + dy * dy) + dz * dz < end * end ? depth : SCREEN_EMPTY;
 }
 
-// Sets up a picture's rows in `storage`, without any surface, using several threads (`pool` NULL: one). `lent` is
+// Sets up a picture's rows in `storage`, without any surface, using the threads of `pool` (may be NULL). `lent` is
 // optional memory that nothing else uses from screen_occlusion_find until the result has been read; if it is large
 // enough, it stores the cells.
 bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct scratch_memory lent,
@@ -96,8 +96,8 @@ struct occlusion_kernels {
     void (*pixel_rows)(const struct screen_occlusion *occlusion, int first, int end);
 };
 
-// Computes `unoccluded` from `depth`, using several threads (`pool` NULL: one). It ends early, with incomplete results,
-// if the call must end.
+// Computes `unoccluded` from `depth` with the threads of `pool` (may be NULL). If the call must end, it stops with
+// incomplete results.
 void screen_occlusion_find(struct screen_occlusion *occlusion, const struct occlusion_kernels *kernels,
                            struct pool *pool, struct call_control *call);
 

@@ -41,8 +41,8 @@ struct builder {
     struct ray_triangle *triangles; // in the order of the leaves
     struct ray_node *nodes;
     uint32_t *twins;
-    struct primitive *primitives; // of the ranges that are being divided
-    struct primitive *in_cells;   // of a large range, sorted by cell
+    struct primitive *primitives; // the primitives of the ranges that are being divided
+    struct primitive *in_cells;   // the primitives of a large range, sorted by cell
     struct pool *pool;
     struct loop_status loop;
 };

@@ -39,11 +39,11 @@ struct large {
     struct grid grid;
     uint32_t piece, pieces;  // triangles sorted together
     uint16_t *keys;          // the cell of each triangle
-    uint32_t *places;        // of each task and cell: the number of triangles, then the position of the next one
+    uint32_t *places;        // for each task and cell, the number of triangles, then the position of the next one
     struct primitive *cells; // cells that contain triangles
     uint32_t used_cells;
-    struct box *boxes;          // of each task: the box of its triangles, and of twice their centres
-    struct list small, waiting; // to be divided by one thread; in grids of their own
+    struct box *boxes;          // for each task, the box of its triangles and the box of twice their centres
+    struct list small, waiting; // ranges to be divided by one thread, and in grids of their own
     struct buffer keys_memory, places_memory, cells_memory;
 };
 

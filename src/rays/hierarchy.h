@@ -21,7 +21,7 @@ struct ray_triangle {
 enum { NODE_CHILDREN = 8 };
 struct ray_node {
     _Alignas(64) float planes[2][3][NODE_CHILDREN]; // low and high planes, by axis; without a child, 3e38 and −3e38
-    uint32_t child[NODE_CHILDREN];                  // count 0: index of a node; else the first triangle
+    uint32_t child[NODE_CHILDREN];                  // a node's index if count is 0, otherwise the first triangle
     uint32_t count[NODE_CHILDREN];                  // triangles of a leaf
 };
 
@@ -37,7 +37,7 @@ struct hierarchy {
     const struct ray_triangle *triangles; // in the order of the leaves; one more may follow them
     uint32_t node_count;                  // entries of `nodes`, some of them unused, or 0
     uint32_t triangle_count;
-    const uint32_t *twins; // of each triangle of the frame, as ray_triangle.twin
+    const uint32_t *twins; // for each triangle of the frame, see ray_triangle.twin
     // The largest rounding error along each axis of a corner, compared with its file, and of a point of its triangle.
     double rounding[3];
 };
@@ -47,7 +47,7 @@ struct hierarchy_memory {
     struct hierarchy hierarchy;
     struct buffer nodes, triangles, twins, scratch, sources;
     int source_count;
-    struct scene_token *token; // referenced; NULL: nothing is built
+    struct scene_token *token; // referenced; NULL if nothing is built
 };
 
 // Builds the hierarchy of a frame, unless the existing one has the same meshes at the same positions; *built: whether

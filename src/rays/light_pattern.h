@@ -19,7 +19,7 @@ struct light_points {
 };
 
 struct light_pattern {
-    struct light_points probes, all; // probes.count 0: no probes
+    struct light_points probes, all; // probes.count is 0 if there are no probes
 };
 
 // `count` is N, 1 … LIGHT_POINTS_MAX.

@@ -18,7 +18,7 @@ struct ray_starts {
 struct light_rays {
     const struct frame *frame;
     const struct hierarchy *hierarchy;
-    const struct light_pattern *pattern; // for lights with a size
+    const struct light_pattern *pattern; // used for lights with a size
     struct ray_layers *layers;
     uint64_t sent; // number of traced rays
 };

@@ -16,7 +16,7 @@
 
 enum {
     BINS = 16,
-    FEW_BINS = 8, // for ranges of up to FEW triangles
+    FEW_BINS = 8, // the number of bins for ranges of up to FEW triangles
     FEW = 64,
     BALANCED_AT = 48 // this many levels above, a range is divided in the middle
 };
@@ -50,10 +50,10 @@ struct range {
     uint32_t node;         // index of the first of ray_nodes_below(count) nodes reserved for it
     int depth;
     bool sorted;                     // all centres are equal; the primitives are in the order of sort_group
-    uint32_t first_cell, cell_count; // the cells that contain the triangles; 0: builder.primitives contains them
-    struct box box, middles;         // of the primitives or cells; of twice the centres of their boxes
+    uint32_t first_cell, cell_count; // the cells that contain the triangles; 0 if builder.primitives contains them
+    struct box box, middles;         // the box of the primitives or cells, and the box of twice their centres
     float area;                      // half of the box's surface area
-    uint32_t *child, *child_count;   // receive its node or leaf; NULL: it is the root
+    uint32_t *child, *child_count;   // receive its node or leaf; NULL if it is the root
 };
 
 // Reduces a range to its first `left` triangles, and sets *right to the rest.

@@ -40,7 +40,7 @@ struct ray_lanes {
 struct ray_view {
     _Alignas(64) double x[3][LANES], y[3][LANES], z[3][LANES];
     unsigned of_k[3]; // the rays with each k
-    int k, i, j;      // for all requested rays, which then use only row k; k −1: they differ
+    int k, i, j;      // the same for all requested rays, which then use only row k; k is −1 if they differ
 };
 
 LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray)
@@ -222,9 +222,9 @@ LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
 struct ray_bundle {
     unsigned lanes;
     int first[3], last[3];           // the planes that they meet first and last, as positions among a node's floats
-    const float *start[3], *stop[3]; // of box_rays: the origin, to be subtracted from these planes
+    const float *start[3], *stop[3]; // for box_rays: the origin, to be subtracted from these planes
     eight near[3], far[3];           // the same for all rays
-    eight least[3], most[3];         // of the inverse of their directions
+    eight least[3], most[3];         // the range of the inverse of their directions
     eight end;
 };
 
@@ -357,7 +357,7 @@ LANE_FN unsigned walk_bundle(const struct hierarchy *h, const struct ray_lanes *
     }
 }
 
-// Returns the lanes of `active` whose rays are blocked. `filter` NULL: every triangle blocks a ray.
+// Returns the lanes of `active` whose rays are blocked. If `filter` is NULL, every triangle blocks a ray.
 LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray, unsigned active, ray_filter *filter,
                          void *user)
 {

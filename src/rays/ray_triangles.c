@@ -14,7 +14,7 @@ struct bounds {
 
 struct preparation {
     struct builder *builder;
-    struct bounds *bounds; // of each task, in world space
+    struct bounds *bounds; // the bounds of each task in world space
 };
 
 static void place_task(void *user, size_t index, int thread)

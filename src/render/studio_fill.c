@@ -11,7 +11,7 @@
 #define BLACK 0.01
 #define DARK  0.05
 
-enum { SIDE_MAX = 96 }; // of the measured pictures
+enum { SIDE_MAX = 96 }; // the largest side of the measured pictures
 
 static double luminance(const float *p)
 {
@@ -32,7 +32,8 @@ static double black_share(const lam_image *lit, const lam_image *surfaces, bool 
     return counted ? (double)black / (double)counted : 0;
 }
 
-// Draws two pictures, the lit one and the colours of the surfaces, and returns the share that is black; −1: see `error`.
+// Draws two pictures, the lit one and the colours of the surfaces, and returns the share that is black, or −1 on
+// failure.
 static double measure(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                       const lam_draw_params *params, int width, int height, const lam_control *control,
                       lam_error *error)

@@ -6,7 +6,7 @@
 #include "up_axis.h"
 
 struct orbit_axes {
-    lam_vec3 right, above, back; // of the picture, unit, world space
+    lam_vec3 right, above, back; // unit axes of the picture in world space
 };
 
 static struct orbit_axes axes_of(const lam_orbit *orbit)

@@ -103,7 +103,7 @@ static bool has_translucent_colors(const lam_mesh *mesh, struct pool *pool)
 struct shifting {
     const float *from;
     float *to;    // may be `from`
-    size_t count; // of points, three values each
+    size_t count; // the number of points, three values each
     double by[3];
 };
 

@@ -19,25 +19,25 @@ struct scene_list {
 // Bounds of a mesh's triangles, lines or points.
 struct scene_extent {
     lam_vec3 minimum, maximum; // mesh coordinates, origin included
-    // The vertices that triangles use, in order; NULL: all vertices.
+    // The vertices that triangles use, in order; NULL means all vertices.
     const uint32_t *used;
     uint32_t used_count;
-    struct aabb_tree boxes; // of the used vertices
+    struct aabb_tree boxes; // the tree of the used vertices
     bool translucent;       // some colour has an alpha below 1
-    struct arena *own;      // owner of the mesh's arrays and this extent's; NULL: the scene's arena
+    struct arena *own;      // owner of the mesh's arrays and this extent's; NULL means the scene's arena
 };
 
 // The source of meshes, for writing a scene file: a model file, a built-in shape or a formula, with its load
 // parameters.
 struct scene_origin {
-    const char *path;           // path of the file; NULL: a shape, a formula, or a file from memory
-    const char *shape;          // name of the shape; NULL: none
-    const lam_formula *formula; // NULL: none
+    const char *path;           // path of the file; NULL means a shape, a formula, or a file from memory
+    const char *shape;          // name of the shape, or NULL
+    const lam_formula *formula; // may be NULL
     lam_shape_params segments;
     lam_normals normals;
-    double crease_angle_rad; // 0: the default
+    double crease_angle_rad; // 0 means the default
     bool field_tangents;     // the tangents of the file were discarded
-    // As in lam_load_params, for glTF files; NULL: the file's default.
+    // As in lam_load_params, for glTF files; NULL means the file's default.
     const char *scene, *variant, *animation;
     double time_s;
     int first_mesh, mesh_count;
@@ -46,7 +46,7 @@ struct scene_origin {
     const lam_material *materials;
     const lam_object *objects;
     int object_count;
-    const int *part_materials; // of all parts of the meshes, in order
+    const int *part_materials; // the materials of all parts of the meshes, in order
     int part_count;
     // a mesh was replaced or removed, or one of several objects was removed, so a scene file cannot describe the rest
     bool edited;
@@ -61,7 +61,7 @@ struct scene_token {
 
 // A camera of the model's file.
 struct scene_camera {
-    const char *name;  // NULL: unnamed
+    const char *name;  // NULL if unnamed
     lam_camera camera; // near_plane > 0 and far_plane 0: no far plane
 };
 
@@ -79,27 +79,27 @@ struct lam_scene {
     struct scene_list warnings;  // const char *
     struct scene_list files;     // const char *: paths
     struct scene_list origins;   // struct scene_origin, in the order of their meshes
-    // Number of fully transparent materials in MTL files, and a sentence about the first one, with its position; NULL:
-    // none.
+    // The number of fully transparent materials in MTL files, and a sentence about the first one, with its position, or
+    // NULL.
     int clear_materials;
     const char *first_clear;
-    const lam_picture_settings *settings; // of a scene file; NULL: none
+    const lam_picture_settings *settings; // a scene file's settings, or NULL
     lam_up up;
     lam_mat4 placement; // the product of all lam_scene_transform calls
     lam_rgb ambient;
-    lam_material default_material;   // of parts without a material
-    lam_environment *environment;    // shared with others; NULL: none
+    lam_material default_material;   // the material of parts without one
+    lam_environment *environment;    // shared with others, or NULL
     double environment_rotation_rad; // about the up axis
     struct lazy_environment *studio; // used if there is no other light (scene_lit_by_environment)
     lam_color_mode color;            // the encoding of the file's colours
     const char *format;
-    lam_file_info file; // of a glTF file
+    lam_file_info file; // information about a glTF file
     double read_ms, prepare_ms;
-    uint64_t input_bytes;  // total bytes of the files it was read from; 0: none
+    uint64_t input_bytes;  // total bytes of the files it was read from, or 0
     uint64_t object_items; // triangles, lines and points of all added objects
-    // The crease angle of meshes whose normals are left to the device; 0: all meshes have normals.
+    // The crease angle of meshes whose normals are left to the device; 0 means all meshes have normals.
     double deferred_crease_rad;
-    struct scene_mark *mark; // the state for lam_scene_reset; NULL: none
+    struct scene_mark *mark; // the state for lam_scene_reset, or NULL
     bool shared_arrays;      // meshes may share arrays, so none is changed in place
 };
 
@@ -111,7 +111,7 @@ void scene_built(struct lam_scene *scene);
 // by the built-in studio if it has none, instead of a rig.
 bool scene_lit_by_environment(const struct lam_scene *scene);
 
-struct scene_token *scene_token_make(lam_error *error); // NULL: out of memory
+struct scene_token *scene_token_make(lam_error *error); // NULL if memory runs out
 struct scene_token *scene_token_hold(struct scene_token *token);
 void scene_token_release(struct scene_token *token); // `token` may be NULL
 

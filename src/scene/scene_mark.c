@@ -21,7 +21,7 @@ enum { LISTS = sizeof lists / sizeof *lists };
 
 struct scene_mark {
     struct scene_list saved[LISTS];
-    int *part_materials; // of all parts of the meshes, in order
+    int *part_materials; // the materials of all parts of the meshes, in order
     lam_up up;
     lam_mat4 placement;
     lam_rgb ambient;

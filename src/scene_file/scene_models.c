@@ -22,9 +22,9 @@ struct variant {
 };
 
 struct model {
-    struct lam_scene inner;            // as read; its lists and arrays are in the outer scene's arena
+    struct lam_scene inner;            // the scene as read; its lists and arrays are in the outer scene's arena
     struct scene_origin origin;        // without the counts and copies
-    double crease_angle_rad;           // for its normals; 0: the default
+    double crease_angle_rad;           // the angle for its normals; 0 means the default
     struct variant variants[VARIANTS]; // the most recent ones
     int variant_count;                 // number of variants made so far
 };

@@ -9,13 +9,13 @@ struct model_wanted {
     const struct place *place; // position of the object
     const char *file, *shape;  // one of them, or the formula; the file name as written
     const lam_formula *formula;
-    lam_shape_params segments; // for a shape
+    lam_shape_params segments; // the parameters of a shape
     lam_normals normals;
-    double crease_angle_rad; // 0: the default
+    double crease_angle_rad; // 0 means the default
     bool field_tangents;
     const char *scene, *variant, *animation; // for a glTF file, as in lam_load_params
     double time_s;
-    const json_t *materials, *parts; // the object's changes to the model; NULL: none
+    const json_t *materials, *parts; // the object's changes to the model, or NULL
 };
 
 // Adds the objects of a model to the scene. Equal requests share meshes and materials. *origin: the index of its record

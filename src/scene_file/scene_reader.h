@@ -14,10 +14,10 @@ struct scene_reader {
     struct lam_scene *scene;
     lam_picture_settings *settings;  // in the scene's arena
     bool has_lights;                 // the file lists its lights; lights of its models are ignored
-    lam_color_mode color;            // for colours in this file and its models
-    json_t *materials;               // the file's named materials; NULL: none
-    int *material_at;                // for each of them, in the file's order: its index in the scene
-    struct name_table models_by_key; // for scene_models.c: the values are indices in `models`
+    lam_color_mode color;            // the colour mode of this file and its models
+    json_t *materials;               // the file's named materials, or NULL
+    int *material_at;                // for each of the file's materials in order, its index in the scene
+    struct name_table models_by_key; // keys of models (scene_models.c); the values are indices in `models`
     struct scene_list models;        // pointers, in the scene's arena
     lam_error *error;
 };
@@ -74,8 +74,8 @@ bool read_environment(struct scene_reader *r, const json_t *root);
 bool read_objects(struct scene_reader *r, const json_t *root);
 bool read_lights(struct scene_reader *r, const json_t *root);
 
-// Reads a material by name (from the file, or a classic one) or with its keys; missing keys are taken from `base`
-// (NULL: each key has its own default). *index: its index in the scene.
+// Reads a material by name (from the file, or a classic one) or with its keys. Missing keys are taken from `base`; if
+// it is NULL, each key has its own default. Sets *index to the material's index in the scene.
 bool read_material_value(struct scene_reader *r, const struct place *place, const json_t *value,
                          const lam_material *base, int *index);
 // Reads the keys of a material and sets them in `material`.

@@ -281,8 +281,8 @@ static bool is_identity(const lam_mat4 *m)
 // The changes to an object since it was read.
 struct change {
     lam_mat4 transform;          // applied after the file's own
-    int material, back_material; // −1: unchanged
-    int one_sided, cull;         // −1: unchanged
+    int material, back_material; // −1 means unchanged
+    int one_sided, cull;         // −1 means unchanged
 };
 
 static struct change change_of(const struct scene_writer *w, const lam_object *object, const lam_object *own)

@@ -6,13 +6,13 @@
 
 struct scene_writer {
     const struct lam_scene *scene;
-    const char *path;   // of the file, for messages
+    const char *path;   // the path of the file, for messages
     const char *folder; // the file's folder, absolute
     bool ok;            // false: Jansson ran out of memory
     lam_error *error;
 };
 
-// Move `value` (NULL: it could not be made) into an object or a list.
+// Move `value` (NULL if it could not be made) into an object or a list.
 void put(struct scene_writer *w, json_t *object, const char *key, json_t *value);
 void append(struct scene_writer *w, json_t *list, json_t *value);
 

@@ -59,7 +59,7 @@ enum formula_op {
 struct formula_node {
     enum formula_op op;
     int a, b;     // operands: earlier nodes
-    double value; // of a NUMBER; during evaluation, of every node
+    double value; // the value of a NUMBER; during evaluation, of every node
 };
 
 struct formula_graph {
@@ -84,7 +84,7 @@ void formula_differentiate(struct formula_graph *graph, int count, enum formula_
 struct formula {
     struct formula_node *nodes;
     int count;
-    bool implicit;  // the parameters are x, y and z; false: u and v
+    bool implicit;  // the parameters are x, y and z instead of u and v
     int outputs[9]; // x, y, z and their derivatives by u and by v; implicit: f and its derivatives by x, y and z
     int name_count; // the definitions
     struct formula_name {

@@ -114,7 +114,7 @@ struct march {
     const lam_implicit *surface;
     int cells[3];
     double origin[3];
-    struct arena *scratch; // for lists and planes
+    struct arena *scratch; // memory for lists and planes
     struct call_control *call;
     lam_error *error;
 

@@ -42,7 +42,7 @@ struct tessellation {
     uint32_t vertex, attribute_base;
     size_t corner;
     bool first_column_pole, last_column_pole;
-    uint8_t *border; // for each vertex; NULL: not requested
+    uint8_t *border; // set for each vertex on the border; NULL if not requested
     lam_surface_point *row;
     uint32_t *ids[3]; // vertices of the previous row, the current row and the first row
 };

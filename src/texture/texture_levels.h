@@ -28,16 +28,16 @@ struct lam_texture {
     int channels;
     // No texel has an alpha below 1.
     bool opaque;
-    // The smallest and the largest byte of level 0 for each channel (texture_range.c); 0: not computed yet. Accessed
+    // The smallest and the largest byte of level 0 for each channel (texture_range.c); 0 if not computed yet. Accessed
     // atomically.
     uint64_t ranges;
-    const char *name; // NULL: none
+    const char *name; // may be NULL
     // Level 0 of an 8-bit picture.
     const uint8_t *bytes;
     const float *decode; // the 256 values of a byte of red, green and blue; alpha is byte ÷ 255
     struct texture_level levels[TEXTURE_LEVELS_MAX];
     void *storage;
-    float *pages; // the large levels; NULL: all levels follow this struct
+    float *pages; // the large levels; NULL means all levels follow this struct
     size_t held;  // bytes of those pages
 };
 

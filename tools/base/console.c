@@ -11,7 +11,7 @@
 #include "option_names.h"
 
 static bool terminal, colors;
-static _Thread_local FILE *captured; // NULL: standard error
+static _Thread_local FILE *captured; // NULL means standard error
 
 void console_start(void)
 {

@@ -10,12 +10,12 @@ struct progress {
     double from, span; // the fraction of the whole for the current call
     const char *model;
     bool shown;
-    void (*show)(double share); // called instead of drawing the bar, with the total fraction; NULL: the bar
+    void (*show)(double share); // called instead of drawing the bar, with the total fraction; NULL means the bar
 };
 
 void progress_start(struct progress *progress, const char *model, bool allowed);
 
-// Sets the fraction of the whole for the next call. NULL: no progress is shown.
+// Sets the fraction of the whole for the next call. NULL means no progress is shown.
 void progress_phase(struct progress *progress, double from, double span);
 
 // The callback of lam_control; `user` is a struct progress.

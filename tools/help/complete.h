@@ -10,7 +10,8 @@ struct typed_word {
     int before_length;
 };
 
-// Prints a candidate if it begins with `piece`: the whole word, then `ending`, a tab and the summary (NULL: none).
+// Prints a candidate if it begins with `piece`: the whole word, then `ending`, a tab and the summary, which may be
+// NULL.
 void complete_offer(const struct typed_word *typed, const char *word, const char *ending, const char *summary);
 
 // Lets the shell add the names of files that begin with `piece`.

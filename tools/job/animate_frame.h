@@ -7,19 +7,19 @@
 #include "sweep_option.h"
 
 struct animation {
-    const struct options *given; // of the command line
+    const struct options *given; // the options of the command line
     const char *pattern;         // the picture's name, which may contain {frame}
-    struct options frame;        // of the current frame
+    struct options frame;        // the options of the current frame
     int sweep_count;
     struct sweep *sweeps;
     struct sweep_words *words; // words of the sweeps, then of the turntable
-    int index, count;          // of the frames
+    int index, count;          // the frame's index, and the number of frames
     bool loads;                // whether each frame reads the model again
     bool environment;          // the scene has the environment: only the first frame loads it
     bool drawn;                // the first frame was drawn, so the exposure is known
     bool has_sphere, has_camera;
     struct model_sphere sphere; // before any rotation
-    lam_camera camera;          // of the first frame
+    lam_camera camera;          // the camera of the first frame
     lam_up up;
 };
 

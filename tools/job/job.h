@@ -7,10 +7,11 @@
 #include "progress.h"
 
 struct job_times {
-    double start;                                // clock_ms() at the job's start
-    double frame_start;                          // of an animation's frame, to which the default time limit applies
+    double start; // clock_ms() at the job's start
+    // the start of an animation's frame, to which the default time limit applies
+    double frame_start;
     double read, prepare, camera, encode, total; // milliseconds
-    lam_frame_report frame;                      // of the median frame
+    lam_frame_report frame;                      // the report of the median frame
     double frame_min, frame_max;                 // over the --repeat frames
     int frames;
 };
@@ -33,7 +34,7 @@ struct model_sphere {
 
 // One of several pictures of a model that is loaded once.
 struct job_view {
-    int side;          // lam_side; −1: from the options
+    int side;          // lam_side, or −1 if the options select it
     int width, height; // pixels
 };
 
@@ -46,40 +47,41 @@ struct job_shared {
 
 // The frames of --turntable and --sweep.
 struct job_frames {
-    int count;                // 0: one picture
-    double frames_per_second; // of the animation
-    char *first, *last;       // the paths of the frames; NULL: all are in one file
+    int count;                // the number of frames; 0 means one picture
+    double frames_per_second; // the frame rate of the animation
+    char *first, *last;       // the paths of the frames; NULL if one file contains all frames
 };
 
 struct job {
     const struct options *options;
     const char *model;            // as typed
-    const lam_bytes *model_bytes; // the model itself; `model` is then its name; NULL: a file
-    const char *output;           // path of the picture; "-": standard output
-    lam_bytes *picture_bytes;     // receives the picture's file in the format of `output`; NULL: the file is written
+    const lam_bytes *model_bytes; // the model itself, named by `model`; NULL if it is a file
+    const char *output;           // path of the picture; "-" means standard output
+    lam_bytes *picture_bytes;     // receives the picture in the format of `output`; NULL if a file is written
     bool makes_folder;            // also create the folder of an explicitly named picture
-    const lam_cancel *cancel;     // stops the job; NULL: only Ctrl-C does
-    const char *format;           // of the picture: "png"
+    const lam_cancel *cancel;     // stops the job; if NULL, only Ctrl-C does
+    const char *format;           // the format of the picture: "png"
     lam_pixel_format pixels;      // the pixel format for drawing
     struct job_frames frames;
     struct animation *animation; // during an animation (animate.h); otherwise NULL
     lam_scene *scene;            // NULL until the model is loaded
     bool keeps_scene;            // another job will draw it again
     struct model_counts model_counts;
-    lam_rig rig;                // the rig that drawing adds to the scene's own lights
-    bool file_lights;           // whether lights of a glTF file, in candela and lux, light it
-    bool exposure_fitted;       // whether draw.exposure was computed for this picture
-    lam_light *unfilled;        // from malloc: the scene's lights before lam_studio_fill scaled them; NULL: not scaled
-    double fill_scale;          // the factor of that scaling; 0: not scaled
+    lam_rig rig;          // the rig that drawing adds to the scene's own lights
+    bool file_lights;     // whether lights of a glTF file, in candela and lux, light it
+    bool exposure_fitted; // whether draw.exposure was computed for this picture
+    // from malloc: the scene's lights before lam_studio_fill scaled them; NULL if not scaled
+    lam_light *unfilled;
+    double fill_scale;          // the factor of that scaling; 0 if not scaled
     bool studio;                // whether the built-in environment "studio" lights it if no other is set
     struct model_sphere sphere; // before the rotation
     lam_camera camera;
     lam_image image;
     lam_rgba background; // behind the model
     lam_device *device;
-    struct environment_cache *environments; // shared with other jobs; NULL: not shared
-    const struct job_shared *shared;        // shared with another job; NULL: not shared
-    const struct job_view *views;           // the pictures to draw; NULL: one, from the options
+    struct environment_cache *environments; // shared with other jobs; NULL if not shared
+    const struct job_shared *shared;        // shared with another job; NULL if not shared
+    const struct job_view *views;           // the pictures to draw; NULL means one picture from the options
     int view_count;
     lam_camera *cameras; // one per view; from malloc, by job_arrange
     // the lights before the options' lights were added, which may depend on the camera; from malloc
@@ -89,8 +91,8 @@ struct job {
     bool written;
     bool planned;                  // --dry-run: everything is ready for drawing
     struct options own;            // the options, completed by the settings of a scene file
-    lam_picture_settings settings; // of the scene file; empty if the model is not a scene file
-    lam_draw_params draw;          // for the drawn picture
+    lam_picture_settings settings; // the scene file's settings; empty if the model is not a scene file
+    lam_draw_params draw;          // parameters of the drawn picture
     struct job_times times;
     lam_error error; // code LAM_OK: none
 };

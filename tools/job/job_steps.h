@@ -4,7 +4,7 @@
 
 #include "job.h"
 
-// Fills the control of the next library call: remaining time, memory limit, interrupt flag, progress bar (NULL: none).
+// Fills the control of the next library call: remaining time, memory limit, interrupt flag, progress bar (may be NULL).
 bool job_control(const struct job *job, struct progress *progress, lam_control *control, lam_error *error);
 
 // Returns the camera that fits the scene, for all of its rotations about `centre`.

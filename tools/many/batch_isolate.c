@@ -43,8 +43,8 @@ struct sent_picture {
     struct batch_picture picture;
     char class[24];
     bool is_new;
-    size_t line_size; // 0: no record
-    size_t data_size; // 0: no file
+    size_t line_size; // 0 if there is no record
+    size_t data_size; // 0 if there is no file
 };
 
 struct work {

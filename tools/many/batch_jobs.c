@@ -157,7 +157,7 @@ static void count(struct batch_jobs *jobs, const lam_error *error, size_t pictur
     pthread_mutex_unlock(&b->lock);
 }
 
-// Refuses a line. `id` NULL: the line has none, or the id belongs to another job.
+// Rejects a line. `id` is NULL if the line has none or the id belongs to another job.
 static void refuse(struct batch_jobs *jobs, json_t *id, uint64_t line, const char *outcome, const lam_error *reason)
 {
     lam_error error;

@@ -4,8 +4,8 @@
 
 #include "batch_unit.h"
 
-// Begins a pass. 0: over all models that are not drawn yet; later: over failed models that may be retried. Returns
-// false if there is nothing to do, or after an interrupt.
+// Begins a pass. Pass 0 covers all models that are not drawn yet, later passes the failed models that may be retried.
+// Returns false if there is nothing to do, or after an interrupt.
 bool batch_begin_pass(struct batch *batch, int pass);
 
 // Begins a pass over the models that a killed run was drawing, and removes the temporary files of its processes.
@@ -20,8 +20,8 @@ bool batch_take(struct batch *batch, struct batch_task *task, bool waits);
 // Processes the results of a unit: counters, journal lines, messages, the answer to a job. Any thread may call it.
 void batch_deliver(struct batch *batch, struct batch_unit *unit);
 
-// Removes the temporary files that a killed process left beside a model's pictures. `host`: the machine of the process;
-// NULL: this one.
+// Removes the temporary files that a killed process left beside a model's pictures. `host` is the machine of the
+// process; NULL means this one.
 void batch_remove_parts(const struct batch_plan *plan, size_t model, int process, const char *host);
 
 #endif

@@ -13,12 +13,12 @@ struct batch_answer {
 };
 
 struct batch_process {
-    pid_t pid; // 0: none
+    pid_t pid; // 0 if there is no process
     int from;
     struct batch_answer answer;
-    double stop_ms; // clock_ms() at which it will be killed; 0: never
-    bool stopped;   // it was killed at that time
-    pid_t writer;   // writes its files, and ends after it; 0: none
+    double stop_ms; // the clock_ms() at which it will be killed, or 0
+    bool stopped;   // the process was killed at that time
+    pid_t writer;   // the process that writes its files and ends after it, or 0
 };
 
 // Starts `work` in a copy of this process, which must have no other thread. The result of `work` is sent back. Returns
@@ -26,8 +26,8 @@ struct batch_process {
 typedef void batch_work(void *user, struct batch_answer *answer);
 bool batch_process_start(struct batch_process *process, batch_work *work, void *user);
 
-// Waits up to `wait_ms` until one of the processes sends something or ends, or until the file `also` (−1: none) is
-// readable. Returns the index of a process that has ended, with its status of waitpid, or −1 if none has.
+// Waits up to `wait_ms` until one of the processes sends something or ends, or until the file `also` (−1 if there is
+// none) is readable. Returns the index of a process that has ended, with its status of waitpid, or −1 if none has.
 int batch_process_wait(struct batch_process *list, int count, int also, int wait_ms, int *status);
 
 void batch_process_kill(struct batch_process *process);

@@ -84,7 +84,7 @@ static void add_page(struct sandbox_paths *paths)
 
 struct writes {
     const struct batch *batch;
-    const struct batch_plan *plan; // of the batch, or of a job
+    const struct batch_plan *plan; // the plan of the batch, or of a job
     size_t first, count;           // range of its models
     size_t latest;                 // index of the most recently written picture
     bool whole;                    // whether it is the whole batch; otherwise one model's process

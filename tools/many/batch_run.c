@@ -36,7 +36,7 @@ enum { WORKERS_MAX = 256 };
 struct worker {
     struct batch *batch;
     int slot;
-    struct options options; // with its number of threads
+    struct options options; // includes its number of threads
     lam_device *device;
     pthread_t thread;
 };

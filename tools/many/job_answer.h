@@ -19,7 +19,7 @@ void job_answers_end(struct job_answers *answers);
 // Answers a drawn job with the results of its pictures.
 void job_answer_unit(struct job_answers *answers, const struct batch_unit *unit);
 
-// Answers a line that draws nothing. `id` NULL: null. `line`: its line number; 0: not reported.
+// Answers a line that draws nothing. A NULL `id` is written as null. `line` is the line number; 0 is not reported.
 void job_answer_error(struct job_answers *answers, json_t *id, uint64_t line, const char *outcome,
                       const lam_error *error);
 

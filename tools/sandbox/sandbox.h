@@ -59,7 +59,7 @@ const char *sandbox_text(const struct sandbox_state *state, char out[SANDBOX_TEX
 
 // Selects the system calls that the seccomp filter permits, as bits.
 enum sandbox_filter {
-    SANDBOX_DRAWS = 0, // to read and draw: no processes, no sockets, files only read
+    SANDBOX_DRAWS = 0, // reading and drawing: no processes, no sockets, files only read
     // Also accepts connections on listening sockets, watches files, and starts and ends processes of its own program,
     // which may then install SANDBOX_DRAWS. It cannot create, bind or connect sockets or run programs.
     SANDBOX_SERVES = 1,

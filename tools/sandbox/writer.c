@@ -42,7 +42,7 @@ enum action { SAVE, SAVE_DURABLY, REMOVE };
 struct request {
     uint32_t action;
     uint32_t path_size; // including the terminating zero
-    uint64_t size;      // of the contents
+    uint64_t size;      // the size of the contents
 };
 
 // Returns false if the other process has ended or on an error (errno).

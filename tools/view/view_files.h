@@ -7,7 +7,7 @@
 #include <lambent/base.h>
 
 struct view_files {
-    int folder;         // its handle; −1: nothing is served
+    int folder;         // the folder's handle; −1 if nothing is served
     char *prefix;       // the path of the page's "/" on this machine: "models", "."
     char *model;        // the model's path in the page; NULL if a folder is shown
     char *model_path;   // the model's own path, which may be a link to another folder

@@ -12,11 +12,11 @@ struct contract_name {
     enum uniform_semantic semantic;
     bool attribute;
     const char *type;    // as the course declares it
-    const char *meaning; // for documentation and messages
-    // Other accepted names, separated by blanks. NULL: none.
+    const char *meaning; // text for documentation and messages
+    // Other accepted names, separated by blanks. May be NULL.
     const char *synonyms;
-    lam_light_frame space; // of roles with ROLE_IN_SPACE: OBJECT, WORLD or CAMERA
-    int group;             // of ROLE_LIGHT: index in contract.groups; −1: of no light
+    lam_light_frame space; // for a role with ROLE_IN_SPACE, the space: OBJECT, WORLD or CAMERA
+    int group;             // for ROLE_LIGHT, the index in contract.groups; −1 if it belongs to no light
 };
 
 // The meaning of a varying, for a fragment shader without a vertex shader.
@@ -24,8 +24,8 @@ enum varying_semantic {
     VARYING_NORMAL,   // unit
     VARYING_LIGHT,    // towards the light, not normalized
     VARYING_EYE,      // towards the eye, not normalized
-    VARYING_POSITION, // of the point
-    VARYING_DISTANCE, // to the light
+    VARYING_POSITION, // the point's position
+    VARYING_DISTANCE, // the distance to the light
     VARYING_TEXCOORD,
 };
 
@@ -42,7 +42,7 @@ struct default_color {
     lam_rgb value; // COLOR_GIVEN
 };
 struct default_number {
-    bool given; // false: the scene's value
+    bool given; // if false, the scene's value is used
     float value;
 };
 
@@ -53,8 +53,8 @@ struct contract_defaults {
     struct default_number ambient_strength, diffuse_strength, specular_strength, shininess, spot_exponent;
     bool has_attenuation, has_direction, has_position;
     float attenuation[3];
-    lam_vec3 direction; // to the light; with has_position: the light's position
-    int light_space;    // of both; by default the contract's
+    lam_vec3 direction; // towards the light; with has_position, the light's position
+    int light_space;    // the space of both; by default the contract's space
 };
 
 // A variable that a shader sets to a number: `float ambientStrength = 0.1;`. The name "pow" means a number that is the
@@ -86,8 +86,8 @@ struct physical_convention {
 
 // The contents of a contract's maps.
 struct map_convention {
-    // true: colour maps are encoded, pow(x, 1/2.2), and the shader decodes them; false: they are linear, as a texture
-    // with an sRGB format is for a shader.
+    // If true, colour maps are encoded with pow(x, 1/2.2), and the shader decodes them. If false, they are linear, as
+    // textures with an sRGB format are for a shader.
     bool encoded;
     // v grows downward in the picture, as in glTF files: on a patch whose u points right and whose normal points to the
     // eye, v points down.
@@ -106,8 +106,8 @@ enum { MAX_LIGHT_GROUPS = 8, MAX_WEIGHTS = 32 };
 
 struct contract {
     const char *name, *title, *text;         // `text` is the file
-    uint64_t hash;                           // of `text`
-    const char *versions;                    // GLSL versions, separated by ", "; "": not stated
+    uint64_t hash;                           // the hash of `text`
+    const char *versions;                    // GLSL versions, separated by ", "; "" if not stated
     const struct contract_name *names;       // ends with NULL
     const struct contract_varying *varyings; // ends with NULL
     // Built-in names whose use identifies the contract. Ends with NULL.
@@ -123,17 +123,18 @@ struct contract {
     lam_light_frame light_frame;
     lam_reflection reflection;
     struct contract_defaults defaults;
-    struct physical_convention physical; // for shaders with metalness and roughness
+    struct physical_convention physical; // used by shaders with metalness and roughness
     struct map_convention maps;
     const struct contract_constant *constants; // ends with NULL
     // The lines that an engine inserts before the text of a shader, which then has no version line and declares none of
-    // these names. NULL: none.
+    // these names. May be NULL.
     const char *prefix_vertex, *prefix_fragment;
-    const char *outputs;     // names of the fragment shader's output, separated by blanks; NULL: not stated
-    bool has_attenuation;    // as names or as constants
+    const char *outputs;     // names of the fragment shader's output, separated by blanks; NULL if not stated
+    bool has_attenuation;    // attenuation has names or constants
     bool material_strengths; // colours and their strengths are separate
     bool any_strengths;      // shaders have their own strengths and colours, and the best fit to their pictures is used
-    // For GLSL 110 and 120: names of gl_LightSource and similar state; the texts are rewritten (fixed_state.h).
+    // True for GLSL 110 and 120, whose shaders use gl_LightSource and similar state. The texts are rewritten
+    // (fixed_state.h).
     bool fixed_state;
     const double *weights; // the points for each reference scene
     bool printed;          // shaders of `lambent shader`, whose loops are named after the kinds of lights

@@ -44,7 +44,7 @@ enum { ROLES = sizeof roles / sizeof roles[0] };
 
 struct name_words {
     char words[MAX_WORDS][WORD_LENGTH];
-    int roles[MAX_WORDS]; // index of the row; −1: none
+    int roles[MAX_WORDS]; // index of the row, or −1
     int count;
 };
 

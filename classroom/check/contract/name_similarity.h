@@ -3,9 +3,9 @@
 #ifndef NAME_SIMILARITY_H
 #define NAME_SIMILARITY_H
 
-// 1: equal except for case and underscores; 0: unrelated. Names whose words differ in role (light and eye, ambient and
-// diffuse, position and direction) are unrelated, however similar their letters are; words of the same role are equal
-// (position and point, eye and camera, normal and N).
+// Returns 1 for names that are equal except for case and underscores, and 0 for unrelated names. Names whose words have
+// different roles (light and eye, ambient and diffuse, position and direction) are unrelated, however similar they
+// look. Words with the same role count as equal (position and point, eye and camera, normal and N).
 double name_similarity(const char *a, const char *b);
 
 // Returns the candidate most similar to `name`; of equal ones the first. Returns NULL if none is similar enough to be

@@ -29,7 +29,7 @@ enum uniform_semantic {
     SEMANTIC_AMBIENT_PRODUCT,
     SEMANTIC_DIFFUSE_PRODUCT,
     SEMANTIC_SPECULAR_PRODUCT,
-    SEMANTIC_LIGHT_AMBIENT_PRODUCT, // of one light, which attenuates it
+    SEMANTIC_LIGHT_AMBIENT_PRODUCT, // the product of one light, which attenuates it
     // The strengths only.
     SEMANTIC_KA,
     SEMANTIC_KD,
@@ -50,7 +50,8 @@ enum uniform_semantic {
     SEMANTIC_NORMAL_MAP,
     SEMANTIC_OCCLUSION_MAP,
     SEMANTIC_EMISSION_MAP,
-    SEMANTIC_MAP_ROW_U,      // of the matrix from the mesh's texture coordinates to a map's; w: factor of the texel
+    // a row of the matrix from the mesh's texture coordinates to a map's; w: factor of the texel
+    SEMANTIC_MAP_ROW_U,
     SEMANTIC_MAP_ROW_V,      // w: added to the texel
     SEMANTIC_LIGHT_POSITION, // w 1; for a directional light the direction towards it, w 0
     SEMANTIC_LIGHT_X,
@@ -66,7 +67,7 @@ enum uniform_semantic {
     SEMANTIC_ATTENUATION_QUADRATIC,
     SEMANTIC_ATTENUATION,  // constant, linear, quadratic, 0
     SEMANTIC_CONE,         // cosine of the cutoff, exponent, cosine of the outer angle, 1/width
-    SEMANTIC_CUTOFF,       // cosine of the cutoff; −1: no spot
+    SEMANTIC_CUTOFF,       // cosine of the cutoff; −1 if there is no spot
     SEMANTIC_OUTER_CUTOFF, // cosine of an angle just outside of the cutoff
     SEMANTIC_SPOT_EXPONENT,
     SEMANTIC_AMBIENT_LIGHT, // sum over all lights

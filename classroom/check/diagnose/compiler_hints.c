@@ -74,7 +74,7 @@ static bool is_name(const char *w) { return isalpha((unsigned char)w[0]) || w[0]
 static const struct {
     const char *name;
     int version, es_version;
-    const char *otherwise; // NULL: no advice
+    const char *otherwise; // the advice, or NULL
 } young_functions[] = {
     {"inverse", 140, 300, "pass the inverse transpose as a uniform"},
     {"transpose", 120, 300, NULL},

@@ -6,7 +6,7 @@
 #include "diagnostics.h"
 #include "shader_interface.h"
 
-// Adds hints for one message of the compiler about a line (0: unknown).
+// Adds hints for one message of the compiler about a line (0 if unknown).
 void compiler_hints_for_message(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                                 int line, const char *message);
 
@@ -14,8 +14,8 @@ void compiler_hints_for_message(struct diagnostics *diagnostics, const struct de
 void compiler_hints_for_text(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                              bool vertex);
 
-// Adds hints for the outputs of a fragment shader that compiles. `output`: its name in the course; NULL: none. Returns
-// false if it writes no colour that a picture can store.
+// Adds hints about the outputs of a fragment shader that compiles. `output` is the output's name in the course, or
+// NULL. Returns false if the shader writes no colour that a picture can store.
 bool compiler_hints_for_output(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                                const char *output);
 

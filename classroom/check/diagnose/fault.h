@@ -61,14 +61,14 @@ _Static_assert(FAULT_BIT_COUNT <= 64 * FAULT_WORDS, "fault_set has room for all 
 // A set of switches, and the change of the highlight's exponent.
 typedef struct fault_set {
     uint64_t words[FAULT_WORDS]; // bit i: switch i
-    float factor;                // multiplies the exponent; 0: not used
-    float constant;              // replaces the material's exponent; 0: not used
+    float factor;                // multiplies the exponent; 0 if not used
+    float constant;              // replaces the material's exponent; 0 if not used
 } fault_set;
 
 bool fault_set_has(const fault_set *set, enum fault_bit bit);
 bool fault_set_equal(const fault_set *a, const fault_set *b);
 
-// The conditions under which a fault can occur; 0: always.
+// Bits for the conditions under which a fault can occur. 0 means always.
 enum fault_where {
     WHERE_FRAGMENT = 1,      // lighting in the fragment shader
     WHERE_VERTEX = 2,        // lighting in the vertex shader
@@ -87,15 +87,15 @@ enum fault_where {
     WHERE_SMITH = 16384,     // the contract's masking is Smith's
     WHERE_SHARED = 32768,    // the contract's diffuse part is reduced by the Fresnel factor
     WHERE_TONED = 65536,     // the contract's shaders have a tone curve
-    WHERE_UNTONED = 131072,  // they have none
-    WHERE_ENCODED = 262144,  // they encode their colours
-    WHERE_LINEAR = 524288,   // they do not
+    WHERE_UNTONED = 131072,  // the contract's shaders have no tone curve
+    WHERE_ENCODED = 262144,  // the contract's shaders encode their colours
+    WHERE_LINEAR = 524288,   // the contract's shaders do not encode their colours
     WHERE_OF_MIX = 1048576,  // the contract's F comes from the mixed F0 for the diffuse part too
     WHERE_NOT_OF_MIX = 2097152,
     WHERE_FLAT = 4194304, // `flat` occurs in the fragment shader
 };
 
-// Conditions on maps; 0: none.
+// Bits for the conditions on maps. 0 means no condition.
 enum fault_maps {
     MAPS_BASE = 1,                // the shader reads a map of the base colour
     MAPS_METALLIC_ROUGHNESS = 2,  // a map of roughness and metalness
@@ -109,7 +109,7 @@ enum fault_maps {
     MAPS_DATA_FACTOR = 512,       // metalness and roughness have factors too
     MAPS_EMISSION_FACTOR = 1024,  // the emission has a factor too
     MAPS_TANGENTS = 2048,         // tangents are an attribute
-    MAPS_SIGN = 4096,             // with the sign of the bitangent
+    MAPS_SIGN = 4096,             // the tangents include the sign of the bitangent
     MAPS_DERIVATIVES = 8192,      // dFdx occurs in the fragment shader
     MAPS_UP = 16384,              // v goes up if u goes right
     MAPS_DOWN = 32768,            // v goes down if u goes right
@@ -127,13 +127,13 @@ enum { MAX_FAULT_BITS = 8 };
 
 struct fault {
     const char *id;
-    uint8_t bits[MAX_FAULT_BITS]; // of fault_bit; ends with BIT_NONE
+    uint8_t bits[MAX_FAULT_BITS]; // values of fault_bit, ends with BIT_NONE
     unsigned where;               // bits of fault_where
     unsigned needs;               // reference_need: one of the scenes in use must have it
     const char *explanation;      // needs: reference_need; one of the scenes in use must have it
     const char *correction;       // one line; {place} is replaced by the shader's own name (fault_text)
     unsigned maps;                // bits of fault_maps
-    float factor;                 // of the exponent; 0: none
+    float factor;                 // the factor of the exponent, or 0
     enum fault_fit fit;
     bool rare;       // not reported beside another fault with the same pictures
     bool style;      // not a mistake, but a form that is as correct as the reference

@@ -15,8 +15,9 @@ struct candidate {
     struct found_fault members[MAX_FOUND_FAULTS];
     int count;
     fault_set set;
-    double mean;  // over all scenes
-    double score; // the mean remaining share of each scene's difference (1: all), so that small highlights count too
+    double mean; // over all scenes
+    // the mean remaining share of each scene's difference (1 is all of it), so that small highlights count too
+    double score;
     bool fits;
     double parts[MAX_SCENES]; // the contribution of each scene to the score
 };
@@ -24,7 +25,7 @@ struct candidate {
 // The effect of a single fault.
 struct outcome {
     struct found_fault fault;
-    double mean, score;       // as in a candidate
+    double mean, score;       // same as in a candidate
     double parts[MAX_SCENES]; // the same, for the scenes that differ
     int order[MAX_SCENES];    // the scenes: differing ones first, starting with the most affected ones
     int changed_count;        // number of differing scenes that it changes
@@ -40,7 +41,7 @@ struct outcome {
 struct state {
     struct fault_search *s;
     struct fault_measure m;
-    struct outcome *outcomes; // for each row of the table
+    struct outcome *outcomes; // one for each row of the table
     // Each scene without faults, in the measured pixels. Because these are few, more of them than the tolerance allows
     // may differ in a scene that passes.
     struct difference without[MAX_SCENES];

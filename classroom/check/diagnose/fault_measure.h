@@ -6,8 +6,8 @@
 
 struct fault_measure {
     struct fault_search *s;
-    struct scene_comparison *scenes; // of s, reduced to the drawn pixels
-    int stride, size;                // of the fault shader's pictures
+    struct scene_comparison *scenes; // the scenes of the search, reduced to the drawn pixels
+    int stride, size;                // the stride and size of the fault shader's pictures
     struct fault_shader *shader;     // opened on first use
     float *pixels, *samples, *memory;
     int order[MAX_SCENES]; // the scenes to use: differing ones first, by descending difference

@@ -11,7 +11,7 @@ enum { MAX_FOUND_FAULTS = 4, MAX_SCENES = 32, MAX_ALSO = 3 };
 // A fault of the table, with the result of the search.
 struct found_fault {
     const struct fault *row;
-    float exponent;                     // fitted factor of the exponent, or constant; 0: nothing was fitted
+    float exponent;                     // fitted factor of the exponent, or constant; 0 if nothing was fitted
     double after;                       // mean difference over all scenes with this fault and the previous ones
     const struct fault *also[MAX_ALSO]; // faults that draw the same pictures
     int also_count;
@@ -25,10 +25,10 @@ struct fault_search {
     lam_reflection reflection;
     struct scene_comparison *scenes;
     int scene_count, size;
-    int light_capacity;   // of the tested shaders
+    int light_capacity;   // the number of lights in the tested shaders
     unsigned expectation; // distinguishes the expected appearance of scenes (render_key)
     double tolerance;
-    unsigned needs; // of all scenes together
+    unsigned needs; // the needs of all scenes together
     // Some names have no value, so only a single fault that explains everything is accepted.
     bool has_unset_names;
     uint64_t max_pictures; // after this many pictures, no further sets are tried

@@ -39,7 +39,7 @@ struct fault_shader {
     int program_count;
     const lam_check_program *program; // the current program
     int size, stride;
-    bool rests; // its context is not current
+    bool rests; // the program's context is not current
     // The uniform values of the current picture.
     lam_check_value values[MAX_VALUES];
     int value_count;
@@ -359,7 +359,7 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     lam_light_frame space = interface->space;
     const struct {
         const char *name;
-        enum uniform_semantic eye, world; // for lighting in eye space, and in world space
+        enum uniform_semantic eye, world; // the semantics for lighting in eye space and in world space
     } values[] = {{"to_lighting", SEMANTIC_MODEL_VIEW, SEMANTIC_MODEL},
                   {"to_clip", SEMANTIC_PROJECTION, SEMANTIC_VIEW_PROJECTION},
                   {"to_eye_space", SEMANTIC_NONE, SEMANTIC_VIEW},

@@ -12,10 +12,10 @@ struct render_key {
     int light_frame, reflection, vertex_lit;
     int size; // width and height in pixels
     int light_capacity;
-    unsigned supports;    // of shader_interface
-    unsigned factors;     // as `supports`
-    int tone;             // lam_tone, as `supports`
-    unsigned expectation; // of fault_search
+    unsigned supports;    // the member of shader_interface
+    unsigned factors;     // the member of shader_interface
+    int tone;             // lam_tone; the member of shader_interface
+    unsigned expectation; // the member of fault_search
     fault_set set;
 };
 

@@ -6,17 +6,17 @@
 
 // The comparison of one scene. A pixel is compared if its 3×3 neighbours are all covered in the reference.
 struct scene_comparison {
-    const struct reference_scene *row;      // of the table
+    const struct reference_scene *row;      // the row of the table
     struct reference_scene reference_scene; // the expected scene
     const float *theirs;                    // straight RGBA
     float *reference;                       // straight alpha
     uint32_t *inside;                       // indices of the compared pixels
     size_t inside_count;
-    float *samples; // of `theirs` (scene_comparison_sample)
+    float *samples; // the samples of `theirs` (scene_comparison_sample)
     bool alpha;     // alpha is compared too
     double mean_difference;
     bool passes;
-    bool spoilt; // by NaN, and useless for a search
+    bool spoilt; // contains NaN and is useless for a search
 };
 
 struct difference {
@@ -32,7 +32,7 @@ void scene_comparison_find_inside(struct scene_comparison *scene, int size);
 // size² pixels.
 void scene_comparison_leave_out_turns(struct scene_comparison *scene, const float *normals, int size);
 
-// Applies the tone curve of a shader printed by `lambent shader`. AUTO: none.
+// Applies the tone curve of a shader printed by `lambent shader`. AUTO applies none.
 void scene_comparison_apply_tone(lam_tone tone, float *pixels, size_t count);
 
 // Copies the compared pixels of a picture to `out`: red, green, blue (clamped to 0…1), and alpha if it is compared.

@@ -10,7 +10,7 @@
 enum { MAX_LOG_LINES = 8 };
 
 // Parses "0:12(5): error: …" (Mesa), "0(12) : error …" (NVIDIA) or "ERROR: 0:12: …" (others). Returns the line number
-// (0: none) and the start of the message.
+// (0 if there is none) and the start of the message.
 static int line_of(const char *text, const char **words)
 {
     int string = 0, line = 0, used = 0;

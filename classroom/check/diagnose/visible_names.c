@@ -68,7 +68,8 @@ void visible_names_at(const struct declarations *d, int at, bool functions, stru
             declares = false;
         if (!is_identifier(d, i) || is_keyword(d, i) || is(d, i, "main"))
             continue;
-        bool instance = is(d, i - 1, "}") && (is(d, i + 1, ";") || is(d, i + 1, "[")); // of a struct or a block
+        // the instance name of a struct or a block
+        bool instance = is(d, i - 1, "}") && (is(d, i + 1, ";") || is(d, i + 1, "["));
         bool typed = instance || (is_identifier(d, i - 1) && !is_keyword(d, i - 1) && !is(d, i - 2, "struct"));
         bool function = typed && is(d, i + 1, "(") && w->depth == 0;
         bool listed = declares && parentheses == 0 && is(d, i - 1, ",");

@@ -9,7 +9,7 @@ enum { MAX_VISIBLE_NAMES = 256 };
 struct visible_names {
     // The names, innermost scopes last. If there are too many, the innermost are kept.
     const char *names[MAX_VISIBLE_NAMES];
-    int depths[MAX_VISIBLE_NAMES]; // of braces; 0: global
+    int depths[MAX_VISIBLE_NAMES]; // the nesting depth of braces; 0 is global
     int count;
 };
 

@@ -26,7 +26,7 @@ struct shader_run {
     struct draw_request request;
     struct draw_result drawn;
     lam_check_program program;
-    int position, normal, tangent; // inputs; -1: none
+    int position, normal, tangent; // indices of inputs, or −1
     struct map_inputs maps;
     struct uniform_binding *bindings; // one for each element of each uniform
     lam_check_value *values;          // one per binding

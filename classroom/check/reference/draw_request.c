@@ -13,7 +13,8 @@ struct request_header {
     char magic[8];
     int light_frame, size;
     unsigned scenes;
-    size_t text_sizes[3]; // of the contract, the vertex and the fragment shader, with the terminating zeros
+    // the sizes of the contract, the vertex and the fragment shader, including the terminating zeros
+    size_t text_sizes[3];
 };
 
 struct result_header {

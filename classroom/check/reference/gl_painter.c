@@ -30,7 +30,7 @@ struct gl_place {
 
 // The destination of an input's values.
 struct gl_input {
-    GLint location;                             // of the first element; -1: in a block
+    GLint location;                             // the location of the first element, or −1 in a block
     GLint block, offset, stride, matrix_stride; // in the block, of the first element, in bytes
     GLenum type;
 };
@@ -40,7 +40,7 @@ struct gl_program {
     struct gl_input *inputs;
     GLuint blocks[MAX_BLOCKS];
     int block_bytes[MAX_BLOCKS];
-    GLuint textures[MAX_TEXTURES]; // of one texel; by unit
+    GLuint textures[MAX_TEXTURES]; // textures with one texel, indexed by unit
 };
 
 // --- the context

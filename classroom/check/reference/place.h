@@ -8,11 +8,11 @@ enum { MAX_TEXTURE_COORDINATES = 2, MAX_FACTORS = 2 };
 
 struct place {
     lam_check_painter painter; // a copy, because a cache may keep the context longer than the caller's
-    void *place;               // the painter's context; NULL: not open
+    void *place;               // the painter's context; NULL if not open
     int size;
     char renderer[128];
     struct reference_points points[MESH_COUNT];
-    lam_check_mesh meshes[MESH_COUNT]; // index_count 0: not made yet
+    lam_check_mesh meshes[MESH_COUNT]; // index_count is 0 until the mesh is made
     float *normals[MESH_COUNT];        // four floats per vertex
     float *factors[MESH_COUNT];        // four floats per vertex, made on first use
 };
@@ -21,7 +21,7 @@ bool place_open(struct place *place, const lam_check_painter *painter, lam_check
                 lam_error *error);
 void place_close(struct place *place); // a zeroed one is allowed
 
-// The inputs of a program for map data; -1: none.
+// The indices of a program's inputs for map data, −1 if missing.
 struct map_inputs {
     int texture_coordinates[MAX_TEXTURE_COORDINATES], tangent, bitangent; // tangent: four floats
     int factors[MAX_FACTORS];                                             // colours that are the same at every vertex

@@ -44,10 +44,10 @@ enum reference_need {
 enum reference_rule {
     RULE_POINT = 1,
     RULE_DIRECTIONAL = 2,
-    RULE_SPOT = 3, // with a cutoff
+    RULE_SPOT = 3, // a light with a cutoff
     RULE_KIND = 3,
     RULE_UNATTENUATED = 4,
-    RULE_BITS = 3, // for each light, the first at bit RULE_FIRST
+    RULE_BITS = 3, // bits for each light, the first at bit RULE_FIRST
     RULE_FIRST = 16,
     RULE_NO_SPECULAR = 1 << 28,
     RULE_FLAT = 1 << 29,
@@ -75,24 +75,24 @@ struct reference_scene {
     double turn_deg;
     lam_vec3 eye, target;
     lam_rgb ambient, diffuse, specular; // colours of the material
-    float ka, kd, ks;                   // their strengths
-    float alpha;                        // of the diffuse colour
+    float ka, kd, ks;                   // the strengths of the terms
+    float alpha;                        // the alpha of the diffuse colour
     float shininess;
     // For shaders with metalness and roughness: `diffuse` is then the base colour, and kd and ks are 1.
     float metallic, roughness;
     bool physical;
     bool is_radiance;          // the shader divides by pi, so its lights are pi times as bright
-    bool dims_ambient;         // as in OpenGL 1: the lights' own ambient light is attenuated, and there is no other
-    float roughness_angle_rad; // for shaders of rough matt surfaces (Oren–Nayar)
+    bool dims_ambient;         // as in OpenGL 1, the lights' own ambient light is attenuated, and there is no other
+    float roughness_angle_rad; // used by shaders of rough matt surfaces (Oren–Nayar)
     bool flat;
-    // The normal in a normal map, along tangent, bitangent and normal. 0: flat. It is not exactly unit, like filtered
-    // maps.
+    // The normal in a normal map, along tangent, bitangent and normal. A zero vector means a flat surface. It is not
+    // exactly a unit vector, as in filtered maps.
     lam_vec3 bump;
-    lam_rgb emission; // of an emission map
+    lam_rgb emission; // the colour of an emission map
     // For shaders that read maps: the maps (map_bit), and the ones with a separate factor. Factor times texel is the
     // number above.
     unsigned maps, factors;
-    float occlusion;    // of an occlusion map
+    float occlusion;    // the value of an occlusion map
     bool encoded_maps;  // contract.maps
     bool tints_ambient; // the base colour map multiplies the ambient colour too
     int light_count;
@@ -102,7 +102,7 @@ struct reference_scene {
 extern const struct reference_scene reference_scenes[];
 extern const int reference_scene_count;
 
-int reference_scene_find(const char *name); // −1: not found
+int reference_scene_find(const char *name); // returns −1 if not found
 
 // Positions, normals and tangents of vertices, three floats each, without duplicate vertices, and three indices for
 // each triangle: few enough for OpenGL ES 2 with its 16-bit indices. From malloc.

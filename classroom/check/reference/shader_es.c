@@ -46,8 +46,8 @@ const struct contract_name *shader_dialect_built_in(const char *name)
     return NULL;
 }
 
-// Words of older versions, and their replacements in the two stages of ES 3.00. `declaration` is added if the word
-// occurs; NULL: none.
+// Words of older versions, and their replacements in the two stages of ES 3.00. If the word occurs, `declaration` is
+// added (may be NULL).
 static const struct old_word {
     const char *old, *vertex, *fragment, *declaration;
 } words[] = {

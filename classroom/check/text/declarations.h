@@ -14,7 +14,7 @@ struct declaration {
     enum declared kind;
     char type[32];
     char name[96];
-    int count; // of the outermost array; 0: no array; −1: the size is not a literal number
+    int count; // the size of the outermost array; 0 if there is no array, −1 if the size is not a literal number
     int line;
     bool flat;     // interpolation qualifier
     bool in_block; // member of an interface block
@@ -31,13 +31,13 @@ struct word {
 };
 
 struct declarations {
-    int version;      // of #version; 0: none
+    int version;      // the value of #version, or 0
     char profile[16]; // "core", "compatibility", "es", or ""
     struct declaration *items;
     int count;
-    struct word *words; // of the whole text (preprocess.h)
+    struct word *words; // the tokens of the whole text (preprocess.h)
     int word_count;
-    int *slots;     // a hash table: the first of equal words + 1; 0: empty
+    int *slots;     // a hash table that stores 1 + the index of the first equal word, or 0 if empty
     int slot_count; // a power of 2
 };
 

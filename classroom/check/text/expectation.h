@@ -13,8 +13,8 @@ enum expectation {
     EXPECT_NO_AMBIENT = 1,
     EXPECT_NO_DIFFUSE = 2,
     EXPECT_NO_SPECULAR = 4,
-    EXPECT_WHITE_DIFFUSE = 8,               // of the surface
-    EXPECT_WHITE_SPECULAR = 16,             // of the surface
+    EXPECT_WHITE_DIFFUSE = 8,               // the surface's diffuse colour is white
+    EXPECT_WHITE_SPECULAR = 16,             // the surface's specular colour is white
     EXPECT_WHITE_LIGHT = 32,                // Ld
     EXPECT_WHITE_SPECULAR_LIGHT = 64,       // Ls
     EXPECT_SPECULAR_LIGHT_AS_DIFFUSE = 128, // Ls is Ld
@@ -25,8 +25,9 @@ enum expectation {
 
 enum { MAX_EXPECTATIONS = 16 };
 
-// Stores the possible expectations, bits of enum expectation, those with the most terms first. `terms`: required bits
-// of lam_check_term; 0: the terms that the declarations show. Returns their number, at least 1.
+// Stores the possible expectations, bits of enum expectation, starting with the largest number of terms. `terms` has
+// the required bits of lam_check_term; 0 means the terms that the declarations show. Returns the number of
+// expectations, at least 1.
 int expectations_of(const struct shader_interface *interface, unsigned terms, unsigned out[MAX_EXPECTATIONS]);
 
 // Returns whether a fault of the table is not a mistake because the declarations leave its choice open: some of the

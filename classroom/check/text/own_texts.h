@@ -6,8 +6,8 @@
 #include <lambent/base.h>
 
 struct own_texts {
-    const char *vertex, *fragment; // as given, or one of the copies below; NULL as given
-    char *lines[2], *rewritten[2]; // from malloc; NULL: not needed
+    const char *vertex, *fragment; // the given text, or one of the copies below; may be NULL
+    char *lines[2], *rewritten[2]; // allocated with malloc; NULL if not needed
 };
 
 // Makes them from the texts of a program, which must outlive them. Returns false on failure: LAM_LIMIT. The caller

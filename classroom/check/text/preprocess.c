@@ -9,7 +9,7 @@
 enum { MAX_WORDS = 1 << 19, MAX_PARAMETERS = 16, MAX_NESTING = 32, MAX_EXPANSION_DEPTH = 64 };
 
 struct token {
-    char text[64]; // as struct word; "\n" ends a directive, which begins with "#"
+    char text[64]; // a token, or "\n", which ends a directive; "#" starts one
     int line;
     bool directive; // the '#' of a directive
     bool glued;     // no space before it: #define F(x) has a parameter, #define F (x) has none
@@ -35,7 +35,7 @@ struct preprocessor {
     struct macro *macros;
     int macro_count;
     int depth;   // nesting of braces
-    int steps;   // of expansion, limited to MAX_WORDS
+    int steps;   // the number of expansion steps, limited to MAX_WORDS
     bool failed; // out of memory
     int nesting; // nesting of #if
     struct {
@@ -156,7 +156,7 @@ static void emit_word(struct preprocessor *p, const struct token *t, int line)
     d->word_count++;
 }
 
-// Adds a token to `out`; NULL: to the result.
+// Adds a token to `out`, or to the result if `out` is NULL.
 static void emit(struct preprocessor *p, struct tokens *out, const struct token *t, int line)
 {
     if (!out)
@@ -230,7 +230,8 @@ static bool is_named_number(const struct preprocessor *p, const struct macro *m)
            !(d->word_count && strcmp(d->words[d->word_count - 1].text, "[") == 0);
 }
 
-// Adds tokens to `out` (emit) with macros expanded. `line`: of every word; 0: the tokens' own lines.
+// Adds tokens to `out` (see emit) with macros expanded. `line` is the line number of every word; 0 keeps the tokens'
+// own lines.
 static void expand(struct preprocessor *p, const struct token *t, int count, int line, int level, struct tokens *out)
 {
     for (int i = 0; i < count && !p->failed; i++) {
@@ -400,7 +401,7 @@ static long value_of(struct condition *c, int precedence)
         if (operators[i].precedence <= precedence || !next(c, operators[i].text))
             continue;
         value = apply(i, value, value_of(c, operators[i].precedence));
-        i = -1; // and repeat
+        i = -1; // restarts the loop
     }
     c->level--;
     return value;

@@ -234,7 +234,7 @@ static void apply_lambent_rules(struct shader_interface *r)
                                              : NEED_POINT;
     if (!lecture && !declarations_uses(&r->fragment, "gl_FrontFacing")) // a mistake in the lecture style
         r->supports &= ~(unsigned)NEED_TWO_SIDES;
-    for (int i = 0; i < r->fragment.word_count && r->maps; i++) // of an opaque material, regardless of its map's alpha
+    for (int i = 0; i < r->fragment.word_count && r->maps; i++) // an opaque material ignores the alpha of its map
         if (words_match(&r->fragment, i, "light . a = 1.0 ;"))
             r->supports &= ~(unsigned)NEED_ALPHA;
     r->supports |= rules;
@@ -262,7 +262,7 @@ static unsigned lambent_light_kinds(const struct shader_interface *r)
 static unsigned kind_of(enum uniform_semantic semantic, const char *type)
 {
     switch (semantic) {
-    case SEMANTIC_LIGHT_POSITION: // with four components: a direction if w is 0
+    case SEMANTIC_LIGHT_POSITION: // a vector with four components is a direction if w is 0
         return strcmp(type, "vec4") == 0 ? NEED_POINT | NEED_DIRECTIONAL : NEED_POINT;
     case SEMANTIC_LIGHT_X:
         return NEED_POINT;

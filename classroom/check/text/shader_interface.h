@@ -7,8 +7,8 @@
 
 // The lights of one struct or list of a contract.
 struct light_group {
-    int count;      // number of lights that the shaders declare; 0: none
-    unsigned kinds; // their possible kinds: NEED_POINT, NEED_DIRECTIONAL, NEED_SPOT
+    int count;      // number of lights that the shaders declare, or 0
+    unsigned kinds; // the possible kinds of the lights: NEED_POINT, NEED_DIRECTIONAL, NEED_SPOT
     bool list, has_direction;
 };
 
@@ -19,7 +19,7 @@ struct shader_interface {
     uint64_t constants;      // bit i: it has a constant of semantic i
     // The maps that they read (map_bit), and the maps whose factor they also declare. A map declares its number.
     unsigned maps, factors;
-    bool has_tangents; // as attributes: the frame of a normal map then need not come from derivatives
+    bool has_tangents; // tangents are attributes, so the frame of a normal map does not require derivatives
     // The contract's values, or the numbers that the shaders contain.
     struct contract_defaults defaults;
     // The space of the shaders' lighting, CAMERA or WORLD, and of their first light.
@@ -28,13 +28,13 @@ struct shader_interface {
     // As contract->groups. If the shaders declare no light, the first group is the light that the contract fixes.
     struct light_group groups[MAX_LIGHT_GROUPS];
     bool vertex_lit; // the fragment shader has no name of a material or light
-    bool physical;   // with metalness and roughness: contract->physical describes the lighting
+    bool physical;   // uses metalness and roughness; contract->physical describes the lighting
     // For a shader printed by `lambent shader`: its reflection model, tone curve, and whether it has multiple
     // scattering. AUTO, AUTO and false: another shader, or Lambert's model.
     lam_reflection printed_model;
     lam_tone printed_tone;
     bool multiple_scattering;
-    bool infinite_viewer, gl1; // for printed shaders: --viewer infinite, --gl1
+    bool infinite_viewer, gl1; // set for printed shaders: --viewer infinite, --gl1
 };
 
 // Makes the interface of a program's texts. `contract` must outlive it.

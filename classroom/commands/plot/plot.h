@@ -24,8 +24,8 @@ struct plot {
     double x_max, y_max; // both axes start at 0
     double level;        // the height of a dashed line; 0 if there is none
     const char *level_label;
-    bool files_inside;   // for scene files
-    lam_control control; // for reading files
+    bool files_inside;   // whether scene files are restricted to their folder
+    lam_control control; // the limits for reading files
     struct curve curves[CURVES_MAX];
     int count;
 };

@@ -10,11 +10,12 @@ struct call_control {
     uint64_t memory_used; // accessed atomically
     int over_memory;      // set once the memory budget refused a request
     int over_expansion;   // set once the budget derived from the file sizes refused a request
-    // bytes of all files read so far; accessed atomically. 0: no files, and no limit derived from them
+    // The number of bytes in all files read so far, accessed atomically. 0 means that no files were read, and that no
+    // limit is derived from them.
     uint64_t input_bytes;
     bool unknown_field; // the control has a field that this version does not know
     double last_share;
-    // The number of formula operations in a scene file, and its limit; 0: no limit.
+    // The number of formula operations in a scene file, and its limit; 0 means no limit.
     uint64_t operations, operation_limit;
 };
 

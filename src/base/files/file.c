@@ -89,7 +89,7 @@ struct reading {
     uint8_t *to;
     size_t size;
     struct call_control *call;
-    int failed;     // an errno; −1: the file ended early
+    int failed;     // an errno, or −1 if the file ended early
     size_t reached; // offset of the failure
 };
 

@@ -14,7 +14,7 @@ enum { FILE_PADDING = 64 };
 struct file_bytes {
     const uint8_t *data;
     size_t size;
-    size_t held;               // size of the address range at `data`; 0: not owned
+    size_t held;               // size of the address range at `data`; 0 if not owned
     struct call_control *call; // charged for the bytes, refunded on release; may be NULL
 };
 
@@ -24,19 +24,20 @@ struct file_bytes {
 bool file_read(const char *path, struct pool *pool, struct call_control *call, struct file_bytes *out,
                lam_error *error);
 
-// Reads a regular file that another file names. Messages use `shown` as its path (NULL: the path), and "-" is an
-// ordinary name. `folder` is the length of the folder's part of the path, as path_within returns it. The rest is opened
-// below that folder without following links, even links created meanwhile. If `folder` is 0, the path is opened as it
-// is. `fresh`: the call has not read this file before, so its bytes count as input (call_add_input).
+// Reads a regular file that another file names. Messages use `shown` as the path (NULL means the path itself), and "-"
+// is an ordinary name. `folder` is the length of the folder's part of the path, as returned by path_within. The rest is
+// opened below that folder without following links, even links created meanwhile. If `folder` is 0, the path is opened
+// directly. `fresh` means that the call has not read this file before, so its bytes count as input (call_add_input).
 bool file_read_named(const char *path, size_t folder, const char *shown, bool fresh, struct pool *pool,
                      struct call_control *call, struct file_bytes *out, lam_error *error);
 
 // Returns whether a path that another library opens leads to a regular file; false: LAM_CANNOT_READ.
 bool file_check_regular(const char *path, lam_error *error);
 
-// Resolves every link and ".." of a path. Returns the result, from malloc, if it is the folder ("": the current one) or
-// inside it. Returns NULL if the path is outside (*outside is then true) or cannot be resolved (errno). *length is the
-// length of the folder's part with its '/', or 0 if the path is the folder itself.
+// Resolves every link and ".." of a path. If the result is the folder or inside it, returns it, allocated with malloc.
+// A `folder` of "" is the current folder. Returns NULL if the path is outside (*outside is then true) or cannot be
+// resolved (errno). Sets *length to the length of the folder's part with its '/', or to 0 if the path is the folder
+// itself.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
 // A large file that any thread may read in parts.

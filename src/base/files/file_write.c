@@ -78,15 +78,15 @@ static void hold_signals(sigset_t *before)
 // The data to write and their destination.
 struct writing {
     const char *target;
-    const struct stat *existing; // NULL: the target does not exist
+    const struct stat *existing; // NULL if the target does not exist
     const void *data;
     size_t size;
     bool durable;
     struct call_control *call;
 };
 
-// Returns false and sets errno on failure. ECANCELED: the call must end. EINTR: a fatal signal is pending. `before`:
-// the signals blocked before; NULL: signals are not blocked here.
+// Returns false and sets errno on failure. ECANCELED means that the call must end, EINTR that a fatal signal is
+// pending. `before` contains the previously blocked signals; if it is NULL, signals are not blocked here.
 static bool write_all(int file, const struct writing *w, const sigset_t *before)
 {
     const uint8_t *at = w->data;

@@ -37,7 +37,7 @@ bool math_finite(double x);
 lam_mat4 mat4_mul(const lam_mat4 *a, const lam_mat4 *b);    // a·b, which applies b first
 lam_vec3 mat4_point(const lam_mat4 *m, lam_vec3 p);         // affine: w = 1, last row ignored
 lam_vec3 mat4_vector(const lam_mat4 *m, lam_vec3 v);        // upper 3×3 only
-double mat4_determinant3(const lam_mat4 *m);                // of the upper 3×3
+double mat4_determinant3(const lam_mat4 *m);                // the determinant of the upper 3×3
 bool mat4_inverse_affine(const lam_mat4 *m, lam_mat4 *out); // false if the 3×3 is singular
 // Computes the cofactors of the upper 3×3, which are the inverse transpose times the determinant. They transform
 // normals; the caller handles the sign of the determinant (a mirror reverses the winding, not the normal).

@@ -44,7 +44,7 @@ char *arena_vformat(struct arena *arena, const char *format, va_list arguments);
 // which is refunded with them. Returns false if memory runs out; the caller then still owns them.
 bool arena_adopt(struct arena *arena, void *pages, size_t held, size_t charged);
 
-// For tests: makes allocation number `countdown` (0: the next) of this thread fail once. −1 disables this.
+// For tests: makes allocation number `countdown` of this thread fail once, 0 being the next. −1 disables this.
 void arena_fail_after(long countdown);
 
 #endif

@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-// Works like lam_memory_available, with the system files below `root` ("": the real ones; else a folder of a test) and
-// without this process's resource limits. UINT64_MAX: the files set no limit.
+// Works like lam_memory_available, but ignores this process's resource limits and reads the system files below `root`:
+// "", or a folder for tests. Returns UINT64_MAX if the files set no limit.
 uint64_t memory_of_groups(const char *root);
 
 #endif

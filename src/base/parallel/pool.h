@@ -6,8 +6,8 @@
 
 struct pool;
 
-// Makes a pool of `threads` threads, the caller included (0: one for each processor that this process may use). It has
-// fewer threads if the system refuses more; the caller always works. Returns NULL if memory runs out.
+// Makes a pool of `threads` threads, the caller included (0 means one for each processor that this process may use). It
+// has fewer threads if the system refuses more; the caller always works. Returns NULL if memory runs out.
 struct pool *pool_make(int threads);
 void pool_free(struct pool *pool);
 int pool_threads(const struct pool *pool); // NULL: 1

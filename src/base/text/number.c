@@ -294,7 +294,8 @@ static uint64_t round_exactly(const struct decimal *d, const struct format *form
     // Scale so that the quotient's last bit is the last bit of the result.
     int precision = format->mantissa_bits + 1;
     int min_exponent = format->min_exponent_field + 2 - precision; // exponent of a denormal's last bit
-    int exponent = big_bits(&over) - big_bits(&under);             // of the number's first bit, or one higher
+    // the exponent of the number's first bit, or one higher
+    int exponent = big_bits(&over) - big_bits(&under);
     // the quotient then has `precision` bits, or one more
     int last = exponent - precision;
     if (last < min_exponent)

@@ -6,7 +6,7 @@
 // Returns the smallest distance that is too far. No word is near to one that is too long to be compared.
 static int limit_of(const char *word)
 {
-    enum { COMPARED_MAX = 63 }; // as lam_edit_distance
+    enum { COMPARED_MAX = 63 }; // the limit of lam_edit_distance
     size_t length = strlen(word);
     return length > COMPARED_MAX ? 0 : (int)length / 3 + 2;
 }

@@ -7,7 +7,7 @@
 // A search for the word of the interface that a typed word means, by lam_word_distance.
 struct spelling {
     const char *word;    // as typed
-    const char *nearest; // the nearest word so far; NULL: none
+    const char *nearest; // the nearest word so far, or NULL
     int limit;           // a nearer word has a distance below this
 };
 struct spelling spelling_of(const char *word);

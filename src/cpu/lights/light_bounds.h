@@ -19,11 +19,11 @@ struct light_bounds {
     int count, capacity;      // number of lights; including the padding of the last group
     const uint32_t *number;   // index in the frame
     const float *position[3]; // eye space; of a directional light the direction to it
-    const int32_t *far;       // −1: directional; else 0
-    const float *axis[3];     // of a spot light; otherwise 0
-    const float *min_cosine;  // between the axis and a direction; no light arrives at a smaller cosine; −2: no cone
+    const int32_t *far;       // −1 for a directional light, otherwise 0
+    const float *axis[3];     // the axis of a spot light; otherwise 0
+    const float *min_cosine;  // the cosine at which a spot's light ends; −2 if there is no cone
     const float *attenuation[3];
-    const float *inverse_range; // 0: none
+    const float *inverse_range; // 0 if there is none
     // `capacity` numbers per material: the maximum channel of kd ⊙ Ld, which vertex colours tint (gl1: plus the maximum
     // of ka ⊙ La), and of ks ⊙ Ls.
     const float *max_diffuse, *max_specular;

@@ -27,7 +27,7 @@ static void *slab_take(const struct raster_frame *raster, struct slab_list *list
             if (!call_charge(raster->work->call, SLAB))
                 goto out_of_memory;
             size_t held;
-            bool filled = next > 0 || raster->frame->triangle_count > FILLED; // its pages will all be used
+            bool filled = next > 0 || raster->frame->triangle_count > FILLED; // all of its pages will be used
             void *slab = filled ? pages_get(SLAB, &held) : pages_get_sparse(SLAB, &held);
             if (!slab) {
                 call_refund(raster->work->call, SLAB);

@@ -9,7 +9,7 @@
 // of a tile's triangles. Back faces are drawn last, because most are occluded by then; each has a depth bound that is
 // tested first (occlusion.inc).
 enum {
-    TILE_BINS = 2,       // of tile t: 2·t, and 2·t + 1 for back faces
+    TILE_BINS = 2,       // tile t has bin 2·t, and 2·t + 1 for back faces
     BIN_BLOCK_IDS = 128, // multiples of LANES_MAX, so that whole packets can be read
     BIN_BLOCK_BACK_FACES = 64,
     SMALL = TILE * SUBPIXEL, // largest extent for which edge functions fit 32 bits
@@ -19,7 +19,7 @@ enum {
 struct bin_block {
     struct bin_block *next;
     uint32_t count;
-    uint32_t ids[BIN_BLOCK_IDS]; // for back faces BIN_BLOCK_BACK_FACES numbers, then as many bounds
+    uint32_t ids[BIN_BLOCK_IDS]; // for back faces, BIN_BLOCK_BACK_FACES numbers followed by as many bounds
 };
 
 // A part of a clipped triangle: its own window coordinates, and the number of the triangle.

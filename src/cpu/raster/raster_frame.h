@@ -26,8 +26,8 @@ struct raster_frame {
     // x, y, key of each vertex of the indexed meshes: pixels (y down, not snapped); larger keys are nearer. Corners of
     // other meshes are transformed on demand (corners.inc).
     float *vertices;
-    const uint32_t *first_vertex;   // of each indexed draw
-    const struct thread_bins *bins; // of each thread
+    const uint32_t *first_vertex;   // the first vertex of each indexed draw
+    const struct thread_bins *bins; // the bins of each thread
     int thread_count;
 };
 

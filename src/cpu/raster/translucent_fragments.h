@@ -6,8 +6,8 @@
 #include <stdint.h>
 
 struct layer_rows {
-    uint16_t *samples; // of each fragment: a bit for each sample that shows it
-    float *keys;       // of each fragment: a depth key for each sample
+    uint16_t *samples; // for each fragment, a bit for each sample that shows it
+    float *keys;       // for each fragment, a depth key for each sample
     // Some fragments belong to parts of clipped triangles; two parts of one triangle may share a pixel.
     bool clipped;
     bool masked; // some samples were omitted because of the opacity of a surface

@@ -39,8 +39,8 @@ struct tile_search {
 // Number of tiles: about half a million fragments, some megabytes, if all are covered.
 enum { LARGE_PICTURE = 128 };
 
-// Adds the triangles of the fragments (`set` NULL: none), and returns the lowest and the highest. Whether a fragment's
-// triangle differs from the previous one is unpredictable, so the test is branchless.
+// Adds the triangles of the fragments to `set` (may be NULL), and returns the lowest and the highest. Whether a
+// fragment's triangle differs from the previous one is unpredictable, so the test is branchless.
 static void add_triangles(struct rank_bitset *set, const struct fragments *fragments, uint32_t *lowest,
                           uint32_t *highest)
 {

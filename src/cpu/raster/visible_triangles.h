@@ -11,9 +11,9 @@ struct cpu_frame;
 // Memory of the device, kept from frame to frame except for the fragment stores.
 struct visible_buffers {
     struct buffer sets, normals, fragment_stores;
-    struct buffer *vertices; // of the device: normals may be stored there after the tiles are searched
-    struct arena *arenas;    // of each thread, for the fragment stores
-    double search_ms;        // of the last frame: finding the visible triangles of each tile
+    struct buffer *vertices; // the device's vertices; normals may be stored there after the tiles are searched
+    struct arena *arenas;    // one arena per thread, for the fragment stores
+    double search_ms;        // the time for finding the visible triangles in the last frame
 };
 
 // Returns whether each tile's fragments are found in advance and kept until they are lit, if anything is found in

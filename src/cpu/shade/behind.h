@@ -13,7 +13,7 @@ struct behind {
     int levels;
     int width[BEHIND_LEVELS], height[BEHIND_LEVELS];
     float *texels[BEHIND_LEVELS];
-    uint8_t *glass; // for each tile of the picture: whether it has omitted surfaces
+    uint8_t *glass; // for each tile of the picture, whether it has omitted surfaces
 };
 
 // Reserves all levels for a picture, and clears the first level and the tiles' flags. Returns false if memory runs out.

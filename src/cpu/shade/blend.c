@@ -238,7 +238,7 @@ static struct layer_sum sum_layers(const struct fragments *fragments, const stru
 // channels; the visible background is tinted by the difference.
 struct tinted_pixel {
     int number;      // index in the tile
-    float x, y;      // its centre in the picture
+    float x, y;      // the centre of the pixel in the picture
     int samples;     // per pixel
     float looked[4]; // the picture behind, at the last sample that refracts
     struct layer_sum last;

@@ -19,8 +19,8 @@ struct layer {
 // Scratch memory of one thread.
 struct blend_scratch {
     uint32_t *order;      // fragment indices in the order of pixels
-    uint32_t *start;      // of each pixel, in `order`, plus one at the end
-    struct layer *layers; // for one pixel
+    uint32_t *start;      // the start of each pixel in `order`, plus one at the end
+    struct layer *layers; // the layers of one pixel
 };
 
 // Sorts a tile's translucent fragments by pixel, after joining the fragments of one clipped triangle's parts in each

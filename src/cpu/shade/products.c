@@ -98,7 +98,7 @@ struct material_products *products_make(struct buffer *storage, const struct fra
 // coordinates uses no map.
 static unsigned parts_of_number(const struct material_products *m, lam_map slot, float factor, bool stretched)
 {
-    const float margin = 1e-4f; // for the rounding of filtered texels
+    const float margin = 1e-4f; // allows for the rounding of filtered texels
     float low = factor, high = factor;
     if (m->maps >> slot & 1) {
         float range[2];

@@ -12,7 +12,7 @@ struct resolve_target {
     lam_image *image;     // in a working format (pixels.h); it has no pixels if `converted` is set
     lam_image *converted; // the caller's picture in another format, into which tiles are converted; or NULL
     uint8_t empty_pixel[16];
-    const struct behind *behind; // its first level gets the sums instead of the picture; or NULL
+    const struct behind *behind; // receives the sums in its first level instead of the picture; or NULL
 };
 
 // Sums of a tile's pixels.
@@ -25,7 +25,7 @@ struct pixel_sums {
     // The fraction for each channel, if the frame transmits; `transmittance` is then their mean. Otherwise NULL.
     float *tint[3];
     const float *background;     // the background of such layers (frame.glass_background)
-    const struct behind *behind; // NULL: nothing is blurred or refracted, or this is the picture behind
+    const struct behind *behind; // NULL if nothing is blurred or refracted, or if this is the picture behind
 };
 
 // Returns the bytes per pixel of the two working formats: constants, so that short copies are inlined.

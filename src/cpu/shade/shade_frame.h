@@ -20,9 +20,9 @@ struct material_products {
     bool mirrors;          // there is an environment, kr is not 0, and the material is classic
     const lam_material *given;
     unsigned maps;                       // the maps that shading uses: a bit 1 << LAM_MAP_… for each
-    bool converted;                      // with maps: a metallic-roughness material lit by a classic model
+    bool converted;                      // a metallic-roughness material with maps that a classic model lights
     float shininess;                     // after match_highlights and gl1
-    int layers;                          // LAYER_…; 0: only a metallic-roughness surface, or a classic material
+    int layers;                          // LAYER_…; 0 for a plain metallic-roughness surface or a classic material
     float stretch[2];                    // anisotropy: the direction along tangent and bitangent, unit
     const struct light_products *lights; // one for each light
     float (*sky)[3], (*ground)[3];       // ka ⊙ sky, ka ⊙ ground for each hemisphere light
@@ -35,17 +35,18 @@ struct material_products *products_make(struct buffer *storage, const struct fra
 struct shade_frame {
     const struct frame *frame;
     const struct material_products *materials;
-    const struct environment_light *environment_light; // for physical materials; NULL: none
-    const struct environment_samples *reference;       // used instead of the split sum; NULL: none
-    const struct light_bounds *light_bounds;           // NULL: every light is evaluated everywhere
-    const struct hierarchy *hierarchy;                 // NULL: no rays
-    const struct light_pattern *light_pattern;         // for lights with a size
-    const struct screen_occlusion *occlusion;          // ambient occlusion of each pixel; NULL: none, or by rays
-    const struct occlusion_pattern *occlusion_pattern; // ambient occlusion by rays; NULL: none
+    const struct environment_light *environment_light; // the environment's light on physical materials, or NULL
+    const struct environment_samples *reference;       // used instead of the split sum, or NULL
+    const struct light_bounds *light_bounds;           // NULL if every light is evaluated everywhere
+    const struct hierarchy *hierarchy;                 // NULL if no rays are traced
+    const struct light_pattern *light_pattern;         // used for lights with a size
+    // ambient occlusion of each pixel; NULL if there is none or it uses rays
+    const struct screen_occlusion *occlusion;
+    const struct occlusion_pattern *occlusion_pattern; // ambient occlusion by rays, or NULL
     const float *decode_srgb, *decode_linear;          // 256 entries each: the value of a colour byte
     struct visible_normals
-        visible;               // of draws whose meshes have no normals; its set contains triangle numbers of the frame
-    struct recorder *recorder; // for the explained pixel (recorder.h); otherwise NULL
+        visible;               // for draws whose meshes have no normals; its set contains triangle numbers of the frame
+    struct recorder *recorder; // records the explained pixel (recorder.h), otherwise NULL
 };
 
 // Returns the parts of an environment's light that the frame's materials use (environment_light.h).

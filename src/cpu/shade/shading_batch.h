@@ -22,8 +22,8 @@ enum { RUN_CORNERS = 0, RUN_INTERPOLANT = 9, RUN_EXTRA = 18, RUN_ROWS = 21 };
 struct triangle_runs {
     int count;
     uint32_t triangle[BATCH_MAX + LANES_MAX];
-    int32_t first[BATCH_MAX];  // for LANES fragments: the run of the first one
-    int32_t offset[BATCH_MAX]; // for each fragment: its run, relative to that run
+    int32_t first[BATCH_MAX];  // for each LANES fragments, the run of the first one
+    int32_t offset[BATCH_MAX]; // for each fragment, its run relative to that run
     float row[RUN_ROWS][BATCH_MAX + LANES_MAX];
 };
 
@@ -32,11 +32,13 @@ struct light_batch {
     _Alignas(64) float ambient[3][BATCH_ROW]; // each packet is a cache line
     float diffuse[3][BATCH_ROW], specular[3][BATCH_ROW];
     float f0[3][BATCH_ROW], rest[3][BATCH_ROW]; // Fresnel factor of microfacet lobes
-    float tint[3][BATCH_ROW];                   // of the light, by the surfaces that it passed (frame.tints_rays)
+    // the colour of the light after the surfaces that it passed (frame.tints_rays)
+    float tint[3][BATCH_ROW];
     float kept_diffuse[3][BATCH_ROW], kept_specular[3][BATCH_ROW];
     float l[3][BATCH_ROW], distance[BATCH_ROW], arriving[BATCH_ROW];
-    float share[BATCH_ROW];                    // of the incoming light: 1 if there is a highlight, else 0
-    float base[BATCH_ROW];                     // of the packets listed below, consecutive
+    // the share of the incoming light: 1 if there is a highlight, otherwise 0
+    float share[BATCH_ROW];
+    float base[BATCH_ROW];                     // the bases of the packets listed below, consecutive
     float first[BATCH_ROW], second[BATCH_ROW]; // values passed from one step to the next
     int packets[LIGHT_BATCH], packet_count;    // first points of the packets with a highlight
 };
@@ -44,7 +46,7 @@ struct light_batch {
 struct shading_batch {
     struct light_batch lit;
     float p[3][BATCH_ROW], n[3][BATCH_ROW], v[3][BATCH_ROW], t[3][BATCH_ROW];
-    float color[3][BATCH_ROW], alpha[BATCH_ROW];    // of the vertices; after shading, the result
+    float color[3][BATCH_ROW], alpha[BATCH_ROW];    // input: the vertices' colours; output: the result
     uint32_t triangle[BATCH_ROW];                   // index in the mesh
     float x[BATCH_ROW], y[BATCH_ROW];               // the pixel's centre, in pixels of the window
     float sample_x[BATCH_ROW], sample_y[BATCH_ROW]; // the sample nearest to it, if a pixel has several
@@ -56,7 +58,7 @@ struct shading_batch {
         float s[BATCH_ROW], t[BATCH_ROW], ds_dx[BATCH_ROW], dt_dx[BATCH_ROW], ds_dy[BATCH_ROW], dt_dy[BATCH_ROW];
     } texcoord;
     struct texture_taps taps;
-    float texel[4][BATCH_ROW], level[BATCH_ROW];                   // of the map that was read last
+    float texel[4][BATCH_ROW], level[BATCH_ROW];                   // the texel of the map that was read last
     float vertex_color[3][BATCH_ROW], ambient_color[3][BATCH_ROW]; // factor of ka; `color` is the factor of kd
     float specular[3][BATCH_ROW], emission[3][BATCH_ROW];          // factor of the highlights; and the emission
     float power[BATCH_ROW], roughness[BATCH_ROW], metallic[BATCH_ROW], occlusion[BATCH_ROW];
@@ -68,13 +70,13 @@ struct shading_batch {
         LAYER_MAPPED_COLORS(COLOR_ROWS)
 #undef NUMBER_ROW
 #undef COLOR_ROWS
-        float clearcoat_normal[3][BATCH_ROW];               // of any length
+        float clearcoat_normal[3][BATCH_ROW];               // not normalized
         float stretch[2][BATCH_ROW], anisotropy[BATCH_ROW]; // along tangent and bitangent
     } layered;
     float through[3][BATCH_ROW]; // transmittance of surfaces
     float bend[3][BATCH_ROW];    // if the frame refracts: as fragments.bend
     float sign[BATCH_ROW];       // sign of the bitangent
-    float rest[3][BATCH_ROW];    // as vertex_cache.rest
+    float rest[3][BATCH_ROW];    // same as vertex_cache.rest
     struct triangle_runs runs;
 };
 
@@ -99,12 +101,12 @@ struct shadow_rows {
 // Scratch memory of one thread's shading, and its counters.
 struct shading {
     struct shading_batch *batch;
-    struct shadow_rows *shadows; // NULL: the frame has none
+    struct shadow_rows *shadows; // NULL if the frame has none
     struct ray_layers ray_layers;
     struct vertex_cache vertices;
     struct light_list lights;
     uint64_t points_lit, lights_evaluated, rays;
-    struct work *work; // of the frame
+    struct work *work; // the frame's work
 };
 
 #endif

@@ -12,7 +12,7 @@
 struct fan_edge {
     uint32_t end[3]; // bits of the other end
     uint32_t corner;
-    uint32_t incoming; // 0: the triangle runs from the position to the end; 1: from the end to the position
+    uint32_t incoming; // 0 means the triangle runs from the position to the end; 1 means from the end to the position
 };
 _Static_assert(2 * sizeof(struct fan_edge) >= 3 * sizeof(double),
                "a fan's sum must fit into the memory of a corner's edges");

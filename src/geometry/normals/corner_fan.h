@@ -12,7 +12,7 @@ struct fan_corner {
     uint32_t smoothing_group;
     // Bits of the positions of the triangle's next and previous corners, with −0 as 0.
     uint32_t next[3], previous[3];
-    double normal[3]; // of the triangle, unit; zero if it has no area
+    double normal[3]; // the triangle's unit normal, zero if it has no area
     double weight;    // twice the area × the angle at the corner in radians
     uint32_t fan;     // while joining: a corner to which this one is joined; then the number of its fan
 };

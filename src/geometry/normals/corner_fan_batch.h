@@ -10,7 +10,7 @@ enum { FAN_ROWS = FAN_CORNERS_MAX * (FAN_CORNERS_MAX + 1) / 2 };
 
 struct corner_fan_batch {
     uint32_t waiting[FAN_CORNERS_MAX + 1]; // number of positions by their number of corners
-    fan_row rows[FAN_ROWS];                // their corners: one row for count 1, two for count 2 …
+    fan_row rows[FAN_ROWS];                // the corners of the fans: one row for count 1, two for count 2 …
     struct corner_fan_block block;
 };
 

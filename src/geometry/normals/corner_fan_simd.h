@@ -22,8 +22,8 @@ struct corner_fan_block {
     fan_row corners[FAN_CORNERS_MAX]; // ascending at each position after `make`
     fan_row open;                     // by_vertex; nonzero: the vertex is not closed (normals.h)
     fan_row flat;                     // nonzero: a degenerate triangle; the other fields are invalid
-    // Fans, numbered at each position by their first corners: their corners as bits (0: the position has fewer fans),
-    // and their normals.
+    // Fans, numbered at each position by their first corners: their corners as bits (0 means the position has fewer
+    // fans), and their normals.
     uint32_t fans; // the largest number of fans at a position
     fan_row members[FAN_CORNERS_MAX];
     float unit[FAN_CORNERS_MAX][3][FAN_POSITIONS];
@@ -31,9 +31,9 @@ struct corner_fan_block {
 
     // Intermediate values.
     fan_row triangles[FAN_CORNERS_MAX], groups[FAN_CORNERS_MAX];
-    fan_row next_vertex[FAN_CORNERS_MAX], previous_vertex[FAN_CORNERS_MAX]; // of the triangle
+    fan_row next_vertex[FAN_CORNERS_MAX], previous_vertex[FAN_CORNERS_MAX]; // the triangle's vertices
     float here[3][FAN_POSITIONS], next[FAN_CORNERS_MAX][3][FAN_POSITIONS], previous[FAN_CORNERS_MAX][3][FAN_POSITIONS];
-    double normal[FAN_CORNERS_MAX][3][FAN_POSITIONS];   // of the triangle, unit; zero without area
+    double normal[FAN_CORNERS_MAX][3][FAN_POSITIONS];   // the triangle's unit normal, zero if it has no area
     double weighted[FAN_CORNERS_MAX][3][FAN_POSITIONS]; // the normal × twice the area × the angle at the corner
     fan_row links[FAN_CORNERS_MAX];                     // bit j: the corner is joined to corner j
 };

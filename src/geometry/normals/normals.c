@@ -29,7 +29,7 @@ static size_t chunk_end(size_t index, size_t total)
 struct numbering {
     struct visible_normals made;
     struct rank_bitset first_corners;
-    float (*normals)[3]; // by number
+    float (*normals)[3]; // indexed by number
     uint32_t *indices;   // per corner: elements of `made`, then numbers
     size_t corners;
 };

@@ -41,7 +41,7 @@ struct fan_loop {
     // While closed vertices are processed, open vertices are only listed.
     bool by_vertex;
     struct rank_bitset open;
-    uint32_t *counts, (*collected)[CLOSED_MAX]; // of each wanted vertex: its number of corners, and the first of them
+    uint32_t *counts, (*collected)[CLOSED_MAX]; // for each wanted vertex, its number of corners and the first of them
 };
 
 // Fills an element with the normal x, y, z.

@@ -20,7 +20,7 @@ struct visible_normals {
     // depends on the threads.
     float (*normals)[3];
     uint32_t used;
-    uint32_t *first_corners; // for each normal: a corner of the mesh; the same capacity; NULL: not needed
+    uint32_t *first_corners; // a corner of the mesh for each normal, with the same capacity; NULL if not needed
 };
 
 // Returns the element of a corner of a triangle in the set.

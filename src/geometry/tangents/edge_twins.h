@@ -13,7 +13,7 @@ static inline uint32_t prev_corner(uint32_t corner) { return corner % 3 == 0 ? c
 // welded corners. If more than two triangles share an edge, the first edge of one direction is paired with the first of
 // the other, the second with the second, and so on.
 struct edge_twins {
-    uint32_t *twin; // the twin of each edge; NO_CORNER: none
+    uint32_t *twin; // the twin of each edge, or NO_CORNER
     // The corners of each welded number v, in order: list[first[v]] … list[first[v + 1] − 1].
     uint32_t *first, *list;
 };

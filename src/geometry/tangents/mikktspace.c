@@ -22,8 +22,8 @@ struct tangent_maker {
     struct corner_weld weld;
     struct edge_twins edges;
     uint8_t *flags;   // flags of triangles (tangent_kernels.h)
-    uint32_t *groups; // of each corner; NO_CORNER: none
-    int8_t *signs;    // of the bitangent, for each group
+    uint32_t *groups; // the group of each corner, or NO_CORNER
+    int8_t *signs;    // the sign of the bitangent for each group
     uint32_t group_count;
     bool t_down;
 };

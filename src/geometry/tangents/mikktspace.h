@@ -33,7 +33,7 @@
 struct mesh_tangents {
     float *tangents; // 4 per element: unit, perpendicular to the normal; the sign of the bitangent
     uint32_t count;
-    uint32_t *indices; // of each corner
+    uint32_t *indices; // the index of each corner
 };
 
 // Computes the tangents of a mesh with normals and texture coordinates; the results are in `arena`. The bitangent

@@ -13,7 +13,7 @@ typedef float axes[3][LANES];
 
 struct triangles {
     uint32_t vertex[3][LANES]; // elements of the most recently fetched attribute
-    axes position[3];          // of the corners
+    axes position[3];          // the positions of the corners
     float s[3][LANES], t[3][LANES];
 };
 

@@ -16,7 +16,7 @@ enum { FILE_HEADER = 14, CORE_HEADER = 12, INFO_HEADER = 40, OS2_SHORTEST = 16, 
 
 // The bits of a colour channel in a pixel of 16 or 32 bits.
 struct mask {
-    uint32_t max; // the largest value; 0: no such channel
+    uint32_t max; // the largest value; 0 means no such channel
     int shift;
 };
 

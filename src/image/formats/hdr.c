@@ -22,7 +22,7 @@ static bool hdr_probe(const uint8_t *bytes, size_t size)
 struct header {
     int width, height;
     bool up, left; // rows run upwards, pixels to the left
-    size_t pixels; // their offset
+    size_t pixels; // the offset of the pixels
 };
 
 // Returns the end of the line that starts at `at`, or NULL if the file ends within the line.

@@ -7,7 +7,7 @@
 struct netpbm_header {
     int width, height; // 1 … 65535
     double last;       // PPM: the largest value; PFM: the scale, whose sign gives the byte order
-    size_t pixels;     // their offset
+    size_t pixels;     // the offset of the pixels
 };
 
 // Reads the header of a file whose first two bytes have been checked: width, height and one more number, separated by

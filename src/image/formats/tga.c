@@ -18,7 +18,7 @@ struct tga {
     uint32_t type, width, height;
     uint32_t kind;                      // PALETTE, COLOR or GREY
     uint32_t bits;                      // per pixel
-    uint32_t first, colors, color_bits; // of the palette: index of the first entry, number of entries, bits per entry
+    uint32_t first, colors, color_bits; // the palette: index of the first entry, number of entries, bits per entry
     uint32_t alpha_bits;
     bool runs, top_down, right_to_left;
     const uint8_t *palette;

@@ -23,7 +23,7 @@ bool webp_is_installed(void);
             each(WebPFree)
 
 struct webp_library {
-    void *handle; // for library_close
+    void *handle; // the handle for library_close
 #define MEMBER(name) __typeof__(&name) name;
     WEBP_FUNCTIONS(MEMBER)
 #undef MEMBER

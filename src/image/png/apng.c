@@ -20,7 +20,7 @@ struct box {
 };
 
 struct apng_frame {
-    lam_bytes png; // of the box only
+    lam_bytes png; // contains only the box
     struct box box;
     int channels; // enum png_channels
 };
@@ -200,7 +200,7 @@ static void put_frame_control(struct writer *writer, const struct apng *apng, co
     png_put_u32(data + 12, (uint32_t)box->x);
     png_put_u32(data + 16, (uint32_t)box->y);
     put_delay(apng->settings.frames_per_second, data + 20);
-    data[24] = 0; // APNG_DISPOSE_OP_NONE: keep the frame
+    data[24] = 0; // APNG_DISPOSE_OP_NONE means keep the frame
     data[25] = 0; // APNG_BLEND_OP_SOURCE: replace the previous pixels, alpha included
     close_chunk(writer, "fcTL", CONTROL_BYTES);
 }

@@ -58,7 +58,7 @@ struct codes {
     uint16_t code_length_code[CODE_LENGTHS];
     unsigned code_lengths; // number of written code_length_length entries, in the format's order
 
-    uint64_t bits; // of the whole block
+    uint64_t bits; // the size of the whole block
 };
 
 // Returns the symbol of a match of 3 … 258 bytes, and the number of its extra bits.

@@ -13,12 +13,12 @@
 struct png_encoding {
     const lam_image *image;
     const uint8_t *zeros; // the row above the first row
-    int bytes_per_pixel;  // 1: grey, 2: grey and alpha, 3: RGB, 4: RGBA
-    int rows;             // of each strip; the last may have fewer
+    int bytes_per_pixel;  // 1 means grey, 2 means grey and alpha, 3: RGB, 4: RGBA
+    int rows;             // the rows of each strip; the last may have fewer
     int strips;
     size_t capacity;          // the most bytes of a strip's stream
     void *threads;            // the method's state, one per thread
-    struct call_control call; // of the whole encoding
+    struct call_control call; // the control of the whole encoding
 };
 
 // A compression method.
@@ -33,7 +33,7 @@ struct png_method {
     // to `adler`. Returns the number of bytes, or 0 if memory runs out or the call must stop.
     size_t (*strip)(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out);
 
-    // Frees memory that the arena does not own, also after a failed start. NULL: not needed.
+    // Frees memory that the arena does not own, also after a failed start. NULL if not needed.
     void (*end)(struct png_encoding *encoding);
 };
 

@@ -20,7 +20,7 @@ enum {
 
 struct png_strip {
     struct adler_part adler;
-    size_t size; // size of its chunk; 0: it was not encoded
+    size_t size; // size of its chunk; 0 if it was not encoded
 };
 
 struct png_writer {
@@ -29,7 +29,7 @@ struct png_writer {
     struct crc_tables crc;
     int channels;           // enum png_channels; accessed atomically
     int first;              // first strip of this batch
-    uint8_t *out;           // of this batch, chunk_capacity bytes for each strip
+    uint8_t *out;           // the output of this batch, chunk_capacity bytes for each strip
     struct png_strip *done; // one for each strip of a batch
 };
 
@@ -128,7 +128,7 @@ static void encode_strip(void *user, size_t index, int thread)
 static size_t put_head(const struct png_writer *writer, bool raw, uint8_t *out)
 {
     static const uint8_t signature[8] = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
-    static const uint8_t color_types[5] = {0, 0, 4, 2, 6}; // by bytes_per_pixel
+    static const uint8_t color_types[5] = {0, 0, 4, 2, 6}; // indexed by bytes_per_pixel
     static const uint8_t intent = 0;                       // perceptual
     static const char software[] = "Software\0lambent";
     uint8_t header[13] = {0}, *at = out;

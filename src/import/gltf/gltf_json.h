@@ -47,8 +47,8 @@ const json_t *gltf_take_list(struct gltf *gltf, const struct place *place, const
 // false).
 const char *gltf_name(struct gltf *gltf, const json_t *object, bool *ok);
 
-// Returns the index of the element of a list (NULL: an empty one) that the caller requests by its name, or else by its
-// index. Returns −1 with an error that lists the elements; `what` is the noun for one.
+// Returns the index of the element of a list (NULL means an empty one) that the caller requests by its name, or else by
+// its index. Returns −1 with an error that lists the elements; `what` is the noun for one.
 int gltf_find_named(struct gltf *gltf, const json_t *list, const char *wanted, const char *what);
 
 #endif

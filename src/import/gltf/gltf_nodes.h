@@ -5,12 +5,12 @@
 #include "gltf.h"
 
 struct gltf_node {
-    int parent; // −1: a root
+    int parent; // −1 for a root
     // The transform as a matrix, or as translation, rotation (a unit quaternion x y z w) and scale.
     bool has_matrix;
     double matrix[16]; // column by column
     double translation[3], rotation[4], scale[3];
-    double *weights; // for morph targets; NULL: the mesh's
+    double *weights; // weights of morph targets; NULL means the mesh's weights
     size_t weight_count;
     bool visible;   // KHR_node_visibility, of the node and all its ancestors
     bool in_scene;  // part of the scene that is drawn

@@ -14,7 +14,7 @@
 struct reader {
     struct mtl_set *set;
     struct lam_scene *scene;
-    const char *name; // of the file, for messages
+    const char *name; // the file's name, for messages
     const uint8_t *begin, *end;
     // Line number cache (line_of): `line` is the line number of `counted_to`.
     const uint8_t *counted_to;
@@ -23,7 +23,7 @@ struct reader {
     // The current material, and the statements that were read for it.
     lam_material material;
     bool open, ka, kd, d;
-    const uint8_t *opacity, *exponent; // the statements with d or Tr, and with Ns; NULL: none
+    const uint8_t *opacity, *exponent; // the statements with d or Tr, and with Ns, or NULL
     // The first occurrence of each kind that is warned of once per file: unknown statements, and statements before the
     // first newmtl.
     const uint8_t *unknown, *stray, *wide; // wide: highlights with the exponent 0

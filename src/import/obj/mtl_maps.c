@@ -45,7 +45,7 @@ struct options {
     int slot;
 };
 
-enum { OPTION_MAX = 1000000 }; // for texture coordinates, larger numbers have no digits left to select a texel
+enum { OPTION_MAX = 1000000 }; // larger texture coordinates have no digits left to select a texel
 
 static void warn_option(const struct options *o, const char *found, const char *expected)
 {

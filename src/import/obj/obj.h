@@ -57,7 +57,7 @@ struct obj_chunk {
     bool texcoord_used, texcoord_missing, normal_used, normal_missing;
     // Whether a corner refers to one although the file contains none.
     bool texcoord_unknown, normal_unknown;
-    uint64_t short_faces;                              // of one or two corners
+    uint64_t short_faces;                              // the number of faces with one or two corners
     uint64_t nonfinite_numbers;                        // normals and texture coordinates that are not finite
     const uint8_t *first_short_face, *first_nonfinite; // the first of each
 };
@@ -87,7 +87,7 @@ struct obj_strokes {
 
 // The material files named so far.
 struct obj_libraries {
-    struct name_table tried; // by confined names; values: 1 read, 0 missing
+    struct name_table tried; // keys: confined names; values: 1 read, 0 missing
     bool named, missing;     // whether any was named; whether some could not be opened or were skipped
     bool left_out;           // there are more than OBJ_LIBRARIES_MAX
 };
@@ -110,7 +110,7 @@ struct obj {
     struct obj_polygon *polygons;
     struct obj_statement *statements;
     uint32_t *smoothing_groups;
-    uint8_t *inner_edges; // as lam_mesh.inner_edges; NULL: not requested, or no polygons
+    uint8_t *inner_edges; // same as lam_mesh.inner_edges; NULL if not requested or there are no polygons
     lam_part *parts;
     uint32_t part_count;
     const char *object_name;       // set if the file has exactly one object; else NULL
@@ -136,7 +136,7 @@ bool obj_scan(struct obj *obj, lam_error *error); // pass one
 struct obj_reader {
     struct obj *obj;
     struct obj_chunk *chunk;
-    const uint8_t *end;      // of the file
+    const uint8_t *end;      // the end of the file
     struct obj_counts next;  // index of the next element of each kind
     struct obj_counts limit; // end of the chunk's index ranges
     float low[4], high[4];   // bounding box of the positions; the fourth component is unused

@@ -58,7 +58,7 @@ struct state {
     const char *part_name;                // "object/group"
     uint32_t smoothing, smoothing_from;   // the smoothing group, and its first triangle
     uint32_t objects;
-    struct stroke_part strokes[2];    // of points, of lines
+    struct stroke_part strokes[2];    // the parts of points and of lines
     size_t counts[STATEMENTS];        // number of each kind
     const uint8_t *first[STATEMENTS]; // first of each kind
     size_t unknown_materials;
@@ -219,7 +219,7 @@ static bool use_material(struct state *state, const uint8_t *at, lam_error *erro
 
 // --- the statements in order
 
-// Returns the group of an "s" statement; 0: off.
+// Returns the group of an "s" statement; 0 means off.
 static uint32_t read_smoothing(const struct obj *obj, const uint8_t *at)
 {
     const uint8_t *end = text_line_end(at, obj->end);

@@ -59,10 +59,10 @@ struct stream {
     size_t next_piece; // atomic; the next chunk to count. Only the thread of that chunk accesses the members below.
     struct obj_counts total;
     size_t charged;
-    int layout; // 1 + texture coordinates + 2 · normals in the faces; 0: no face so far
+    int layout; // 1 + texture coordinates + 2 · normals in the faces; 0 means no face so far
     float low[3], high[3];
     struct stream_statement *statements;
-    uint8_t *texts; // of the statements, concatenated
+    uint8_t *texts; // the texts of the statements, concatenated
     size_t statements_capacity, texts_used, texts_capacity;
 };
 

@@ -19,7 +19,7 @@ struct reader {
     struct lam_scene *scene;
     struct arena *scratch;
     struct ply_header header;
-    const struct ply_element *elements[WANTED]; // NULL: missing or without rows
+    const struct ply_element *elements[WANTED]; // NULL if missing or without rows
     int lists[WANTED];                          // the property with the corners
     size_t offsets[WANTED];                     // offsets of the elements in the file
     struct ply_table tables[WANTED];

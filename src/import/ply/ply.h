@@ -23,7 +23,7 @@ struct ply_property {
     const char *name;
     enum ply_type type; // type of the list's items, for a list
     bool list;
-    enum ply_type count_type; // of a list
+    enum ply_type count_type; // the type of a list's count
 };
 
 struct ply_element {
@@ -69,11 +69,11 @@ enum ply_positions_as { PLY_AS_DECLARED, PLY_AS_FLOAT, PLY_AS_DOUBLE };
 struct ply_table {
     const struct ply_element *element;
     size_t count;
-    const uint8_t *rows; // count · stride bytes; NULL: scalars were not requested
+    const uint8_t *rows; // count · stride bytes; NULL means scalars were not requested
     size_t stride;
     bool swapped;               // the byte order differs from the machine's
-    const uint32_t *offsets;    // of each scalar property in a row
-    const enum ply_type *types; // of each property in `rows`
+    const uint32_t *offsets;    // the offset of each scalar property in a row
+    const enum ply_type *types; // the type of each property in `rows`
     enum ply_positions_as positions;
     // The requested list with checked indices: row r has items[starts[r]] … items[starts[r + 1] − 1]; three items per
     // row if `starts` is NULL.
@@ -84,11 +84,11 @@ struct ply_table {
 // The data to read from an element.
 struct ply_request {
     bool scalars;
-    int list;            // index of the property; −1: none
+    int list;            // index of the property, or −1
     uint32_t item_limit; // items must be below it
     bool restarts;       // item −1 is valid and becomes PLY_RESTART
     enum ply_positions_as positions;
-    struct arena *keep, *scratch; // of items of lists; of the rest
+    struct arena *keep, *scratch; // memory for items of lists, and for the rest
 };
 #define PLY_RESTART UINT32_MAX
 
@@ -109,7 +109,7 @@ bool ply_fail_truncated(const struct import_source *source, const struct ply_ele
 // Reports more elements than 32-bit indices can address: LAM_LIMIT.
 bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element, lam_error *error);
 
-// Finds the scalar properties with these names (−1: missing). Returns whether all exist.
+// Finds the scalar properties with these names (−1 if missing). Returns whether all exist.
 bool ply_find_all(const struct ply_table *table, const char *const *names, int count, int *properties);
 // Returns whether the properties are adjacent floats in the machine's byte order, so that memcpy can copy them.
 bool ply_contiguous(const struct ply_table *table, const int *properties, int count);

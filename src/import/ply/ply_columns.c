@@ -63,7 +63,7 @@ enum kind { NORMALS, TANGENTS, TEXCOORDS, COLORS, COLORS_RAW };
 struct vectors {
     const struct ply_table *table;
     enum kind kind;
-    int properties[4]; // −1: the constant 1
+    int properties[4]; // −1 means the constant 1
     float divisors[4];
     int width; // numbers per vector
     bool contiguous;

@@ -20,10 +20,10 @@ struct polygons {
     const struct import_source *source;
     const struct ply_table *faces;
     const float *positions;
-    uint32_t *first_triangles; // of each chunk
+    uint32_t *first_triangles; // the first triangle of each chunk
     uint32_t *indices;
-    uint32_t *face_of;    // the face of each triangle; NULL: not needed
-    uint8_t *inner_edges; // as lam_mesh.inner_edges; NULL: not needed
+    uint32_t *face_of;    // the face of each triangle; NULL if not needed
+    uint8_t *inner_edges; // same as lam_mesh.inner_edges; NULL if not needed
 };
 
 static uint32_t corners_of(const struct ply_table *faces, size_t face)

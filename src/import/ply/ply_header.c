@@ -43,7 +43,7 @@ struct lines {
     struct arena *arena;
     const uint8_t *at, *end; // the rest of the current line
     const uint8_t *next;     // the next line
-    size_t number;           // of the current line
+    size_t number;           // the number of the current line
     char ending;             // '\n' (a '\r' before it is white space) or '\r'
 };
 

@@ -13,12 +13,12 @@ struct ply_reader {
     struct ply_table *table;
     const uint8_t *first;     // row 0
     const uint8_t **pieces;   // start of each chunk
-    uint32_t *items, *starts; // of the requested list
-    uint8_t *rows;            // scalars; NULL: not requested
+    uint32_t *items, *starts; // the contents of the requested list
+    uint8_t *rows;            // scalars; NULL if not requested
     uint64_t total;           // items of the requested list so far
     bool has_other_counts;    // a row has more or fewer than three items
     // ply_ascii.c
-    const uint8_t *end; // of the file
+    const uint8_t *end; // the end of the file
     size_t indexed;     // rows that passed index_rows
     // ply_binary.c: rows with three items each
     size_t list_offset, stride;

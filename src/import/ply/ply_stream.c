@@ -10,7 +10,7 @@ enum {
     FACE = 13, // bytes: a count, and three 32-bit corners
     PART_FACES = 8192,
     PART_VERTICES = 16384,
-    TRIANGLES_MAX = 1431655765, // as in ply_faces.c
+    TRIANGLES_MAX = 1431655765, // same as in ply_faces.c
 };
 
 struct stream {
@@ -18,7 +18,7 @@ struct stream {
     const struct file_parts *file;
     struct loop_status loop;
     int unsupported;  // atomic; ply.c must read the file
-    size_t begin;     // of the element in the file
+    size_t begin;     // the start of the element in the file
     uint8_t *buffers; // PART_FACES · FACE bytes per thread
     // Vertices
     uint8_t *rows;

@@ -32,7 +32,7 @@ struct reader {
     lam_part *parts;
     uint32_t part_count;
     uint32_t facets;
-    const uint8_t *solid; // the statement that began the current solid; NULL: none
+    const uint8_t *solid; // the statement that began the current solid, or NULL
     // Number of solids without an end. For the first of them: its statement, and the position at which "endsolid" was
     // expected.
     uint32_t unclosed;
@@ -152,7 +152,7 @@ static bool begin_part(struct reader *reader, const uint8_t *name, size_t length
     return part->name || call_memory_error(reader->source->call, length, error);
 }
 
-// Opens a solid at `at` (NULL: there is no statement). A solid that is still open has no end.
+// Opens a solid at `at` (NULL means there is no statement). A solid that is still open has no end.
 static void open_solid(struct reader *reader, const uint8_t *at)
 {
     if (reader->solid && reader->unclosed++ == 0) {

@@ -34,7 +34,7 @@ struct reader {
     struct words *words; // one per chunk
     // For the pass that reads colours.
     uint8_t *colors;
-    uint8_t fallback[4]; // for facets without a colour of their own
+    uint8_t fallback[4]; // the colour of facets without a colour of their own
     bool magics;
 };
 

@@ -32,9 +32,9 @@ struct threemf_resource {
     // Groups of properties: the range of their elements in the part's lists: colours (BASE, COLORS), texture
     // coordinates, pairs (MULTI).
     uint32_t first, count;
-    // BASE: of its first element; TEXCOORDS, MULTI: the material with the texture; −1: none
+    // BASE: of its first element; TEXCOORDS, MULTI: the material with the texture, or −1
     int material;
-    bool faulty;                   // it cannot be read, so triangles are drawn without it
+    bool faulty;                   // the picture cannot be read, so triangles are drawn without it
     int32_t base;                  // composite materials: index of the resource with the mixed colours
     struct threemf_object *object; // OBJECT
     struct threemf_layers *layers; // MULTI
@@ -46,10 +46,11 @@ enum { LAYERS_MAX = 16 };
 struct threemf_layers {
     int count;
     int32_t groups[LAYERS_MAX]; // indices of resources
-    bool multiply[LAYERS_MAX];  // true: the layer multiplies the layers below; false: it covers them by its alpha
-    int texture;                // the first layer that is a texture; −1: none
+    // true means the layer multiplies the layers below; false if it covers them by its alpha
+    bool multiply[LAYERS_MAX];
+    int texture; // the first layer that is a texture, or −1
     int texture_count;
-    int base;                    // the base material whose surface the mixed layers use; −1: none
+    int base;                    // the base material whose surface the mixed layers use, or −1
     uint32_t colors[LAYERS_MAX]; // colours of the first element: indices into the part's colours
     bool varies; // another element has other colours, or textures use other coordinates than the first one
 };
@@ -61,13 +62,13 @@ struct threemf_pair {
 
 // A reference to an object, with its transform: a component, or an item of the build.
 struct threemf_component {
-    const char *path; // path of another model part; NULL: the same part
+    const char *path; // path of another model part; NULL means the same part
     int32_t id;
     lam_mat4 transform;
     size_t line;
 };
 
-// A triangle's group of properties (an id; 0: none) and the index of each corner in the group.
+// A triangle's group of properties (an id, or 0) and the index of each corner in the group.
 struct threemf_property {
     int32_t group;
     uint32_t index[3];
@@ -77,15 +78,15 @@ struct threemf_object {
     const char *name;
     int32_t id;
     size_t line;
-    int32_t group; // id of the group for triangles without one of their own; 0: none
+    int32_t group; // id of the group for triangles without one of their own, or 0
     uint32_t index;
     float *positions;
     uint32_t *indices;
-    struct threemf_property *properties; // NULL: no triangle has a group of its own
+    struct threemf_property *properties; // NULL means no triangle has a group of its own
     uint32_t vertex_count, triangle_count;
     struct threemf_component *components;
     size_t component_count;
-    int mesh;      // index in the scene; −1: not made yet, or without triangles
+    int mesh;      // index in the scene; −1 if not made yet, or without triangles
     bool made;     // `mesh` is final
     bool visiting; // set while it is placed: a component that refers to it then forms a cycle
 };

@@ -88,7 +88,7 @@ static void blend_layer(float below[4], const float color[4], bool multiply)
 static const lam_texture_map *map_of(const struct threemf *file, const struct threemf_resource *layer)
 {
     return lam_scene_material(file->scene, layer->material)
-        ->maps[LAM_MAP_DIFFUSE]; // NULL: the picture could not be read
+        ->maps[LAM_MAP_DIFFUSE]; // NULL means the picture could not be read
 }
 
 // Checks whether the element has the same colours and texture coordinates in its layers as the first element.
@@ -153,7 +153,7 @@ bool begin_multi(struct threemf_xml *xml, const char *const *attributes)
 // --- mixing layers into one texture
 
 struct mixed_layer {
-    const lam_texture_map *map; // NULL: the layer is a colour
+    const lam_texture_map *map; // NULL means the layer is a colour
     texel color;
     bool multiply;
 };

@@ -52,7 +52,7 @@ struct model_reader {
     struct threemf_object *object;
     struct threemf_rows positions, indices, properties, components;
     bool has_properties;
-    // The current group of properties; −1: none.
+    // The current group of properties, or −1.
     int32_t group;
     uint32_t bases[LAYERS_MAX]; // composite materials: the indices of the mixed base materials
     int base_count;

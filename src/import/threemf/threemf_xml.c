@@ -37,7 +37,7 @@ enum { AT_ROOT = -1, SKIPPED = -2 };
 
 // A name space prefix, which is valid inside the element that declares it.
 struct declaration {
-    size_t prefix; // where its text begins in xml_parser.prefixes; "": names without a prefix
+    size_t prefix; // where its text begins in xml_parser.prefixes; "" means names without a prefix
     enum threemf_namespace space;
     int depth;
 };
@@ -49,7 +49,7 @@ struct xml_parser {
     int depth;
     int rows[DEPTH_MAX + 1];                      // the table's row of each open element; rows[0] is AT_ROOT
     bool failed;                                  // the error is filled
-    enum threemf_namespace spaces[DEPTH_MAX + 1]; // of the open elements
+    enum threemf_namespace spaces[DEPTH_MAX + 1]; // the name spaces of the open elements
     struct threemf_rows declarations, prefixes;   // struct declaration, char
 };
 

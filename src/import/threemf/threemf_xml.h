@@ -19,14 +19,14 @@ struct threemf_xml;
 typedef bool threemf_begin_fn(struct threemf_xml *xml, const char *const *attributes);
 typedef bool threemf_end_fn(struct threemf_xml *xml);
 
-// An element that is read if its parent is the element in row `parent` of the same table (−1: it is the root). Other
+// An element that is read if its parent is the element in row `parent` of the same table (−1 if it is the root). Other
 // elements are skipped with all their content.
 struct threemf_element {
     enum threemf_namespace space;
     const char *name;
     int parent;
-    threemf_begin_fn *begin; // NULL: no action
-    threemf_end_fn *end;     // NULL: no action
+    threemf_begin_fn *begin; // NULL means no action
+    threemf_end_fn *end;     // NULL means no action
 };
 
 struct threemf_xml {
@@ -35,10 +35,10 @@ struct threemf_xml {
     const struct threemf_element *elements;
     int element_count;
     void *user;
-    // Called for each declared name space prefix. NULL: not needed.
+    // Called for each declared name space prefix. NULL if not needed.
     void (*declare)(struct threemf_xml *xml, const char *prefix, const char *uri);
-    struct threemf_rows *text; // receives the text of the current element; NULL: it is skipped
-    struct xml_parser *parser; // of threemf_xml.c
+    struct threemf_rows *text; // receives the text of the current element; NULL if the text is skipped
+    struct xml_parser *parser; // the parser of threemf_xml.c
 };
 
 // Opens expat. Fails with LAM_UNSUPPORTED if it is not installed.

@@ -22,19 +22,19 @@ enum field_reader {
 
 struct material_field {
     lam_field field; // first
-    // Name and comment in shaders whose uniforms are products of materials and lights. NULL: as in other shaders; "":
-    // the field occurs only in the products.
+    // Name and comment in shaders whose uniforms are products of materials and lights. NULL means the same as in other
+    // shaders, "" that the field occurs only in the products.
     const char *product, *product_summary;
     enum field_reader reader;
     bool optional; // a scene file omits it if it is 0, the default
-    bool physical; // only for physical materials: writing it makes a material physical
-    int layer;     // of FIELD_LAYER: the layer, LAYER_…, that reads it; a scene file omits default values
+    bool physical; // only physical materials have the field, so writing it makes a material physical
+    int layer;     // for FIELD_LAYER, the LAYER_… that reads it; a scene file omits default values
 };
 const struct material_field *material_field(int index); // NULL past the end
 
 // Returns the layers of a material as bits LAYER_… of layer_kinds.h; 0 for a classic material.
 int material_layers(const lam_material *material);
-// Returns the layer that reads a map; 0: every material can read it.
+// Returns the layer that reads a map; 0 means every material can read it.
 int map_layer(lam_map map);
 
 struct light_field {

@@ -90,7 +90,8 @@ static bool read_timeout(struct batch_job *job, const json_t *root, const struct
 {
     const json_t *value = json_object_get(root, "timeout_s");
     double most = limits_time(base), seconds = json_number_value(value);
-    job->options.limits.time_limit_s = most > 0 ? most : (double)INFINITY; // of the whole job, including animations
+    // the limit of the whole job, including animations
+    job->options.limits.time_limit_s = most > 0 ? most : (double)INFINITY;
     if (!value || json_is_null(value))
         return true;
     if (!json_is_number(value) || !(seconds > 0 && seconds <= 1e9) || (most > 0 && seconds > most))

@@ -13,11 +13,11 @@ struct batch_job {
     struct options options; // the worker's options, followed by the job's
     char **words;           // the options point into them
     int word_count;
-    struct batch_plan plan; // of one model
-    lam_bytes bytes;        // the model's bytes; data NULL: a file
+    struct batch_plan plan; // the plan of one model
+    lam_bytes bytes;        // the model's bytes; data is NULL for a file
     bool in_answer;         // the answer contains the pictures' files
     char *output;           // the options point to it
-    char *options_text;     // for keys; NULL: none
+    char *options_text;     // the options as text for keys, or NULL
     lam_cancel cancel;      // set to cancel the job
     bool cancelled;         // whether it was cancelled
 };

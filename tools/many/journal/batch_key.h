@@ -20,9 +20,9 @@ void batch_options_difference(const char *then, const char *now, char text[300])
 // The inputs of one picture's key.
 struct batch_key_parts {
     const char *options;          // batch_options_text
-    const struct options *parsed; // as above, for scene files: which options were given
+    const struct options *parsed; // same as above, to know the given options for scene files
     const char *model;            // used if no file was read: a built-in shape
-    const char *format;           // of the model: lam_scene_format
+    const char *format;           // the model's format: lam_scene_format
     const char *picture;          // the extension of the picture's name
     int side, width, height;
     const char *const *files; // hashes of the files, or "absent"

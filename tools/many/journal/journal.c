@@ -26,7 +26,7 @@ enum { SLOT = 8192 };
 // The latest line of a picture.
 struct entry {
     uint64_t output;  // hash of its path
-    const char *line; // NULL: free
+    const char *line; // NULL if free
 };
 
 struct journal {
@@ -152,9 +152,9 @@ static const char *options_of(const json_t *line) { return json_string_value(jso
 // Parses the lines. A line that is not JSON was truncated, or written after a truncated line, and is ignored.
 static bool read_lines(struct journal *j, size_t size, const char **options, json_t **last_run, lam_error *error)
 {
-    json_t *folder = NULL; // of the latest line that contains one
+    json_t *folder = NULL; // the folder in the latest line that contains one
     bool ok = true;
-    *options = NULL; // of the latest run
+    *options = NULL; // the options of the latest run
     j->torn = size && j->text[size - 1] != '\n';
     for (char *line = j->text, *end; ok && (end = memchr(line, '\n', size - (size_t)(line - j->text)));
          line = end + 1) {
@@ -381,7 +381,7 @@ bool journal_add(struct journal *j, const json_t *record, lam_error *error)
 struct slot {
     int process;
     char host[HOST_SIZE];
-    char model[SLOT - sizeof(int) - HOST_SIZE]; // "": none
+    char model[SLOT - sizeof(int) - HOST_SIZE]; // "" if the slot is free
 };
 
 const char *journal_running_path(const struct journal *j) { return j->running_path; }

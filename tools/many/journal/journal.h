@@ -20,8 +20,8 @@ enum journal_way { JOURNAL_START, JOURNAL_RESUME, JOURNAL_SAME };
 struct journal_run {
     const char *options; // batch_options_text, and the names of the pictures
     const char *folder;  // common folder of the pictures, with its '/', as in `output` of the lines
-    const char *shard;   // "2/3"; NULL: no shards
-    size_t pictures;     // of the whole run, including those already written
+    const char *shard;   // "2/3"; NULL if there are no shards
+    size_t pictures;     // the pictures of the whole run, including those already written
 };
 
 // Opens a journal. `slots`: the most models drawn at once. Fails with LAM_BAD_ARGUMENT (other options; in use by
@@ -42,7 +42,7 @@ char *journal_line(const json_t *record);
 // Returns the path of FILE.running, which journal_close removes.
 const char *journal_running_path(const struct journal *journal);
 
-// Records that a process draws a slot's model; NULL: the slot is free.
+// Records that a process draws a slot's model. A NULL model frees the slot.
 void journal_begin(struct journal *journal, int slot, int process, const char *model);
 
 // Calls `visit` for each model that a killed run was drawing, with its process and machine.

@@ -19,12 +19,12 @@ struct journal_part {
 
 // The latest line of a picture.
 struct journal_entry {
-    uint64_t output;  // hash of its path; 0: free
+    uint64_t output;  // the hash of its path; 0 if free
     const char *line; // `length` bytes, without the line's end
     size_t length;
-    const char *folder; // the last earlier line that names the folder of the pictures, with its line end; NULL: none
+    const char *folder; // the last earlier line that names the folder of the pictures, with its line end, or NULL
     int part;
-    float ms; // duration of the work; 0: it failed
+    float ms; // the duration of the work; 0 if it failed
 };
 
 struct journal_sum {
@@ -35,7 +35,7 @@ struct journal_sum {
     size_t written, failed;
     size_t *slots, slot_count; // a hash table of indices in `entries`, plus 1
     size_t doubles;            // number of pictures in two journals
-    char *first_double;        // "x.png is in a.jsonl and in b.jsonl", from malloc; NULL: none
+    char *first_double;        // "x.png is in a.jsonl and in b.jsonl", from malloc, or NULL
 };
 
 // Adds a journal. Fails with LAM_CANNOT_READ, LAM_BAD_ARGUMENT (not a journal; other options or another number of

@@ -9,8 +9,8 @@
 #include "console.h"
 #include "output.h"
 
-// Makes the pattern of the names: the user's, or one that distinguishes several pictures of a model. NULL: the model's
-// name.
+// Makes the pattern of the names: the user's pattern, or one that distinguishes several pictures of a model. NULL means
+// the model's name.
 static bool make_pattern(struct batch_plan *plan, lam_error *error)
 {
     const struct options *o = plan->options;

@@ -7,7 +7,7 @@
 
 struct batch_model {
     char *path; // from malloc
-    char *root; // {dir} is relative to this folder; from malloc; NULL: the path's own folder
+    char *root; // {dir} is relative to this folder, from malloc; NULL means the path's own folder
     // Whether it is a link found in a folder, to a file that is neither below that folder nor below one of
     // --allow-path. This is an error, since the user did not name the file.
     bool leads_out;
@@ -19,11 +19,11 @@ struct batch_plan {
     size_t count, capacity;
     struct job_view views[VIEWS_MAX * VIEWS_MAX]; // pictures of each model
     int view_count;
-    char *pattern;            // of the names; NULL: the model's
+    char *pattern;            // the pattern of the names; NULL means the model's name
     struct batch_shard shard; // --shard
     bool by_list;             // --shard-by list: only the models of this shard are added
     size_t listed;            // number of models from lists
-    uint64_t list_bytes;      // with by_list: the size of the list
+    uint64_t list_bytes;      // the size of the list, with by_list
 };
 
 // Starts a plan without models, and checks combinations of options. Fails with LAM_BAD_ARGUMENT.
@@ -42,8 +42,8 @@ bool batch_plan_check(struct batch_plan *plan, lam_error *error);
 // Returns the path of a picture, from malloc. Returns NULL if memory runs out.
 char *batch_plan_output(const struct batch_plan *plan, size_t model, int view);
 
-// Returns the common folder of all pictures, with its '/' ("": the current one), from malloc. Returns NULL if memory
-// runs out.
+// Returns the common folder of all pictures with its '/', allocated with malloc. The current folder is "". Returns NULL
+// if memory runs out.
 char *batch_plan_folder(const struct batch_plan *plan);
 
 void batch_plan_free(struct batch_plan *plan);

@@ -14,7 +14,7 @@ bool batch_add_folder(struct batch_plan *plan, const char *folder, lam_error *er
 // Does the same, but a folder without models is not an error.
 bool batch_add_folder_if_any(struct batch_plan *plan, const char *folder, lam_error *error);
 
-// Adds the models of a list with one name per line; "-": standard input.
+// Adds the models of a list with one name per line; "-" means standard input.
 bool batch_add_list(struct batch_plan *plan, const char *path, lam_error *error);
 
 #endif

@@ -82,7 +82,7 @@ static void name_model(const struct job *job, lam_error *error)
 struct files {
     int count;
     char (*hashes)[XXH64_TEXT];
-    const char **texts; // of the hashes
+    const char **texts; // the texts of the hashes
     bool changed;       // since the model was read; the hashes then do not describe the picture
 };
 
@@ -254,10 +254,10 @@ struct reading {
     const struct batch_item *item;
     const struct batch_artist *artist;
     struct batch_result *result;
-    struct timespec start; // of the file systems' clock
+    struct timespec start; // the start on the file systems' clock
     struct files files;
     bool hashed;
-    json_t *found; // result of the picture's use; NULL: it is written
+    json_t *found; // the result of the picture's use; NULL if the picture is written
 };
 
 // Prints and records the result of a picture.

@@ -10,28 +10,28 @@
 // A model to draw.
 struct batch_item {
     const struct options *options;
-    const char *options_text; // for the keys; NULL: records have none
+    const char *options_text; // the options as text for the keys; NULL if records have no keys
     bool has_records;         // whether records are needed
     const char *model;
-    bool leads_out;               // the model itself; `model` is then its name; NULL: a file
-    const lam_bytes *model_bytes; // the model itself, which `model` is then a name for; NULL: a file
-    const struct job_view *views; // its pictures
-    char *const *outputs;         // their paths
-    lam_bytes *contents;          // receive the pictures' files; NULL: they are written to the paths
+    bool leads_out;               // the model itself; `model` is then its name; NULL means a file
+    const lam_bytes *model_bytes; // the model itself, named by `model`; NULL if it is a file
+    const struct job_view *views; // the views of the pictures
+    char *const *outputs;         // the paths of the pictures
+    lam_bytes *contents;          // receive the pictures; NULL if they are written to the paths
     const int *attempts;          // the number of the attempt for each, from 1
     int view_count;
     bool several;                // the command line has several views or sizes
     bool makes_folders;          // also create the folders of explicitly named pictures
-    const lam_cancel *cancel;    // stops it; NULL: only Ctrl-C does
-    const struct batch_use *use; // receives the picture; NULL: it is written
-    size_t index;                // of the model in the plan, for `use`
+    const lam_cancel *cancel;    // stops it; if NULL, only Ctrl-C does
+    const struct batch_use *use; // receives the picture; NULL if the picture is written
+    size_t index;                // the index of the model in the plan, for `use`
 };
 
 // The resources for drawing it.
 struct batch_artist {
     lam_device *device;
-    struct environment_cache *environments; // NULL: each model reads its own
-    FILE *out;                              // for reports
+    struct environment_cache *environments; // NULL if each model reads its own
+    FILE *out;                              // receives reports
     bool has_bar;                           // a progress bar on the terminal
     bool is_talkative;                      // prints lines for each picture and warnings; errors are always printed
 };
@@ -42,8 +42,8 @@ struct batch_outcome {
 };
 
 struct batch_result {
-    struct batch_outcome *outcomes; // of each picture
-    json_t **records;               // of each picture; NULL: not needed, or interrupted
+    struct batch_outcome *outcomes; // the outcome of each picture
+    json_t **records;               // the record of each picture; NULL if not needed or interrupted
     int record_count;
     int warnings;
     int code; // the highest exit code

@@ -11,7 +11,7 @@
 // Four slots: a cache line, compared as a whole.
 struct position_slots {
     int32_t bits[3][4];
-    int32_t vertex[4]; // NONE: free, like the slots after it
+    int32_t vertex[4]; // NONE if free, like the slots after it
 };
 
 struct position_hash {

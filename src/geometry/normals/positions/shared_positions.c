@@ -334,7 +334,7 @@ static int compare_keys(const void *left, const void *right)
 bool find_positions_by_sorting(struct position_search *s, lam_error *error)
 {
     struct vertex_key *keys = search_alloc(s, &s->arena, s->vertices, sizeof *keys);
-    uint8_t *wanted = search_alloc_zeroed(s, s->vertices); // by position
+    uint8_t *wanted = search_alloc_zeroed(s, s->vertices); // indexed by position
     if (!s->position_of)
         s->position_of = search_alloc(s, &s->arena, s->vertices, sizeof *s->position_of);
     if (!keys || !wanted || !s->position_of)

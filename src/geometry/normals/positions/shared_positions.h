@@ -16,7 +16,7 @@ enum {
 // A recent result of the table; bits that no position has mean empty.
 struct cached_position {
     uint32_t bits[3];
-    uint32_t position; // NONE: it is not in the table
+    uint32_t position; // NONE if it is not in the table
 };
 
 struct position_search {
@@ -33,15 +33,16 @@ struct position_search {
 
     struct arena arena;
     struct position_hash table;
-    struct block_lists *lists; // of each thread
+    struct block_lists *lists; // the lists of each thread
     int probe_limit_reached;   // set atomically: the file was made so that its positions collide
     struct rank_bitset done;   // vertices whose normals are already computed; without bits: none
 
     // Output. A position has the rank of its representative vertex among `wanted`; without indices, the rank of the
     // corner in the set's triangles.
-    struct rank_bitset wanted;       // vertices of the set's triangles, for indexed meshes
-    uint32_t *position_of;           // of each vertex, NONE: not wanted; NULL: corners are looked up in the table
-    struct cached_position **caches; // of each thread
+    struct rank_bitset wanted; // vertices of the set's triangles, for indexed meshes
+    // the position of each vertex, NONE if not wanted; NULL if corners are looked up in the table
+    uint32_t *position_of;
+    struct cached_position **caches; // the cache of each thread
     uint32_t caches_mask;
     size_t positions;
 };

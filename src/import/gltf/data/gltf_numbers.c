@@ -223,7 +223,7 @@ const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gl
 
 struct indexing {
     const struct gltf_accessor *accessor;
-    uint32_t *out; // NULL: the numbers are used in place
+    uint32_t *out; // NULL means the numbers are used in place
     uint32_t max;  // atomic
 };
 
@@ -310,7 +310,7 @@ const uint32_t *gltf_indices(struct gltf *gltf, const struct place *place, struc
 
 struct coloring {
     const struct gltf_accessor *accessor;
-    const float *floats; // of the accessor; NULL: its bytes
+    const float *floats; // the accessor's numbers; NULL means its bytes
     bool opaque;
     void *out; // may be `floats` itself
 };

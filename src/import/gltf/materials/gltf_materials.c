@@ -15,8 +15,8 @@
 struct factors {
     double base[4];               // colour and alpha
     double metallic, roughness;   // 0…1
-    double specular[3];           // for specular-glossiness
-    double glossiness;            // for specular-glossiness, 0…1
+    double specular[3];           // for KHR_materials_pbrSpecularGlossiness
+    double glossiness;            // for KHR_materials_pbrSpecularGlossiness, 0…1
     bool has_specular;            // specular-glossiness instead of metallic-roughness
     double emission[3], strength; // emissiveFactor; KHR_materials_emissive_strength
     double cutoff;
@@ -188,7 +188,7 @@ bool gltf_materials_read(struct gltf *gltf)
     return find_variant(gltf);
 }
 
-// Gets the material of a primitive in the requested variant; −1: the variant does not change it.
+// Gets the material of a primitive in the requested variant; −1 means the variant does not change it.
 static bool take_variant(struct gltf *gltf, const struct place *place, const json_t *primitive, int *index)
 {
     bool ok = true;

@@ -49,10 +49,10 @@ static bool add_piece(void *user, size_t index, lam_error *error)
 // A morph target that is added to a mesh.
 struct morph_target {
     struct gltf *gltf;
-    const struct place *place; // of the target
+    const struct place *place; // the position of the target in the file
     const json_t *target;
     double weight;
-    size_t count; // of vertices
+    size_t count; // the number of vertices
 };
 
 // Adds one attribute of a target to an array, which becomes the mesh's own with the first addition. `width` and

@@ -9,7 +9,7 @@
 struct gltf_deformation {
     const double *weights; // weights of the morph targets
     size_t weight_count;
-    const struct gltf_skin *skin; // NULL: none
+    const struct gltf_skin *skin; // may be NULL
 };
 
 // Replaces positions, normals, tangents and texture coordinates of the mesh by its own arrays if targets with a nonzero

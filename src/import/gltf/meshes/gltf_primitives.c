@@ -53,8 +53,8 @@ static bool has_type(const struct gltf_accessor *a, int types)
     return a->normalized ? types & NORMALIZED || (types & UNSIGNED_NORMALIZED && unsigned_type) : types & BYTES;
 }
 
-// Gets the accessor of an attribute with `count` elements (0: any number); *out is NULL if the primitive does not have
-// it.
+// Gets the accessor of an attribute with `count` elements (0 means any number); *out is NULL if the primitive does not
+// have it.
 static bool take_attribute(struct gltf *gltf, const struct place *place, const json_t *attributes,
                            const struct attribute_rule *rule, size_t count, struct gltf_accessor **out)
 {

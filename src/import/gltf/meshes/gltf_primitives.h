@@ -8,8 +8,8 @@
 
 // A mesh of the file, as one mesh of the scene for each of its primitives.
 struct gltf_primitive {
-    int mesh;     // index in the scene; −1: the primitive is empty
-    bool skinned; // its positions are in the file's space
+    int mesh;     // index in the scene; −1 means the primitive is empty
+    bool skinned; // the mesh's positions are in the file's space
 };
 struct gltf_mesh {
     bool ready;
@@ -23,8 +23,8 @@ bool gltf_meshes_start(struct gltf *gltf);
 // error.
 const struct gltf_mesh *gltf_mesh_at(struct gltf *gltf, int index);
 
-// Returns a separate copy of the mesh for one node, deformed by its skin (NULL: none) or by the node's own weights of
-// morph targets (NULL: the mesh's).
+// Returns a separate copy of the mesh for one node, deformed by its skin (may be NULL) or by the node's own weights of
+// morph targets (NULL means the mesh's).
 const struct gltf_mesh *gltf_mesh_deformed(struct gltf *gltf, int index, const struct gltf_node *node,
                                            const struct gltf_skin *skin);
 

@@ -152,9 +152,9 @@ struct frame {
     struct frame_draw_range *ranges; // sorted by first_id, without gaps
     int range_count;
     uint32_t triangle_count;
-    // 0: the default material; 1 + i: material i of the scene. If some materials are the back of a front that the other
-    // kind of model lights, all materials follow again for such backs; if unlit lines or points have emission, all
-    // follow once more for these. Each has the kind that its model lights.
+    // The default material, then material i of the scene at 1 + i. All materials are repeated if a front is lit by one
+    // kind of model and its back by the other, and once more if unlit lines or points have emission. Each copy has the
+    // kind that its model lights.
     const lam_material **materials;
     int material_count, scene_material_count; // all materials; without those for backs
     lam_material *converted;                  // materials converted to the other kind

@@ -22,7 +22,7 @@ enum {
 
 // A grid over the centres of a range's triangles.
 struct grid {
-    num start, factor, last; // from twice a centre to column, row and layer, and the last of these
+    num start, factor, last; // convert twice a centre to a cell index up to `last`
     int shift[3];            // the positions of their bits in a cell's number
     uint32_t cell_count;
 };

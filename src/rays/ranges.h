@@ -18,7 +18,7 @@ enum {
     BINS = 16,
     FEW_BINS = 8, // the number of bins for ranges of up to FEW triangles
     FEW = 64,
-    BALANCED_AT = 48 // this many levels above, a range is divided in the middle
+    BALANCED_AT = 48 // at this depth, ranges are divided in the middle
 };
 
 // Four floats; the last is unused.

@@ -1,8 +1,9 @@
 // fault_search.c: searches for the faults that explain the pictures.
 //
-// 1. Each fault alone, up to the first scene that it does not explain. 2. Combinations of faults that each explain
-// scenes of their own. 3. A beam search: each of the best few sets with one more fault, and so on. 4. If no set
-// explains every picture: the faults that explain some pictures and spoil none.
+// The search has four steps. First it tries each fault alone, up to the first scene that the fault does not explain.
+// Then it tries combinations of faults that each explain different scenes. The third step is a beam search, which adds
+// one more fault to each of the best few sets. If no set explains every picture, the last step reports the faults that
+// explain some pictures and spoil none.
 //
 // Nearly all of the time is spent drawing, so hopeless sets are abandoned after few pictures: an added fault must
 // improve the first of the scenes that it changes (is_idle). The search ends at its limit of pictures; cached pictures

@@ -83,7 +83,7 @@ static bool make_fans(struct fan_loop *l, struct fan_worker *worker, const uint3
     return true;
 }
 
-// Computes the normals at the collected positions with that many corners; fans without a corner in the set get no
+// Computes the normals at the collected positions that have `count` corners. Fans without a corner in the set get no
 // element.
 static bool make_block(struct fan_loop *l, struct fan_worker *worker, uint32_t count)
 {

@@ -29,10 +29,10 @@ enum resource_kind {
 // A resource of a model part: an <object>, a group of properties, or a texture.
 struct threemf_resource {
     enum resource_kind kind;
-    // Groups of properties: the range of their elements in the part's lists: colours (BASE, COLORS), texture
-    // coordinates, pairs (MULTI).
+    // For groups of properties, the range of their elements in the part's lists of colours (BASE, COLORS), texture
+    // coordinates or pairs (MULTI).
     uint32_t first, count;
-    // BASE: of its first element; TEXCOORDS, MULTI: the material with the texture, or −1
+    // The material of the first element (BASE) or the material with the texture (TEXCOORDS, MULTI), or −1.
     int material;
     bool faulty;                   // the picture cannot be read, so triangles are drawn without it
     int32_t base;                  // composite materials: index of the resource with the mixed colours
@@ -46,7 +46,7 @@ enum { LAYERS_MAX = 16 };
 struct threemf_layers {
     int count;
     int32_t groups[LAYERS_MAX]; // indices of resources
-    // true means the layer multiplies the layers below; false if it covers them by its alpha
+    // Whether the layer multiplies the layers below. Otherwise it covers them by its alpha.
     bool multiply[LAYERS_MAX];
     int texture; // the first layer that is a texture, or −1
     int texture_count;

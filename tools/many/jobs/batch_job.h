@@ -25,7 +25,7 @@ struct batch_job {
 // Settings common to all jobs.
 struct batch_job_rules {
     const struct options *options; // the worker's
-    int threads, in_flight;        // per job; the number of jobs drawn at once
+    int threads, in_flight;        // threads of a job, and jobs drawn at once
     const struct job_roots *roots; // allowed folders for files
     bool has_keys;                 // whether there is a journal
 };

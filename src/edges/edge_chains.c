@@ -2,7 +2,7 @@
 // each edge.
 //
 // One thread links them, in the order of the edges, so the dashes do not depend on the number of threads.
-#include "edge_pieces.h"
+#include "edge_tasks.h"
 
 #include "linear.h"
 

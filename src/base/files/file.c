@@ -83,8 +83,8 @@ bool file_copy(const void *bytes, size_t size, struct call_control *call, struct
 }
 
 // The size of one chunk of a parallel read.
-enum { PIECE = 1 << 20 };
-struct reading {
+enum { CHUNK = 1 << 20 };
+struct parallel_read {
     int file;
     uint8_t *to;
     size_t size;
@@ -93,23 +93,24 @@ struct reading {
     size_t reached; // offset of the failure
 };
 
-static void read_piece(void *user, size_t index, int thread)
+static void read_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
-    struct reading *reading = user;
-    size_t at = index * (size_t)PIECE;
-    size_t end = at + PIECE < reading->size ? at + PIECE : reading->size;
-    if (!call_should_continue(reading->call))
+    struct parallel_read *read_state = user;
+    size_t at = index * (size_t)CHUNK;
+    size_t end = at + CHUNK < read_state->size ? at + CHUNK : read_state->size;
+    if (!call_should_continue(read_state->call))
         return;
-    while (at < end && !__atomic_load_n(&reading->failed, __ATOMIC_RELAXED)) {
-        ssize_t got = pread(reading->file, reading->to + at, end - at, (off_t)at);
+    while (at < end && !__atomic_load_n(&read_state->failed, __ATOMIC_RELAXED)) {
+        ssize_t got = pread(read_state->file, read_state->to + at, end - at, (off_t)at);
         if (got > 0) {
             at += (size_t)got;
         } else if (got == 0 || errno != EINTR) {
             // If several chunks fail, the first failure is reported.
             int none = 0, reason = got == 0 ? -1 : errno;
-            if (__atomic_compare_exchange_n(&reading->failed, &none, reason, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
-                reading->reached = at;
+            if (__atomic_compare_exchange_n(&read_state->failed, &none, reason, false, __ATOMIC_RELAXED,
+                                            __ATOMIC_RELAXED))
+                read_state->reached = at;
         }
     }
 }
@@ -122,16 +123,16 @@ static bool read_sized(int file, const char *path, size_t size, bool fresh, stru
     call_add_input(call, fresh ? size : 0);
     if (!file_hold(size, call, out, error))
         return false;
-    struct reading reading = {.file = file, .to = (uint8_t *)(uintptr_t)out->data, .size = size, .call = call};
-    pool_run(pool, (size + PIECE - 1) / PIECE, read_piece, &reading);
+    struct parallel_read read_state = {.file = file, .to = (uint8_t *)(uintptr_t)out->data, .size = size, .call = call};
+    pool_run(pool, (size + CHUNK - 1) / CHUNK, read_chunk, &read_state);
     bool ok = true;
     if (!call_should_continue(call)) {
         ok = call_error(call, error);
-    } else if (reading.failed == -1) {
+    } else if (read_state.failed == -1) {
         ok = fail(error, LAM_CANNOT_READ, "%s: became shorter while it was read: ended at byte %zu of %zu", path,
-                  reading.reached, size);
-    } else if (reading.failed) {
-        errno = reading.failed;
+                  read_state.reached, size);
+    } else if (read_state.failed) {
+        errno = read_state.failed;
         ok = fail_system(error, LAM_CANNOT_READ, path, "read");
     }
     if (!ok)

@@ -9,14 +9,14 @@
 // --- vertices of a statement
 
 // One statement, and its context.
-struct reading {
+struct stroke_parser {
     struct obj *obj;
     const struct obj_statement *statement;
     const char *item; // "line", "point"
     lam_error *error;
 };
 
-static const uint8_t *fail_word(const struct reading *r, const uint8_t *at, const char *expected)
+static const uint8_t *fail_word(const struct stroke_parser *r, const uint8_t *at, const char *expected)
 {
     char found[TEXT_FOUND_SIZE];
     struct obj *obj = r->obj;
@@ -26,7 +26,7 @@ static const uint8_t *fail_word(const struct reading *r, const uint8_t *at, cons
 }
 
 // Reads an index that counts from 1, or backwards from `so_far`. Returns NULL on error.
-static const uint8_t *read_index(const struct reading *r, const uint8_t *at, uint64_t total, uint64_t so_far,
+static const uint8_t *read_index(const struct stroke_parser *r, const uint8_t *at, uint64_t total, uint64_t so_far,
                                  const char *name, uint32_t *out)
 {
     struct obj *obj = r->obj;
@@ -52,7 +52,7 @@ static const uint8_t *read_index(const struct reading *r, const uint8_t *at, uin
 }
 
 // Returns the next vertex of a statement; *found is false if there are no more.
-static const uint8_t *read_vertex(const struct reading *r, const uint8_t *at, uint32_t *position, uint32_t *texcoord,
+static const uint8_t *read_vertex(const struct stroke_parser *r, const uint8_t *at, uint32_t *position, uint32_t *texcoord,
                                   bool *found)
 {
     struct obj *obj = r->obj;
@@ -109,7 +109,7 @@ static void add_corner(struct obj_strokes *s, uint32_t position, uint32_t texcoo
 
 bool obj_strokes_read(struct obj *obj, const struct obj_statement *statement, bool lines, lam_error *error)
 {
-    struct reading r = {obj, statement, lines ? "line" : "point", error};
+    struct stroke_parser r = {obj, statement, lines ? "line" : "point", error};
     struct obj_strokes *s = &obj->strokes[lines];
     const uint8_t *at = statement->at + 1;
     uint32_t previous[2] = {0, 0}, position, texcoord;

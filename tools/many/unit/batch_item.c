@@ -250,7 +250,7 @@ static json_t *record_of(const struct batch_item *item, int view, const struct j
 // --- drawing
 
 // The state of reading one model.
-struct reading {
+struct model_run {
     const struct batch_item *item;
     const struct batch_artist *artist;
     struct batch_result *result;
@@ -261,7 +261,7 @@ struct reading {
 };
 
 // Prints and records the result of a picture.
-static void finish_picture(struct reading *r, struct job *job, int view, bool ok, lam_error *error)
+static void finish_picture(struct model_run *r, struct job *job, int view, bool ok, lam_error *error)
 {
     const struct options *o = r->item->options;
     FILE *stream = report_stream(o);
@@ -314,7 +314,7 @@ static bool may_read(const struct batch_item *item, lam_error *error)
                     item->model);
 }
 
-static void run_views(struct reading *r, struct job *job, struct progress *progress)
+static void run_views(struct model_run *r, struct job *job, struct progress *progress)
 {
     lam_error error = {0};
     job->output = r->item->outputs[0];
@@ -334,7 +334,7 @@ static void run_views(struct reading *r, struct job *job, struct progress *progr
     }
 }
 
-static void draw(struct reading *r)
+static void draw(struct model_run *r)
 {
     const struct batch_item *item = r->item;
     struct options own = *item->options; // sizes of the command line are given like --size
@@ -398,8 +398,8 @@ void batch_draw(const struct batch_item *item, const struct batch_artist *artist
         part.view_count = together;
         own.records += i;
         own.outcomes += i;
-        struct reading reading = {.item = &part, .artist = artist, .result = &own};
-        draw(&reading);
+        struct model_run run = {.item = &part, .artist = artist, .result = &own};
+        draw(&run);
         own.records = result->records;
         own.outcomes = result->outcomes;
         *result = own;

@@ -1,5 +1,5 @@
-// readings.c: lists the possible interpretations of a shader from the words of its text.
-#include "readings.h"
+// interpretations.c: lists the possible interpretations of a shader from the words of its text.
+#include "interpretations.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@ static const struct fault *row_of(const char *id)
     return NULL;
 }
 
-bool readings_use(const struct run *r, const char *word)
+bool interpretations_use(const struct run *r, const char *word)
 {
     return declarations_uses(&r->interface.vertex, word) || declarations_uses(&r->interface.fragment, word);
 }
@@ -95,7 +95,7 @@ static int find_exponents(const struct run *r, float out[MAX_EXPONENTS])
             add_exponent(out, &count, x);
     }
     // the exponent may be a parameter of a function
-    for (int i = 0; i < d->word_count && !count && readings_use(r, "pow"); i++) {
+    for (int i = 0; i < d->word_count && !count && interpretations_use(r, "pow"); i++) {
         double x = 0;
         if (read_literal(d->words[i].text, &x))
             add_exponent(out, &count, x);
@@ -103,9 +103,12 @@ static int find_exponents(const struct run *r, float out[MAX_EXPONENTS])
     return count;
 }
 
-static void add_bit(struct reading *g, enum fault_bit bit) { g->set.words[bit / 64] |= (uint64_t)1 << (bit % 64); }
+static void add_bit(struct interpretation *g, enum fault_bit bit)
+{
+    g->set.words[bit / 64] |= (uint64_t)1 << (bit % 64);
+}
 
-static void add_form(const struct run *r, struct reading *g, const struct fault *form)
+static void add_form(const struct run *r, struct interpretation *g, const struct fault *form)
 {
     if (g->form_count < MAX_FORMS && fault_is_style(form, &r->interface)) {
         g->set = fault_set_add(&g->set, form);
@@ -116,8 +119,8 @@ static void add_form(const struct run *r, struct reading *g, const struct fault 
 static bool is_attenuated(const struct run *r)
 {
     return shader_interface_uses(&r->interface, SEMANTIC_ATTENUATION_LINEAR) ||
-           shader_interface_uses(&r->interface, SEMANTIC_ATTENUATION_QUADRATIC) || readings_use(r, "length") ||
-           readings_use(r, "distance");
+           shader_interface_uses(&r->interface, SEMANTIC_ATTENUATION_QUADRATIC) || interpretations_use(r, "length") ||
+           interpretations_use(r, "distance");
 }
 
 static bool has_direction(const struct shader_interface *interface)
@@ -127,7 +130,7 @@ static bool has_direction(const struct shader_interface *interface)
            (interface->supports & NEED_DIRECTIONAL);
 }
 
-int readings_list(const struct run *r, struct reading out[MAX_READINGS])
+int interpretations_list(const struct run *r, struct interpretation out[MAX_INTERPRETATIONS])
 {
     const struct fault *gate = row_of("no-gate"), *late = row_of("normal-unit-late"),
                        *dim = row_of("ambient-attenuated");
@@ -150,12 +153,12 @@ int readings_list(const struct run *r, struct reading out[MAX_READINGS])
         bool highlight = exponent_count > 0;
         if ((!highlight && (bare || blinn || exponent || viewer)) || (highlight && exponent >= exponent_count) ||
             (long_normal && interface->vertex_lit) || (dims && !attenuated) || (falloff && !attenuated) ||
-            (reversed && !direction) || (viewer && eye) || (decoded && !gamma) || count == MAX_READINGS)
+            (reversed && !direction) || (viewer && eye) || (decoded && !gamma) || count == MAX_INTERPRETATIONS)
             continue;
-        struct reading *g = &out[count++];
-        *g = (struct reading){.reflection = blinn ? LAM_REFLECTION_BLINN_PHONG : LAM_REFLECTION_PHONG,
-                              .has_highlight = highlight,
-                              .decoded = decoded};
+        struct interpretation *g = &out[count++];
+        *g = (struct interpretation){.reflection = blinn ? LAM_REFLECTION_BLINN_PHONG : LAM_REFLECTION_PHONG,
+                                     .has_highlight = highlight,
+                                     .decoded = decoded};
         g->set.constant = highlight ? exponents[exponent] : 0;
         if (highlight && exponents[exponent] == 0)
             g->set.factor = find_factor(interface->vertex_lit ? &interface->vertex : &interface->fragment);
@@ -220,13 +223,13 @@ static bool is_geometric(const struct fault *row)
     return true;
 }
 
-bool readings_allow_fault(const struct fault *row)
+bool interpretations_allow_fault(const struct fault *row)
 {
     return is_geometric(row) && !row->style && !row->demand && !row->whole_term && !row->fit && row->factor == 0 &&
            !row->maps;
 }
 
-bool readings_are_plain(const struct run *r)
+bool interpretations_are_plain(const struct run *r)
 {
     static const char *const known =
         " if for while return main normalize dot max min clamp pow reflect vec2 vec3 vec4 mat3 mat4 "

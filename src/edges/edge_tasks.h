@@ -1,6 +1,6 @@
-// edge_pieces.h: a task that draws some edges of one draw, from the mesh to strokes.
-#ifndef EDGE_PIECES_H
-#define EDGE_PIECES_H
+// edge_tasks.h: a task that draws some edges of one draw, from the mesh to strokes.
+#ifndef EDGE_TASKS_H
+#define EDGE_TASKS_H
 
 #include "edge_lines.h"
 
@@ -16,9 +16,9 @@ struct edge_measure {
 };
 #define NO_LINK 0xffffffffu
 
-enum { EDGE_PIECE = 2048 }; // edges
+enum { EDGES_PER_TASK = 2048 };
 
-struct edge_piece {
+struct edge_task {
     const struct edge_view *view;
     const struct frame_draw *draw;
     const struct mesh_edge *edges;
@@ -33,10 +33,10 @@ struct edge_piece {
 size_t edge_scratch_bytes(void);
 
 // Returns false if memory runs out, or the call must end.
-bool edge_piece_draw(struct edge_piece *piece, void *scratch);
+bool edge_task_draw(struct edge_task *task, void *scratch);
 
 // Fills the measures of a task, except their chains.
-void edge_piece_measure(struct edge_piece *piece);
+void edge_task_measure(struct edge_task *task);
 
 // Links the measured edges of a draw to chains, and places them there. At each corner it connects two lines of one
 // style if they are the only ones, or else the straightest pairs that turn by less than 60 degrees. Returns false if

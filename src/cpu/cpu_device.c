@@ -63,14 +63,14 @@ static void vertex_task(void *user, size_t index, int thread)
     (void)thread;
     struct cpu_frame *cpu = user;
     if (work_continues(&cpu->work))
-        cpu->kernels->vertex_transform(&cpu->raster, &cpu->vertex_pieces[index]);
+        cpu->kernels->vertex_transform(&cpu->raster, &cpu->vertex_chunks[index]);
 }
 
 static void triangle_task(void *user, size_t index, int thread)
 {
     struct cpu_frame *cpu = user;
     if (work_continues(&cpu->work))
-        cpu->kernels->bin_triangles(&cpu->raster, &cpu->bins[thread], &cpu->triangle_pieces[index]);
+        cpu->kernels->bin_triangles(&cpu->raster, &cpu->bins[thread], &cpu->triangle_chunks[index]);
     work_add(&cpu->work, cpu->bins[thread].work);
     cpu->bins[thread].work = 0;
 }
@@ -245,11 +245,11 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
         output_empty(&cpu.target);
 
     clock = now_ns();
-    pool_run(device->pool, cpu.vertex_piece_count, vertex_task, &cpu);
+    pool_run(device->pool, cpu.vertex_chunk_count, vertex_task, &cpu);
     base->report.vertices_ms = milliseconds_since(&clock);
     if (!step_done(&cpu, error))
         return false;
-    pool_run(device->pool, cpu.triangle_piece_count, triangle_task, &cpu);
+    pool_run(device->pool, cpu.triangle_chunk_count, triangle_task, &cpu);
     base->report.triangles_ms = milliseconds_since(&clock);
     if (!step_done(&cpu, error))
         return false;

@@ -46,8 +46,8 @@ struct cpu_frame {
     struct pool *pool;
     struct thread_bins *bins; // the bins of each thread
     struct thread_state *threads;
-    const struct piece *vertex_pieces, *triangle_pieces;
-    size_t vertex_piece_count, triangle_piece_count;
+    const struct chunk *vertex_chunks, *triangle_chunks;
+    size_t vertex_chunk_count, triangle_chunk_count;
     struct screen_occlusion occlusion;      // if the frame has ambient occlusion
     struct fragment_store *fragment_stores; // one per tile; NULL if each tile is drawn in one pass
     enum failure failure;
@@ -68,7 +68,7 @@ static inline struct tile tile_number(const struct cpu_frame *cpu, size_t index)
 // Memory that the device keeps from frame to frame.
 struct frame_memory {
     struct buffer vertices;  // x, y and key of the vertices of indexed meshes
-    struct buffer pieces;    // chunks of parallel tasks, and the first vertex of each draw
+    struct buffer chunks;    // chunks of parallel tasks, and the first vertex of each draw
     struct buffer products;  // materials × lights
     struct buffer lights;    // the rows of light_bounds
     struct buffer bins;      // list heads of all threads' bins

@@ -13,7 +13,7 @@ struct cpu_frame;
 struct fragment_store;
 struct fragments;
 struct layer_rows;
-struct piece;
+struct chunk;
 struct pixel_sums;
 struct raster_frame;
 struct rectangle;
@@ -36,12 +36,12 @@ struct kernels {
     // Writes x, y and depth key of the task's vertices into raster->vertices. A vertex that needs clipping gets a NaN
     // that encodes the planes (clip.h). Any threads may process the tasks in any order. Only indexed meshes have vertex
     // tasks.
-    void (*vertex_transform)(const struct raster_frame *raster, const struct piece *piece);
+    void (*vertex_transform)(const struct raster_frame *raster, const struct chunk *chunk);
 
     // Appends the task's triangles to the bins of the tiles that they touch, and clips triangles that need it. Drops
     // triangles that are outside the window, have no area, are culled or have no sample in their box. If the mesh is
     // indexed, all vertices of the draw must have been transformed.
-    void (*bin_triangles)(const struct raster_frame *raster, struct thread_bins *bins, const struct piece *piece);
+    void (*bin_triangles)(const struct raster_frame *raster, struct thread_bins *bins, const struct chunk *chunk);
 
     // Clears the tile's samples, then draws the opaque triangles of all threads' bins: each sample keeps the nearest
     // key, of equal keys the lowest triangle number. Counts the translucent triangles.

@@ -30,13 +30,13 @@ static bool continues(struct call_control *call, int row, lam_error *error)
 // --- faces from sections of a picture
 
 // A square section of a linear picture that becomes a face; `turned` by 180°.
-struct piece {
+struct chunk {
     const lam_image *image;
     int x, y;
     bool turned;
 };
 
-static bool copy_face(struct lam_environment *cube, int face, const struct piece *piece, const char *name,
+static bool copy_face(struct lam_environment *cube, int face, const struct chunk *chunk, const char *name,
                       struct call_control *call, lam_error *error)
 {
     int n = cube->size;
@@ -44,9 +44,9 @@ static bool copy_face(struct lam_environment *cube, int face, const struct piece
         if (!continues(call, t, error))
             return false;
         for (int s = 0; s < n; s++) {
-            int x = piece->x + (piece->turned ? n - 1 - s : s), y = piece->y + (piece->turned ? n - 1 - t : t);
+            int x = chunk->x + (chunk->turned ? n - 1 - s : s), y = chunk->y + (chunk->turned ? n - 1 - t : t);
             const float *from =
-                (const float *)piece->image->pixels + ((size_t)y * (size_t)piece->image->width + (size_t)x) * 4;
+                (const float *)chunk->image->pixels + ((size_t)y * (size_t)chunk->image->width + (size_t)x) * 4;
             for (int channel = 0; channel < 3; channel++)
                 if (!(from[channel] >= 0 && from[channel] <= 3e38f))
                     return fail(error, LAM_BAD_ARGUMENT, "%s: pixel %d, %d is %g, expected light of at least 0, finite",
@@ -57,7 +57,7 @@ static bool copy_face(struct lam_environment *cube, int face, const struct piece
     return true;
 }
 
-static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE_COUNT],
+static struct lam_environment *cube_of_chunks(const struct chunk chunks[LAM_FACE_COUNT],
                                               const char *const names[LAM_FACE_COUNT], int size,
                                               struct call_control *call, lam_error *error)
 {
@@ -68,7 +68,7 @@ static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE
     }
     struct lam_environment *cube = cube_within(call, size, error);
     for (int face = 0; cube && face < LAM_FACE_COUNT; face++) {
-        if (!copy_face(cube, face, &pieces[face], names[face], call, error)) {
+        if (!copy_face(cube, face, &chunks[face], names[face], call, error)) {
             lam_environment_free(cube);
             return NULL;
         }
@@ -81,16 +81,16 @@ static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE
 static struct lam_environment *cube_of_faces(const lam_image *faces, const char *const names[LAM_FACE_COUNT],
                                              struct call_control *call, lam_error *error)
 {
-    struct piece pieces[LAM_FACE_COUNT];
+    struct chunk chunks[LAM_FACE_COUNT];
     for (int face = 0; face < LAM_FACE_COUNT; face++) {
-        pieces[face] = (struct piece){.image = &faces[face]};
+        chunks[face] = (struct chunk){.image = &faces[face]};
         if (faces[face].width == faces[0].width && faces[face].height == faces[0].width)
             continue;
         fail(error, LAM_UNSUPPORTED, "%s: %d×%d pixels, expected %d×%d: faces of a cube are squares of one size",
              names[face], faces[face].width, faces[face].height, faces[0].width, faces[0].width);
         return NULL;
     }
-    return cube_of_pieces(pieces, names, faces[0].width, call, error);
+    return cube_of_chunks(chunks, names, faces[0].width, call, error);
 }
 
 // --- an equirectangular picture
@@ -248,14 +248,14 @@ static struct lam_environment *cube_of_image(const lam_image *image, const char 
         return NULL;
     }
     int size = image->width / (lies ? 4 : 3);
-    struct piece pieces[LAM_FACE_COUNT];
+    struct chunk chunks[LAM_FACE_COUNT];
     const char *names[LAM_FACE_COUNT];
     for (int face = 0; face < LAM_FACE_COUNT; face++) {
         const int *at = lies ? lying[face] : standing[face];
-        pieces[face] = (struct piece){image, at[0] * size, at[1] * size, stands && face == LAM_FACE_NZ};
+        chunks[face] = (struct chunk){image, at[0] * size, at[1] * size, stands && face == LAM_FACE_NZ};
         names[face] = name;
     }
-    return cube_of_pieces(pieces, names, size, call, error);
+    return cube_of_chunks(chunks, names, size, call, error);
 }
 
 // --- the caller's pictures

@@ -167,12 +167,12 @@ static bool add_entry(const struct library *zip, zip_t *archive, const char *nam
 
 static bool read_back(const struct library *zip, zip_source_t *source, struct text *text)
 {
-    char piece[16384];
+    char chunk[16384];
     if (zip->zip_source_open(source) != 0)
         return false;
     zip_int64_t got;
-    while ((got = zip->zip_source_read(source, piece, sizeof piece)) > 0)
-        text_add_part(text, piece, (size_t)got);
+    while ((got = zip->zip_source_read(source, chunk, sizeof chunk)) > 0)
+        text_add_part(text, chunk, (size_t)got);
     zip->zip_source_close(source);
     return got == 0 && !text->failed;
 }

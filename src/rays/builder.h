@@ -6,7 +6,7 @@
 #include "loop_status.h"
 
 // Triangles per task, for preparing triangles and dividing the largest ranges.
-enum { RAY_PIECE = 4096 };
+enum { RAY_CHUNK = 4096 };
 
 // The box of a triangle. low[3] contains the bits of its number, high[3] the bits of 1. For a cell's triangles
 // (cells.c), low[3] is the first triangle and high[3] the count.

@@ -9,7 +9,7 @@
 #include <string.h>
 
 // Corners or colours per parallel chunk; constant, so that the result does not depend on the number of threads.
-enum { PIECE = 1 << 16 };
+enum { CHUNK = 1 << 16 };
 
 struct marking {
     const uint32_t *indices;
@@ -17,13 +17,13 @@ struct marking {
     uint8_t *used;
 };
 
-static void mark_piece(void *user, size_t index, int thread)
+static void mark_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
     const struct marking *marking = user;
     const uint32_t *indices = marking->indices;
     uint8_t *used = marking->used;
-    size_t first = index * (size_t)PIECE, end = first + PIECE;
+    size_t first = index * (size_t)CHUNK, end = first + CHUNK;
     if (end > marking->corners)
         end = marking->corners;
     // Several threads may mark the same vertex with the same value.
@@ -46,7 +46,7 @@ static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scen
     bool ok = used || call_memory_error(scratch.call, mesh->vertex_count, error);
     if (ok) {
         struct marking marking = {mesh->indices, corners, used};
-        pool_run(pool, (corners + PIECE - 1) / PIECE, mark_piece, &marking);
+        pool_run(pool, (corners + CHUNK - 1) / CHUNK, mark_chunk, &marking);
         uint32_t count = 0;
         for (uint32_t i = 0; i < mesh->vertex_count; i++)
             count += used[i];
@@ -69,12 +69,12 @@ struct alpha_search {
     int found; // atomic
 };
 
-static void search_piece(void *user, size_t index, int thread)
+static void search_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
     struct alpha_search *alpha_search = user;
     const lam_mesh *mesh = alpha_search->mesh;
-    size_t first = index * (size_t)PIECE, end = first + PIECE;
+    size_t first = index * (size_t)CHUNK, end = first + CHUNK;
     if (end > mesh->color_count)
         end = mesh->color_count;
     bool found = false;
@@ -96,7 +96,7 @@ static bool has_translucent_colors(const lam_mesh *mesh, struct pool *pool)
 {
     struct alpha_search alpha_search = {.mesh = mesh};
     if (mesh->colors)
-        pool_run(pool, ((size_t)mesh->color_count + PIECE - 1) / PIECE, search_piece, &alpha_search);
+        pool_run(pool, ((size_t)mesh->color_count + CHUNK - 1) / CHUNK, search_chunk, &alpha_search);
     return alpha_search.found;
 }
 
@@ -114,11 +114,11 @@ static float shifted(float value, double by)
     return (float)(moved<-(double)FLT_MAX ? -(double)FLT_MAX : moved>(double) FLT_MAX ? (double)FLT_MAX : moved);
 }
 
-static void shift_piece(void *user, size_t index, int thread)
+static void shift_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
     const struct shifting *shifting = user;
-    size_t first = index * (size_t)PIECE, end = first + PIECE;
+    size_t first = index * (size_t)CHUNK, end = first + CHUNK;
     if (end > shifting->count)
         end = shifting->count;
     for (size_t i = first; i < end; i++)
@@ -142,11 +142,11 @@ static bool move_origin(struct lam_scene *scene, lam_mesh *mesh, struct aabb_tre
         return true;
     if (scene->shared_arrays && !(shifting.to = arena_array(&scene->arena, shifting.count, 3 * sizeof(float))))
         return call_memory_error(scene->arena.call, shifting.count * 3 * sizeof(float), error);
-    pool_run(pool, (shifting.count + PIECE - 1) / PIECE, shift_piece, &shifting);
+    pool_run(pool, (shifting.count + CHUNK - 1) / CHUNK, shift_chunk, &shifting);
     mesh->positions = shifting.to;
     shifting.from = shifting.to = (float *)(uintptr_t)boxes->boxes;
     shifting.count = 2 * (boxes->first[boxes->levels - 1] + boxes->count[boxes->levels - 1]);
-    pool_run(pool, (shifting.count + PIECE - 1) / PIECE, shift_piece, &shifting);
+    pool_run(pool, (shifting.count + CHUNK - 1) / CHUNK, shift_chunk, &shifting);
     for (int axis = 0; axis < 3; axis++)
         mesh->origin[axis] += shifting.by[axis];
     return true;

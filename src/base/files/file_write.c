@@ -22,7 +22,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { PIECE = 1 << 20 };
+enum { CHUNK = 1 << 20 };
 
 static bool fail_writing(lam_error *error, const char *path, const char *action)
 {
@@ -91,7 +91,7 @@ static bool write_all(int file, const struct writing *w, const sigset_t *before)
 {
     const uint8_t *at = w->data;
     for (size_t left = w->size; left;) {
-        ssize_t wrote = write(file, at, left < PIECE ? left : PIECE);
+        ssize_t wrote = write(file, at, left < CHUNK ? left : CHUNK);
         if (wrote < 0 && errno != EINTR)
             return false;
         at += wrote > 0 ? wrote : 0;

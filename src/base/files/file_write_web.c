@@ -11,12 +11,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { PIECE = 1 << 20 };
+enum { CHUNK = 1 << 20 };
 
 static bool write_all(int file, const uint8_t *at, size_t left, struct call_control *call)
 {
     while (left) {
-        ssize_t wrote = write(file, at, left < PIECE ? left : PIECE);
+        ssize_t wrote = write(file, at, left < CHUNK ? left : CHUNK);
         if (wrote < 0 && errno != EINTR)
             return false;
         at += wrote > 0 ? wrote : 0;

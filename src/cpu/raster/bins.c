@@ -65,21 +65,22 @@ struct bin_block *new_bin_block(const struct raster_frame *raster, struct thread
 }
 
 // A power of two, so that a clipped triangle's index gives its slab.
-enum { PIECES_PER_SLAB = SLAB / 64 };
-_Static_assert(sizeof(struct clipped_piece) <= 64, "a clipped piece fits 64 bytes");
+enum { CLIPPED_PER_SLAB = SLAB / 64 };
+_Static_assert(sizeof(struct clipped_triangle) <= 64, "a clipped triangle fits 64 bytes");
 
-struct clipped_piece *new_clipped_piece(const struct raster_frame *raster, struct thread_bins *bins, uint32_t *number)
+struct clipped_triangle *new_clipped_triangle(const struct raster_frame *raster, struct thread_bins *bins,
+                                              uint32_t *number)
 {
-    struct clipped_piece *piece = slab_take(raster, &bins->pieces, 64);
-    if (piece)
-        *number = bins->piece_count++;
-    return piece;
+    struct clipped_triangle *triangle = slab_take(raster, &bins->clipped, 64);
+    if (triangle)
+        *number = bins->clipped_count++;
+    return triangle;
 }
 
-const struct clipped_piece *clipped_piece(const struct thread_bins *bins, uint32_t number)
+const struct clipped_triangle *clipped_triangle(const struct thread_bins *bins, uint32_t number)
 {
-    const char *slab = bins->pieces.slabs[number / PIECES_PER_SLAB];
-    return (const struct clipped_piece *)(slab + (size_t)(number % PIECES_PER_SLAB) * 64);
+    const char *slab = bins->clipped.slabs[number / CLIPPED_PER_SLAB];
+    return (const struct clipped_triangle *)(slab + (size_t)(number % CLIPPED_PER_SLAB) * 64);
 }
 
 void bin_large(const struct raster_frame *raster, struct thread_bins *bins, const struct snapped *c, uint32_t id)

@@ -23,7 +23,7 @@ struct bin_block {
 };
 
 // A part of a clipped triangle: its own window coordinates, and the number of the triangle.
-struct clipped_piece {
+struct clipped_triangle {
     float x[3], y[3], key[3];
     uint32_t id;
     bool back;
@@ -41,8 +41,8 @@ struct slab_list {
 struct thread_bins {
     struct bin_block **heads; // the newest block of each bin
     struct slab_list blocks;
-    struct slab_list pieces;
-    uint32_t piece_count;
+    struct slab_list clipped;
+    uint32_t clipped_count;
     uint64_t triangles_binned;
     uint64_t work; // units that were not yet added
 };
@@ -50,8 +50,9 @@ struct thread_bins {
 // Allocate a block for one more bin, or memory for one more clipped triangle. They return NULL if memory runs out; the
 // frame has then failed.
 struct bin_block *new_bin_block(const struct raster_frame *raster, struct thread_bins *bins);
-struct clipped_piece *new_clipped_piece(const struct raster_frame *raster, struct thread_bins *bins, uint32_t *number);
-const struct clipped_piece *clipped_piece(const struct thread_bins *bins, uint32_t number);
+struct clipped_triangle *new_clipped_triangle(const struct raster_frame *raster, struct thread_bins *bins,
+                                              uint32_t *number);
+const struct clipped_triangle *clipped_triangle(const struct thread_bins *bins, uint32_t number);
 size_t slabs_bytes(const struct slab_list *list);
 size_t slabs_free(struct slab_list *list); // returns the number of freed bytes
 

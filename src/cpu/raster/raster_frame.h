@@ -8,8 +8,8 @@
 #include "work.h"
 
 // Sizes of parallel tasks: a range of vertices or triangles of one draw.
-enum { VERTEX_PIECE = 8192, TRIANGLE_PIECE = 4096 };
-struct piece {
+enum { VERTEX_CHUNK = 8192, TRIANGLE_CHUNK = 4096 };
+struct chunk {
     uint32_t draw, first, count;
 };
 

@@ -23,7 +23,7 @@ static void mark_bins(void *user, size_t index, int number)
             for (uint32_t k = 0; k < block->count; k++) {
                 uint32_t id = block->ids[k];
                 if (id & CLIPPED)
-                    id = clipped_piece(bins, id & ~CLIPPED)->id;
+                    id = clipped_triangle(bins, id & ~CLIPPED)->id;
                 rank_bitset_add(&cpu->shade.visible.triangles, id);
             }
     }

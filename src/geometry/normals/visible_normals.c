@@ -223,7 +223,7 @@ static void collect_corners(void *user, size_t index, int thread)
     const bool alone = pool_threads(s->pool) == 1;
     if (!should_continue(&s->loop))
         return;
-    uint32_t end = (uint32_t)piece_end(index, s->corners, CHUNK), count;
+    uint32_t end = (uint32_t)chunk_end(index, s->corners, CHUNK), count;
     for (uint32_t c = (uint32_t)(index * CHUNK); c < end; c += count) {
         uint32_t corners[LISTED + WORD], ranks[LISTED + WORD];
         count = end - c < LISTED ? end - c : LISTED;
@@ -242,7 +242,7 @@ static void make_vertices(void *user, size_t index, int thread)
     struct fan_loop *l = user;
     struct position_search *s = l->search;
     for (size_t w = index * WORDS;
-         should_continue(&s->loop) && w < piece_end(index, rank_bitset_words(s->vertices), WORDS); w++) {
+         should_continue(&s->loop) && w < chunk_end(index, rank_bitset_words(s->vertices), WORDS); w++) {
         uint32_t rank = s->wanted.ranks[w];
         for (uint64_t bits = s->wanted.bits[w]; bits; bits &= bits - 1, rank++)
             if (l->counts[rank] < 3 || l->counts[rank] > CLOSED_MAX)
@@ -265,8 +265,8 @@ static bool make_closed(struct fan_loop *l)
     if (!l->open.bits || !l->open.ranks || !l->counts || !l->collected || !number_wanted(s) || !start_workers(l))
         return false;
     l->by_vertex = true;
-    pool_run(s->pool, pieces_of(s->corners, CHUNK), collect_corners, l);
-    pool_run(s->pool, pieces_of(words, WORDS), make_vertices, l);
+    pool_run(s->pool, chunks_of(s->corners, CHUNK), collect_corners, l);
+    pool_run(s->pool, chunks_of(words, WORDS), make_vertices, l);
     pool_run(s->pool, (size_t)pool_threads(s->pool), make_rest, l);
     l->by_vertex = false;
     for (size_t w = 0; w < words; w++)

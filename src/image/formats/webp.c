@@ -13,8 +13,8 @@
 
 enum {
     RIFF_HEADER = 12,
-    PIECE_BYTES = 1 << 14, // bytes per step; fewer if so many bytes are more pixels than
-    PIECE_PIXELS = 1 << 22,
+    CHUNK_BYTES = 1 << 14, // bytes per step; fewer if so many bytes are more pixels than
+    CHUNK_PIXELS = 1 << 22,
     PLAIN_PIXELS = 1 << 24, // pixels that a file of any size may have: 4096×4096 of one colour take a few bytes
 };
 
@@ -81,10 +81,10 @@ static bool decode(const struct webp_library *webp, const struct picture_file *f
     int status = VP8_STATUS_SUSPENDED;
     bool runs = true;
     double bytes_of_pixel = (double)file->size / ((double)image->width * image->height);
-    double even = bytes_of_pixel * PIECE_PIXELS;
-    size_t piece = even < 1 ? 1 : even < PIECE_BYTES ? (size_t)even : PIECE_BYTES;
+    double even = bytes_of_pixel * CHUNK_PIXELS;
+    size_t chunk = even < 1 ? 1 : even < CHUNK_BYTES ? (size_t)even : CHUNK_BYTES;
     for (size_t size = 0; runs && status == VP8_STATUS_SUSPENDED && size < file->size;) {
-        size += file->size - size < piece ? file->size - size : piece;
+        size += file->size - size < chunk ? file->size - size : chunk;
         runs = call_should_continue(file->call) || call_error(file->call, error);
         if (runs)
             status = webp->WebPIUpdate(decoder, file->bytes, size);

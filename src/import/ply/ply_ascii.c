@@ -178,14 +178,14 @@ static const uint8_t *read_row(const struct ply_reader *reader, size_t row, cons
     return at;
 }
 
-static bool read_piece(void *user, size_t index, lam_error *error)
+static bool read_chunk(void *user, size_t index, lam_error *error)
 {
     const struct ply_reader *reader = user;
     size_t first, last;
     if (reader->element->property_count == 0)
         return true; // empty rows have no start
     parallel_rows_range(reader->table->count, index, &first, &last);
-    const uint8_t *at = reader->pieces[index];
+    const uint8_t *at = reader->chunks[index];
     for (size_t row = first; at && row < last; row++)
         at = read_row(reader, row, at, reader->rows ? reader->rows + row * reader->table->stride : NULL,
                       reader->items ? reader->items + reader->starts[row] : NULL, error);
@@ -211,7 +211,7 @@ static bool read_rows(struct ply_reader *reader, struct arena *keep, struct aren
         check_rows_before(reader, error);
         return false;
     }
-    return ply_read_rows(reader, read_piece, keep, scratch, error);
+    return ply_read_rows(reader, read_chunk, keep, scratch, error);
 }
 
 bool ply_read_ascii(const struct import_source *source, const struct ply_element *element,

@@ -170,13 +170,13 @@ static bool index_rows(struct ply_reader *reader, const uint8_t **end, lam_error
     return true;
 }
 
-static bool read_piece(void *user, size_t index, lam_error *error)
+static bool read_chunk(void *user, size_t index, lam_error *error)
 {
     const struct ply_reader *reader = user;
     const struct ply_element *element = reader->element;
     size_t first, last;
     parallel_rows_range(reader->table->count, index, &first, &last);
-    const uint8_t *at = reader->pieces[index];
+    const uint8_t *at = reader->chunks[index];
     for (size_t row = first; row < last; row++) {
         for (int i = 0; i < element->property_count; i++) {
             const struct ply_property *property = &element->properties[i];
@@ -234,7 +234,7 @@ bool ply_read_binary(const struct import_source *source, const struct ply_header
         if (may_be_triangles(&reader, header) && !try_triangles(&reader, keep, scratch, &done, error))
             return false;
         if (!done && !(ply_start_rows(&reader, scratch, error) && index_rows(&reader, &end, error) &&
-                       ply_read_rows(&reader, read_piece, keep, scratch, error)))
+                       ply_read_rows(&reader, read_chunk, keep, scratch, error)))
             return false;
         if (done)
             end = reader.first + table->count * reader.stride;

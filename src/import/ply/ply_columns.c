@@ -96,7 +96,7 @@ static void clean_vector(const struct vectors *vectors, float *v)
     }
 }
 
-static bool vector_piece(void *user, size_t index, lam_error *error)
+static bool vector_chunk(void *user, size_t index, lam_error *error)
 {
     (void)error;
     const struct vectors *vectors = user;
@@ -141,7 +141,7 @@ static bool read_vectors(const struct import_source *source, struct vectors *vec
     if (!vectors->out)
         return call_memory_error(source->call, bytes, error);
     *out = vectors->out;
-    return parallel_rows_run(source, parallel_rows_count(vectors->table->count), vector_piece, vectors, error);
+    return parallel_rows_run(source, parallel_rows_count(vectors->table->count), vector_chunk, vectors, error);
 }
 
 bool ply_normals(const struct import_source *source, const struct ply_table *table, struct arena *arena,
@@ -190,7 +190,7 @@ struct bytes {
     uint8_t *out;
 };
 
-static bool byte_piece(void *user, size_t index, lam_error *error)
+static bool byte_chunk(void *user, size_t index, lam_error *error)
 {
     (void)error;
     const struct bytes *bytes = user;
@@ -243,7 +243,7 @@ bool ply_colors(const struct import_source *source, const struct ply_table *tabl
             return call_memory_error(source->call, 4 * table->count, error);
         *out = bytes.out;
         *format = raw ? LAM_COLORS_LINEAR8 : LAM_COLORS_SRGB8;
-        return parallel_rows_run(source, parallel_rows_count(table->count), byte_piece, &bytes, error);
+        return parallel_rows_run(source, parallel_rows_count(table->count), byte_chunk, &bytes, error);
     }
 
     struct vectors vectors = {.table = table, .kind = raw ? COLORS_RAW : COLORS, .width = 4};

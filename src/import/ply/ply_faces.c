@@ -31,7 +31,7 @@ static uint32_t corners_of(const struct ply_table *faces, size_t face)
     return faces->starts[face + 1] - faces->starts[face];
 }
 
-static bool triangulate_piece(void *user, size_t index, lam_error *error)
+static bool triangulate_chunk(void *user, size_t index, lam_error *error)
 {
     const struct polygons *polygons = user;
     const struct ply_table *faces = polygons->faces;
@@ -72,10 +72,10 @@ static bool triangulate_polygons(struct polygons *polygons, bool want_faces, str
 {
     const struct import_source *source = polygons->source;
     const struct ply_table *faces = polygons->faces;
-    size_t pieces = parallel_rows_count(faces->count), degenerate = 0;
-    polygons->first_triangles = arena_array(scratch, pieces, sizeof *polygons->first_triangles);
+    size_t chunks = parallel_rows_count(faces->count), degenerate = 0;
+    polygons->first_triangles = arena_array(scratch, chunks, sizeof *polygons->first_triangles);
     if (!polygons->first_triangles)
-        return call_memory_error(source->call, pieces * sizeof *polygons->first_triangles, error);
+        return call_memory_error(source->call, chunks * sizeof *polygons->first_triangles, error);
     uint64_t triangles = 0;
     for (size_t face = 0; face < faces->count; face++) {
         if (face % PARALLEL_ROWS == 0)
@@ -99,7 +99,7 @@ static bool triangulate_polygons(struct polygons *polygons, bool want_faces, str
         if (!polygons->inner_edges)
             return call_memory_error(source->call, triangles, error);
     }
-    if (!parallel_rows_run(source, pieces, triangulate_piece, polygons, error))
+    if (!parallel_rows_run(source, chunks, triangulate_chunk, polygons, error))
         return false;
     mesh->indices = polygons->indices;
     mesh->inner_edges = polygons->inner_edges;

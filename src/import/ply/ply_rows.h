@@ -12,7 +12,7 @@ struct ply_reader {
     const struct ply_request *request;
     struct ply_table *table;
     const uint8_t *first;     // row 0
-    const uint8_t **pieces;   // start of each chunk
+    const uint8_t **chunks;   // start of each chunk
     uint32_t *items, *starts; // the contents of the requested list
     uint8_t *rows;            // scalars; NULL if not requested
     uint64_t total;           // items of the requested list so far
@@ -38,7 +38,7 @@ static inline void ply_count_items(struct ply_reader *reader, int64_t items)
 }
 
 // Reads the rows after the serial pass and fills the table.
-bool ply_read_rows(struct ply_reader *reader, parallel_rows_task *read_piece, struct arena *keep, struct arena *scratch,
+bool ply_read_rows(struct ply_reader *reader, parallel_rows_task *read_chunk, struct arena *keep, struct arena *scratch,
                    lam_error *error);
 
 #endif

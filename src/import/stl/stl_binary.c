@@ -76,7 +76,7 @@ static bool fail_not_finite(const struct reader *reader, size_t first, size_t la
     return false;
 }
 
-static bool read_piece(void *user, size_t index, lam_error *error)
+static bool read_chunk(void *user, size_t index, lam_error *error)
 {
     const struct reader *reader = user;
     size_t first, last;
@@ -99,7 +99,7 @@ static bool read_piece(void *user, size_t index, lam_error *error)
 
 static uint8_t five_bits(unsigned value) { return (uint8_t)((value * 255 + 15) / 31); }
 
-static bool color_piece(void *user, size_t index, lam_error *error)
+static bool color_chunk(void *user, size_t index, lam_error *error)
 {
     (void)error;
     const struct reader *reader = user;
@@ -153,12 +153,12 @@ static bool read_colors(struct reader *reader, struct lam_scene *scene, lam_mesh
 {
     struct words all = {0};
     for (size_t i = 0; i < parallel_rows_count(reader->count); i++) {
-        const struct words *piece = &reader->words[i];
-        all.any |= piece->any;
-        all.marked |= piece->marked;
-        if (piece->unmarked_values)
-            add_word(&all, piece->unmarked);
-        if (piece->unmarked_values == 2)
+        const struct words *chunk = &reader->words[i];
+        all.any |= chunk->any;
+        all.marked |= chunk->marked;
+        if (chunk->unmarked_values)
+            add_word(&all, chunk->unmarked);
+        if (chunk->unmarked_values == 2)
             all.unmarked_values = 2;
     }
     bool uniform = false;
@@ -167,7 +167,7 @@ static bool read_colors(struct reader *reader, struct lam_scene *scene, lam_mesh
     reader->colors = arena_array(&scene->arena, reader->count, 4);
     if (!reader->colors)
         return call_memory_error(reader->source->call, 4 * reader->count, error);
-    if (!parallel_rows_run(reader->source, parallel_rows_count(reader->count), color_piece, reader, error))
+    if (!parallel_rows_run(reader->source, parallel_rows_count(reader->count), color_chunk, reader, error))
         return false;
     mesh->colors = reader->colors;
     mesh->color_count = (uint32_t)reader->count;
@@ -197,13 +197,13 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
     struct arena scratch;
     arena_start(&scratch, source->call);
     struct reader reader = {.source = source, .facets = source->bytes + STL_FACETS, .count = declared};
-    size_t pieces = parallel_rows_count(declared);
+    size_t chunks = parallel_rows_count(declared);
     reader.positions = arena_array(&scene->arena, declared, 9 * sizeof(float));
-    reader.words = arena_array(&scratch, pieces, sizeof *reader.words);
+    reader.words = arena_array(&scratch, chunks, sizeof *reader.words);
     bool done = reader.positions && reader.words;
     if (!done)
         call_memory_error(source->call, declared * 9 * sizeof(float), error);
-    done = done && parallel_rows_run(source, pieces, read_piece, &reader, error) &&
+    done = done && parallel_rows_run(source, chunks, read_chunk, &reader, error) &&
            read_colors(&reader, scene, mesh, error);
     arena_free(&scratch);
     if (!done)

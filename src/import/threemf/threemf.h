@@ -138,8 +138,8 @@ bool threemf_package_open(struct threemf *file);
 void threemf_package_close(struct threemf *file);
 
 // Reads a part of the archive in chunks. `name` may have a '/' at its start.
-typedef bool threemf_piece_fn(void *user, const void *bytes, size_t size, bool last);
-bool threemf_package_read(struct threemf *file, const char *name, threemf_piece_fn *take, void *user);
+typedef bool threemf_chunk_fn(void *user, const void *bytes, size_t size, bool last);
+bool threemf_package_read(struct threemf *file, const char *name, threemf_chunk_fn *take, void *user);
 // Reads a whole part into memory of the scratch arena.
 bool threemf_package_read_whole(struct threemf *file, const char *name, const uint8_t **bytes, size_t *size);
 

@@ -176,31 +176,31 @@ static zip_int64_t locate(const struct zip_library *zip, const char *name)
                : index;
 }
 
-static bool read_pieces(struct threemf *file, const char *name, zip_file_t *part, threemf_piece_fn *take, void *user)
+static bool read_chunks(struct threemf *file, const char *name, zip_file_t *part, threemf_chunk_fn *take, void *user)
 {
-    enum { PIECE = 128 << 10 };
+    enum { CHUNK = 128 << 10 };
     const struct zip_library *zip = file->zip;
     struct call_control *call = file->source->call;
-    uint8_t *piece = arena_alloc(file->scratch, PIECE);
+    uint8_t *chunk = arena_alloc(file->scratch, CHUNK);
     char shown[SHOWN_NAME_SIZE];
-    if (!piece)
-        return threemf_no_memory(file, PIECE);
+    if (!chunk)
+        return threemf_no_memory(file, CHUNK);
     for (;;) {
-        zip_int64_t got = zip->zip_fread(part, piece, PIECE);
+        zip_int64_t got = zip->zip_fread(part, chunk, CHUNK);
         if (got < 0)
             return fail(file->error, LAM_CANNOT_READ, "%s: its part %s is damaged: %s", file->source->name,
                         shown_name(name, shown), zip->zip_error_strerror(zip->zip_file_get_error(part)));
         file->expanded += (uint64_t)got;
         if (!call_check_expanded(call, file->source->name, file->expanded, file->error) ||
             (!call_should_continue(call) && !call_error(call, file->error)) ||
-            !take(user, piece, (size_t)got, got == 0))
+            !take(user, chunk, (size_t)got, got == 0))
             return false;
         if (got == 0)
             return true;
     }
 }
 
-bool threemf_package_read(struct threemf *file, const char *name, threemf_piece_fn *take, void *user)
+bool threemf_package_read(struct threemf *file, const char *name, threemf_chunk_fn *take, void *user)
 {
     const struct zip_library *zip = file->zip;
     name += *name == '/';
@@ -210,7 +210,7 @@ bool threemf_package_read(struct threemf *file, const char *name, threemf_piece_
     zip_file_t *part = zip->zip_fopen_index(zip->archive, (zip_uint64_t)index, 0);
     if (!part)
         return fail_part(file, name, zip->zip_error_strerror(zip->zip_get_error(zip->archive)));
-    bool ok = read_pieces(file, name, part, take, user);
+    bool ok = read_chunks(file, name, part, take, user);
     zip->zip_fclose(part);
     return ok;
 }
@@ -220,7 +220,7 @@ struct whole {
     struct threemf_rows bytes;
 };
 
-static bool keep_piece(void *user, const void *bytes, size_t size, bool last)
+static bool keep_chunk(void *user, const void *bytes, size_t size, bool last)
 {
     struct whole *whole = user;
     (void)last;
@@ -238,7 +238,7 @@ bool threemf_package_read_whole(struct threemf *file, const char *name, const ui
 {
     struct whole whole = {.file = file};
     uint8_t *copy = NULL;
-    bool ok = threemf_package_read(file, name, keep_piece, &whole);
+    bool ok = threemf_package_read(file, name, keep_chunk, &whole);
     if (ok) {
         copy = arena_alloc(file->scratch, whole.bytes.count);
         ok = copy || threemf_no_memory(file, whole.bytes.count);

@@ -316,7 +316,7 @@ static bool check_token(struct threemf_xml *xml)
            threemf_xml_fail(xml, "found an element, a comment or a text of more than %d bytes", TOKEN_BYTES);
 }
 
-static bool parse_piece(void *user, const void *bytes, size_t size, bool last)
+static bool parse_chunk(void *user, const void *bytes, size_t size, bool last)
 {
     struct threemf_xml *xml = user;
     struct xml_parser *parser = xml->parser;
@@ -346,7 +346,7 @@ bool threemf_xml_parse(struct threemf_xml *xml)
         library->XML_SetElementHandler(parser.expat, begin_element, end_element);
         library->XML_SetCharacterDataHandler(parser.expat, take_text);
         library->XML_SetStartDoctypeDeclHandler(parser.expat, refuse_document_type);
-        ok = threemf_package_read(xml->file, xml->part, parse_piece, xml);
+        ok = threemf_package_read(xml->file, xml->part, parse_chunk, xml);
         library->XML_ParserFree(parser.expat);
     }
     threemf_rows_free(xml->file, &parser.declarations);

@@ -83,7 +83,7 @@ static void fill_from_chunk(void *user, size_t index, int thread)
     if (!should_continue(&s->loop))
         return;
     const uint32_t *indices = s->mesh->indices, *position_of = s->position_of;
-    uint32_t end = (uint32_t)piece_end(index, s->corners, CHUNK), count;
+    uint32_t end = (uint32_t)chunk_end(index, s->corners, CHUNK), count;
     size_t probes = 0;
     for (uint32_t c = (uint32_t)(index * CHUNK); c < end; c += count) {
         uint32_t corners[BATCH + WORD], positions[BATCH + WORD], listed = 0;
@@ -119,7 +119,7 @@ bool position_bins_fill(struct position_bins *bins, struct position_search *s)
             return false;
         }
     }
-    pool_run(s->pool, pieces_of(s->corners, CHUNK), fill_from_chunk, bins);
+    pool_run(s->pool, chunks_of(s->corners, CHUNK), fill_from_chunk, bins);
     return should_continue(&s->loop) && (s->position_of || !s->probe_limit_reached);
 }
 

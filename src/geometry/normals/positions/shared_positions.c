@@ -71,7 +71,7 @@ static void add_wanted(void *user, size_t index, int thread)
     struct position_search *s = user;
     if (!should_continue(&s->loop))
         return;
-    for (size_t w = index * WORDS; w < piece_end(index, triangle_words(s), WORDS); w++)
+    for (size_t w = index * WORDS; w < chunk_end(index, triangle_words(s), WORDS); w++)
         for (uint64_t bits = triangle_word(s, first_word(s) + w); bits; bits &= bits - 1) {
             size_t triangle = 64 * (first_word(s) + w) + (size_t)__builtin_ctzll(bits) - s->first;
             for (size_t k = 0; k < 3; k++)
@@ -88,7 +88,7 @@ bool find_wanted(struct position_search *s)
     if (!s->wanted.bits || !s->wanted.ranks)
         return false;
     if (triangles_before(s, s->mesh->triangle_count) < s->mesh->triangle_count) {
-        pool_run(s->pool, pieces_of(triangle_words(s), WORDS), add_wanted, s);
+        pool_run(s->pool, chunks_of(triangle_words(s), WORDS), add_wanted, s);
     } else if (words) { // all vertices; a vertex without a triangle is a position without corners
         memset(s->wanted.bits, 0xff, words * sizeof *s->wanted.bits);
         s->wanted.bits[words - 1] >>= 64 * words - s->vertices;
@@ -127,7 +127,7 @@ static void spread_vertices(void *user, size_t index, int thread)
     struct position_search *s = user;
     if (!should_continue(&s->loop))
         return;
-    for (size_t w = index * WORDS; w < piece_end(index, rank_bitset_words(s->vertices), WORDS); w++)
+    for (size_t w = index * WORDS; w < chunk_end(index, rank_bitset_words(s->vertices), WORDS); w++)
         for (uint64_t bits = s->wanted.bits[w]; bits; bits &= bits - 1)
             if (!spread(s, thread, 64 * w + (size_t)__builtin_ctzll(bits)))
                 return;
@@ -138,7 +138,7 @@ static void spread_corners(void *user, size_t index, int thread)
     struct position_search *s = user;
     if (!should_continue(&s->loop))
         return;
-    size_t end = piece_end(index, triangle_words(s), WORDS);
+    size_t end = chunk_end(index, triangle_words(s), WORDS);
     for (size_t w = index * WORDS, ahead = w; w < end; w++) {
         for (; ahead < end && ahead < w + AHEAD; ahead++)
             for (uint64_t bits = triangle_word(s, first_word(s) + ahead); bits; bits &= bits - 1) {
@@ -235,9 +235,9 @@ static bool fill_table(struct position_search *s)
     if (!start_lists(s) || (!indexed && !start_caches(s)))
         return false;
     if (indexed)
-        pool_run(s->pool, pieces_of(rank_bitset_words(s->vertices), WORDS), spread_vertices, s);
+        pool_run(s->pool, chunks_of(rank_bitset_words(s->vertices), WORDS), spread_vertices, s);
     else
-        pool_run(s->pool, pieces_of(triangle_words(s), WORDS), spread_corners, s);
+        pool_run(s->pool, chunks_of(triangle_words(s), WORDS), spread_corners, s);
     size_t bytes = position_hash_size(&s->table, count_keys(s), indexed);
     void *memory = scratch_borrow(&s->scratch, bytes);
     if (!memory)
@@ -285,7 +285,7 @@ static void place_words(void *user, size_t index, int thread)
     struct position_search *s = user;
     if (!should_continue(&s->loop))
         return;
-    size_t probes = 0, end = piece_end(index, rank_bitset_words(s->vertices), WORDS);
+    size_t probes = 0, end = chunk_end(index, rank_bitset_words(s->vertices), WORDS);
     for (size_t w = index * WORDS; w < end && within_probe_limit(s, probes, WORD * WORDS); w += TOGETHER)
         probes += place_some(s, w, w + TOGETHER < end ? w + TOGETHER : end);
 }
@@ -315,7 +315,7 @@ static bool place_vertices(struct position_search *s)
 {
     if (!number_wanted(s))
         return false;
-    pool_run(s->pool, pieces_of(rank_bitset_words(s->vertices), WORDS), place_words, s);
+    pool_run(s->pool, chunks_of(rank_bitset_words(s->vertices), WORDS), place_words, s);
     pool_run(s->pool, (size_t)pool_threads(s->pool), place_duplicates, s);
     return true;
 }

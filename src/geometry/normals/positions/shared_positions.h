@@ -59,11 +59,11 @@ static inline const float *point_of(const struct position_search *s, size_t vert
     return s->mesh->positions + 3 * vertex;
 }
 
-static inline size_t pieces_of(size_t total, size_t piece) { return (total + piece - 1) / piece; }
+static inline size_t chunks_of(size_t total, size_t chunk) { return (total + chunk - 1) / chunk; }
 
-static inline size_t piece_end(size_t index, size_t total, size_t piece)
+static inline size_t chunk_end(size_t index, size_t total, size_t chunk)
 {
-    return (index + 1) * piece < total ? (index + 1) * piece : total;
+    return (index + 1) * chunk < total ? (index + 1) * chunk : total;
 }
 
 // Finds the vertices of the set's triangles, for indexed meshes. Returns false if memory runs out.

@@ -123,7 +123,7 @@ struct conversion {
     uint32_t replaced; // atomic: how many numbers were not finite
 };
 
-static bool convert_piece(void *user, size_t index, lam_error *error)
+static bool convert_chunk(void *user, size_t index, lam_error *error)
 {
     (void)error;
     const struct conversion *conversion = user;
@@ -135,7 +135,7 @@ static bool convert_piece(void *user, size_t index, lam_error *error)
 
 static bool is_finite_bits(uint32_t bits) { return (bits & 0x7f800000) != 0x7f800000; }
 
-static bool check_piece(void *user, size_t index, lam_error *error)
+static bool check_chunk(void *user, size_t index, lam_error *error)
 {
     struct conversion *conversion = user;
     size_t first, last, width = (size_t)conversion->accessor->width;
@@ -165,7 +165,7 @@ static bool check_finite(struct gltf *gltf, const struct place *place, const str
 {
     struct conversion checking = {.gltf = gltf, .place = place, .accessor = a, .out = floats, .required = required};
     if (a->component == GLTF_F32 &&
-        !parallel_rows_run(gltf->source, parallel_rows_count(a->count), check_piece, &checking, gltf->json.error))
+        !parallel_rows_run(gltf->source, parallel_rows_count(a->count), check_chunk, &checking, gltf->json.error))
         return false;
     if (checking.replaced) {
         char where[200];
@@ -192,7 +192,7 @@ static float *convert_all(struct gltf *gltf, const struct gltf_accessor *a, stru
         gltf_no_memory(gltf, bytes);
         return NULL;
     }
-    return parallel_rows_run(gltf->source, parallel_rows_count(a->count), convert_piece, &conversion,
+    return parallel_rows_run(gltf->source, parallel_rows_count(a->count), convert_chunk, &conversion,
                              gltf->json.error) &&
                    each_sparse(gltf, a, put_floats, &sparse)
                ? conversion.out
@@ -227,7 +227,7 @@ struct indexing {
     uint32_t max;  // atomic
 };
 
-static bool index_piece(void *user, size_t index, lam_error *error)
+static bool index_chunk(void *user, size_t index, lam_error *error)
 {
     (void)error;
     struct indexing *indexing = user;
@@ -294,7 +294,7 @@ const uint32_t *gltf_indices(struct gltf *gltf, const struct place *place, struc
         gltf_no_memory(gltf, a->count * sizeof *indexing.out);
         return NULL;
     }
-    if (!parallel_rows_run(gltf->source, parallel_rows_count(a->count), index_piece, &indexing, gltf->json.error) ||
+    if (!parallel_rows_run(gltf->source, parallel_rows_count(a->count), index_chunk, &indexing, gltf->json.error) ||
         !each_sparse(gltf, a, put_index, &indexing))
         return NULL;
     if (a->sparse_count)
@@ -317,7 +317,7 @@ struct coloring {
 
 static float clean_channel(float x) { return x >= 0.0f ? x : 0.0f; }
 
-static bool color_piece(void *user, size_t index, lam_error *error)
+static bool color_chunk(void *user, size_t index, lam_error *error)
 {
     (void)error;
     const struct coloring *coloring = user;
@@ -365,7 +365,7 @@ bool gltf_colors(struct gltf *gltf, const struct place *place, struct gltf_acces
                                    : (float *)(uintptr_t)coloring.floats;
     if (!coloring.out)
         return gltf_no_memory(gltf, a->count * 4 * sizeof(float));
-    if (!parallel_rows_run(gltf->source, parallel_rows_count(a->count), color_piece, &coloring, gltf->json.error))
+    if (!parallel_rows_run(gltf->source, parallel_rows_count(a->count), color_chunk, &coloring, gltf->json.error))
         return false;
     out->items = a->colors[opaque] = coloring.out;
     return true;

@@ -26,7 +26,7 @@ struct addition {
     double weight;
 };
 
-static bool add_piece(void *user, size_t index, lam_error *error)
+static bool add_chunk(void *user, size_t index, lam_error *error)
 {
     const struct addition *a = user;
     size_t first, last, wide = (size_t)a->base_width, narrow = (size_t)a->width;
@@ -93,7 +93,7 @@ static bool add_target(const struct morph_target *t, const char *name, int width
         return gltf_no_memory(gltf, count * (size_t)base_width * sizeof(float));
     *own = true;
     *values = addition.out;
-    return parallel_rows_run(gltf->source, parallel_rows_count(count), add_piece, &addition, gltf->json.error);
+    return parallel_rows_run(gltf->source, parallel_rows_count(count), add_chunk, &addition, gltf->json.error);
 }
 
 // Whether the mesh owns each attribute's array, so that it may be changed in place.
@@ -210,7 +210,7 @@ static void store_direction(float *out, lam_vec3 v)
         store(out, v3(0, 0, 0));
 }
 
-static bool skin_piece(void *user, size_t index, lam_error *error)
+static bool skin_chunk(void *user, size_t index, lam_error *error)
 {
     const struct skinning *s = user;
     size_t first, last;
@@ -285,7 +285,7 @@ static bool apply_skin(struct gltf *gltf, const struct place *place, const json_
     s.tangents = mesh->tangents ? arena_array(arena, count, 4 * sizeof(float)) : NULL;
     if (!s.positions || !s.normals != !mesh->normals || !s.tangents != !mesh->tangents)
         return gltf_no_memory(gltf, count * 4 * sizeof(float));
-    if (!parallel_rows_run(gltf->source, parallel_rows_count(count), skin_piece, &s, gltf->json.error))
+    if (!parallel_rows_run(gltf->source, parallel_rows_count(count), skin_chunk, &s, gltf->json.error))
         return false;
     mesh->positions = s.positions;
     mesh->normals = s.normals;

@@ -140,7 +140,7 @@ static bool has_bit(const struct fault *row, enum fault_bit bit)
     return false;
 }
 
-// Adds each fault to each interpretation until one explains every scene. `nearest`: the MAX_NEAREST best ones.
+// Adds each fault to each interpretation until one explains every scene. `nearest` receives the MAX_NEAREST best ones.
 static bool add_faults(struct fit *f, const struct interpretation *interpretations, int count,
                        struct interpretation nearest[MAX_NEAREST], struct interpretation *best, lam_error *error)
 {
@@ -293,8 +293,8 @@ static bool open_fit(struct fit *f, struct run *r, lam_error *error)
     return ok;
 }
 
-// Finds the pixels to compare. `missing`: the smallest share of a scene that the shader does not draw; a scene that
-// faces away may be black and transparent.
+// Finds the pixels to compare. Sets `missing` to the smallest share of a scene that the shader does not draw; a scene
+// that faces away may be black and transparent.
 static bool find_inside(struct run *r, double *missing, lam_error *error)
 {
     const struct interpretation plain = {.reflection = LAM_REFLECTION_PHONG};

@@ -19,7 +19,7 @@ enum {
     WORK_MASK = 24,     // a sample whose opacity is looked up before it counts as a layer
     WORK_OPAQUE = 3,    // an opaque triangle at a pixel
     WORK_SET_UP = 32,   // a triangle in a tile
-    WORK_STEP = 1 << 20 // units that are counted before they are added: a few milliseconds
+    WORK_STEP = 1 << 20 // units counted before they are added, a few milliseconds
 };
 
 struct work {

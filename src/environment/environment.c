@@ -135,7 +135,7 @@ static void sample_row(const lam_image *image, const double *columns, const doub
 }
 
 // Samples row t, above the middle, and row size − 1 − t of the four side faces: the texels of a column have one
-// longitude, and the faces share their latitudes. `rows`: memory for one row of a face.
+// longitude, and the faces share their latitudes. `rows` is memory for one row of a face.
 static void sample_around(const lam_image *image, struct lam_environment *cube, const double *const columns[4],
                           double *rows, int t)
 {
@@ -153,7 +153,7 @@ static void sample_around(const lam_image *image, struct lam_environment *cube, 
 }
 
 // Samples the same rows of the upper and the lower face. Their halves mirror each other: longitudes change their sign,
-// or are subtracted from a half turn. `memory`: space for three rows.
+// or are subtracted from a half turn. `memory` has space for three rows.
 static void sample_ends(const lam_image *image, struct lam_environment *cube, double *memory, int t)
 {
     int size = cube->size;

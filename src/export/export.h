@@ -57,8 +57,8 @@ const struct exporter *exporter_find(const char *ending, const char *path, lam_e
 // Records a loss: a part of the scene that the file does not contain. Each sentence is recorded once.
 void export_lose(struct exporting *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// Records the losses that all flat formats share: lights, cameras, an environment, animations.
-// `has_lights_and_cameras`: the format supports lights and cameras.
+// Records the losses that all flat formats share: lights, cameras, an environment, animations. `has_lights_and_cameras`
+// means that the format supports lights and cameras.
 void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras);
 
 // Adds a file beside the model, whose bytes come from malloc and are given away. Its name is the model's without its
@@ -82,7 +82,7 @@ lam_vec3 export_turned(const struct exporting *e, lam_vec3 p);
 lam_vec3 export_position(const struct exporting *e, const lam_mesh *mesh, uint32_t vertex);
 lam_vec3 export_normal(const struct exporting *e, const lam_mesh *mesh, uint32_t index);
 
-// Returns the element of an attribute at a corner; `own`: its index array, which may be NULL.
+// Returns the element of an attribute at a corner. `own` is its index array and may be NULL.
 static inline uint32_t export_element(const uint32_t *own, const lam_mesh *mesh, size_t corner)
 {
     return own ? own[corner] : mesh->indices ? mesh->indices[corner] : (uint32_t)corner;

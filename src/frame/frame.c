@@ -114,7 +114,7 @@ static void build_draw(struct frame_draw *draw, const lam_mesh *mesh, const lam_
 
 static int material_index(int scene_index) { return scene_index < 0 ? 0 : scene_index + 1; }
 
-// Returns whether a material has translucent or masked points. `varies`: the mesh's colours have alphas.
+// Returns whether a material has translucent or masked points. `varies` means that the mesh's colours have alphas.
 static bool sees_through(const lam_material *material, bool varies)
 {
     varies |= material->maps[LAM_MAP_OPACITY] || texture_map_translucent(material->maps[LAM_MAP_DIFFUSE]);

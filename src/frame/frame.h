@@ -110,8 +110,8 @@ struct frame_edges {
 struct frame {
     struct scene_token *token; // the scene's token, without a reference
     int width, height;
-    // The draw parameters with defaults resolved. samples, tone, stage and occlusion are never AUTO. `shadows`: a light
-    // casts shadows, and the output shows it. `reflection` may be AUTO, the material's own model
+    // The draw parameters with defaults resolved. samples, tone, stage and occlusion are never AUTO. `shadows` is set
+    // if a light casts shadows and the output shows it. `reflection` may be AUTO, the material's own model
     // (frame_draw_range.reflection). A light_cutoff of 0 skips no light. edge_angle_rad and occlusion_radius are
     // unchanged.
     lam_draw_params settings;
@@ -201,7 +201,7 @@ static inline bool frame_has_rays(const struct frame *frame)
 // shadows.
 void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view);
 
-// Determines the edges to draw, and fills their data. `pixel`: eye space to pixels.
+// Determines the edges to draw, and fills their data. `pixel` is the matrix from eye space to pixels.
 void frame_edges_build(struct frame *frame, const lam_mat4 *view, const lam_mat4 *pixel);
 
 // Returns whether shadow rays meet a draw's triangles.

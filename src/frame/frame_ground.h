@@ -12,7 +12,7 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
 void frame_ground_planes(const struct frame_ground *ground, const lam_mat4 *view, bool orthographic, double *near_plane,
                          double *far_plane);
 
-// Makes the mesh. `pixel`: from eye space to pixels, as in struct frame_draw.
+// Makes the mesh. `pixel` is the matrix from eye space to pixels, as in struct frame_draw.
 bool frame_ground_make(struct frame *frame, const lam_mat4 *view, const lam_mat4 *pixel, struct call_control *call,
                        lam_error *error);
 

@@ -94,7 +94,7 @@ bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, c
 }
 
 // Returns the depth offset of a stroke with this width: a fraction of its distance, or a distance if orthographic.
-// `pixel`: a pixel's height in eye space at w = 1.
+// `pixel` is a pixel's height in eye space at w = 1.
 static double nearer_by(const struct stroke_view *view, double width, double pixel)
 {
     return view->orthographic || width * pixel < 0.25 ? width * pixel : 0.25;

@@ -70,7 +70,7 @@ struct glsl_choices {
     bool environment_light;
     bool occlusion; // ambient occlusion: sampler2D ambient_occlusion has a texel for each pixel of the target
     enum glsl_layer layer;
-    bool transmits;  // a layer has a third output, `through`: the transmittance per channel
+    bool transmits;  // a layer has a third output `through`, the transmittance per channel
     lam_stage stage; // never AUTO
     lam_shading shading;
     lam_reflection reflection; // never AUTO

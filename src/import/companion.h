@@ -42,7 +42,7 @@ bool companions_of_model(const struct import_source *scene, const char *name, co
 // Converts the name of a file that a model refers to. It is confined to the model's folder: backslashes become slashes,
 // "." and empty components are removed, and ".." removes the component before it. A name that begins at a root or a
 // drive, or leads out of the folder, is cut to its last component, unless it leads to a file of params->allowed_paths.
-// All spellings of a file in the folder therefore give the same name. *cut: whether it was cut. Returns false if
+// All spellings of a file in the folder therefore give the same name. Sets *cut to whether it was cut. Returns false if
 // nothing is left, or COMPANION_NAME_SIZE is too small.
 enum { COMPANION_NAME_SIZE = 4096 };
 bool companion_name(const struct import_source *source, const char *name, char out[COMPANION_NAME_SIZE], bool *cut);

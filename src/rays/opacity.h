@@ -5,7 +5,7 @@
 #include "frame.h"
 
 // Returns the opacity, 0…1, of a triangle of the frame at the point with the weights 1 − b1 − b2, b1 and b2; textures
-// are read at level 0. A masked surface has 0 or 1. `back`: for its back side.
+// are read at level 0. A masked surface has 0 or 1. With `back`, returns the opacity of its back side.
 float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b1, float b2);
 
 // Gets the light, red, green and blue, that passes such a point: 1 − opacity, plus, of the opaque share, the light that

@@ -272,7 +272,7 @@ LANE_FN void bundle_of(struct ray_bundle *bundle, const struct box_rays *b, unsi
     }
 }
 
-// Returns the children of a node that a bundle may meet, as bits. `single`: the bundle is one ray.
+// Returns the children of a node that a bundle may meet, as bits. `single` means that the bundle is one ray.
 LANE_FN unsigned meets_children(const struct ray_bundle *b, const struct ray_node *node, bool single)
 {
     const float *planes = node->planes[0][0];

@@ -70,7 +70,7 @@ bool lam_light_check(const lam_light *light, lam_error *error)
 
 // --- Rigs
 
-// Returns a directional light in the camera's frame. `from`: the direction to the light; x right, y up, z towards the
+// Returns a directional light in the camera's frame. `from` is the direction to the light: x right, y up, z towards the
 // viewer.
 static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, float specular)
 {

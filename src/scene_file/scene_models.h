@@ -18,8 +18,9 @@ struct model_wanted {
     const json_t *materials, *parts; // the object's changes to the model, or NULL
 };
 
-// Adds the objects of a model to the scene. Equal requests share meshes and materials. *origin: the index of its record
-// in scene->origins. *own: whether the meshes and materials are new, so that the object's changes can be applied.
+// Adds the objects of a model to the scene. Equal requests share meshes and materials. Sets *origin to the index of its
+// record in scene->origins, and *own to whether the meshes and materials are new, so that the object's changes can be
+// applied.
 bool add_model(struct scene_reader *r, const struct model_wanted *wanted, int *origin, bool *own);
 
 #endif

@@ -176,8 +176,8 @@ static void put_field(struct scene_writer *w, json_t *out, const lam_field *fiel
     }
 }
 
-// `whole`: missing keys would take another material's values, so every field is written; otherwise missing keys mean
-// the default.
+// With `whole`, missing keys would take another material's values, so every field is written; otherwise missing keys
+// mean the default.
 static json_t *material_json(struct scene_writer *w, const lam_material *m, bool whole)
 {
     json_t *out = json_object();

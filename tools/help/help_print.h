@@ -14,8 +14,8 @@ void help_text(const char *text, int indent, int width);
 // too long.
 void help_row(const char *left, int column, int width, const char *text);
 
-// Prints an option's row: its summary and default, for `command` if it has its own. `details`: prints all information
-// about it.
+// Prints an option's row: its summary and default, for `command` if it has its own. With `details`, prints all
+// information about it.
 void help_option(const struct option *option, const struct command *command, bool details);
 
 // Prints the options that a command accepts, by group: its own first; of shared options only the names.

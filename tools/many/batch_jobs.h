@@ -29,7 +29,7 @@ bool batch_jobs_is_ready(const struct batch_jobs *jobs);
 // Returns whether no job waits, and none will arrive.
 bool batch_jobs_over(struct batch_jobs *jobs);
 
-// Gets the next waiting job; `waits`: waits for one. Returns false if there is none. Any thread may call it.
+// Gets the next waiting job. With `waits`, waits for one. Returns false if there is none. Any thread may call it.
 bool batch_jobs_take(struct batch_jobs *jobs, struct batch_task *task, bool waits);
 
 // Answers a job with its result, and frees it. Any thread may call it.

@@ -13,7 +13,7 @@ bool batch_begin_pass(struct batch *batch, int pass);
 bool batch_begin_suspects(struct batch *batch);
 void batch_end_suspects(struct batch *batch);
 
-// Gets the next model of the pass, or the next job; `waits`: waits for a job. Returns false if there is none, or
+// Gets the next model of the pass, or the next job. With `waits`, waits for a job. Returns false if there is none, or
 // nothing more may begin. Any thread may call it.
 bool batch_take(struct batch *batch, struct batch_task *task, bool waits);
 

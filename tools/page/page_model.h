@@ -34,8 +34,8 @@ const char *page_model_lacks(const struct page_model *model, const lam_file_info
 bool page_model_has_option(const struct option *option);
 
 // Prints the words of the picture's command line as a list in JSON, in which no '<' is left: the model, and an option
-// with its value in one word. `given`: the options of the command line. Options of the machine (threads, device,
-// limits) and of files to write are left out. Fails with LAM_LIMIT.
+// with its value in one word. `given` contains the options of the command line. Options of the machine (threads,
+// device, limits) and of files to write are left out. Fails with LAM_LIMIT.
 bool page_model_words(FILE *out, const struct job *job, const struct options *given, const struct page_model *model,
                       lam_error *error);
 

@@ -171,7 +171,7 @@ struct uniform_value {
     float v[16];
 };
 struct uniform_value matrix_value(const lam_mat4 *m);
-// Returns the value of a uniform. `space`: for roles with ROLE_IN_SPACE.
+// Returns the value of a uniform. `space` matters only for roles with ROLE_IN_SPACE.
 struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int light, lam_light_frame space,
                                             const struct reference_scene *reference_scene,
                                             const struct reference_matrices *m);

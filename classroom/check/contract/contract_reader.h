@@ -21,10 +21,10 @@ bool contract_check_comment(struct contract_reader *r, const struct place *place
 // Reports LAM_LIMIT. Returns false.
 bool contract_no_memory(const struct contract_reader *r);
 
-// Returns whether a text can be a name in GLSL; `plain`: without members and lists.
+// Returns whether a text can be a name in GLSL. With `plain`, members and lists are not allowed.
 bool contract_check_name(const struct contract_reader *r, const struct place *place, const char *name, bool plain);
 
-// Reads a list of strings, joined by `between`; NULL if it is empty. `of_names`: each must be a valid name.
+// Reads a list of strings, joined by `between`; NULL if it is empty. With `of_names`, each must be a valid name.
 bool contract_read_list(struct contract_reader *r, const struct place *place, const json_t *list, const char *between,
                         bool of_names, bool plain, const char **out);
 

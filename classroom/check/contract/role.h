@@ -50,9 +50,9 @@ enum uniform_semantic {
     SEMANTIC_NORMAL_MAP,
     SEMANTIC_OCCLUSION_MAP,
     SEMANTIC_EMISSION_MAP,
-    // a row of the matrix from the mesh's texture coordinates to a map's; w: factor of the texel
+    // a row of the matrix from the mesh's texture coordinates to a map's; w is the factor of the texel
     SEMANTIC_MAP_ROW_U,
-    SEMANTIC_MAP_ROW_V,      // w: added to the texel
+    SEMANTIC_MAP_ROW_V,      // w is added to the texel
     SEMANTIC_LIGHT_POSITION, // w 1; for a directional light the direction towards it, w 0
     SEMANTIC_LIGHT_X,
     SEMANTIC_LIGHT_Y,

@@ -60,15 +60,15 @@ double candidate_score_of(const struct state *t, int index, const struct differe
 // Measures a candidate in all scenes. It stops when the mean exceeds its limit.
 bool candidate_try(struct state *t, struct candidate *c, double max_mean, lam_error *error);
 
-// Measures a parent with one more fault, whose result alone is `o`. `useful`: its score is within the limit, and below
-// its parent's.
+// Measures a parent with one more fault, whose result alone is `o`. Sets `useful` if its score is within the limit, and
+// below its parent's.
 bool candidate_try_child(struct state *t, const struct candidate *parent, const struct outcome *o, struct candidate *c,
                          double max_score, bool *useful, lam_error *error);
 
 // Recomputes the set from its members.
 void candidate_rebuild(struct candidate *c);
 
-// Completes a member to be added to a set. Returns false on error. `possible`: whether it can be added.
+// Completes a member to be added to a set. Returns false on error. Sets `possible` to whether it can be added.
 bool candidate_prepare(struct state *t, const fault_set *base, const struct fault *row, struct found_fault *out,
                        bool *possible, lam_error *error);
 
@@ -78,8 +78,8 @@ bool outcome_find_spoils(struct state *t, struct outcome *o, lam_error *error);
 // Returns the result of a row of the table.
 struct outcome *outcome_of(const struct state *t, const struct fault *row);
 
-// Combines faults that each explain scenes of their own, starting with those that explain most. `all`: they must
-// explain every picture; otherwise faults are added while they explain further scenes and contradict none.
+// Combines faults that each explain scenes of their own, starting with those that explain most. With `all`, they must
+// explain every picture. Otherwise faults are added while they explain further scenes and contradict none.
 bool sets_try_supported(struct state *t, bool all, struct candidate *c, lam_error *error);
 
 // Runs the beam search for sets of two, three and four faults.

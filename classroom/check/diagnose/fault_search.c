@@ -51,8 +51,8 @@ static void order_by_change(const struct state *t, struct outcome *o)
     }
 }
 
-// Measures a fault alone in the differing scenes that are not measured yet. `all`: continue after a scene that it does
-// not explain.
+// Measures a fault alone in the differing scenes that are not measured yet. With `all`, continues after a scene that it
+// does not explain.
 static bool measure_outcome(struct state *t, struct outcome *o, bool all, lam_error *error)
 {
     const fault_set none = {0};

@@ -52,7 +52,7 @@ struct fault_search {
 // only differs by a style gives `certain` with a count of 0.
 bool fault_search_run(struct fault_search *search, lam_error *error);
 
-// Draws a scene in the styles of search->styles. `pixels`: size² × 4 floats.
+// Draws a scene in the styles of search->styles. `pixels` has size² × 4 floats.
 bool fault_search_draw_style(struct fault_search *search, int scene, float *pixels, lam_error *error);
 
 #endif

@@ -184,8 +184,8 @@ static int add_mesh(lam_scene *scene, enum reference_mesh mesh, lam_error *error
     return -1;
 }
 
-// Fills `points`, whose arrays have an element for every corner. `heads`: the first vertex of each position, or −1;
-// `next`: for each vertex, the next one at its position.
+// Fills `points`, whose arrays have an element for every corner. `heads` has the first vertex of each position, or −1.
+// `next` has, for each vertex, the next one at its position.
 static void share_vertices(const lam_mesh *m, struct reference_points *points, int32_t *heads, int32_t *next)
 {
     for (uint32_t p = 0; p < m->vertex_count; p++)

@@ -113,7 +113,7 @@ struct reference_points {
     // in which u increases.
     float *texture_coordinates, *surface_tangents, *bitangents;
     uint16_t *indices;
-    int vertex_count, count; // `count`: number of indices
+    int vertex_count, count; // `count` is the number of indices
 };
 bool reference_points(enum reference_mesh mesh, struct reference_points *points, lam_error *error);
 void reference_points_free(struct reference_points *points);

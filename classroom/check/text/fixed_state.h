@@ -5,7 +5,7 @@
 #include <lambent/base.h>
 
 // Rewrites a text so that it reads its own uniforms, fixed_LightSource[i].position, instead of gl_LightSource,
-// gl_FrontMaterial and similar state, so that they can be set. `other`: the text of the other stage, which may be NULL.
+// gl_FrontMaterial and similar state, so that they can be set. `other` is the text of the other stage and may be NULL.
 // The result is from malloc. Returns NULL if it reads none of them or, with `ok` false, if memory runs out.
 char *fixed_state_rewrite(const char *text, const char *other, bool *ok);
 

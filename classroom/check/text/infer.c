@@ -36,7 +36,7 @@ static bool is(const struct declarations *d, int i, const char *text)
     return i >= 0 && i < d->word_count && strcmp(d->words[i].text, text) == 0;
 }
 
-// Returns whether a name contains one of the words, ignoring case and underscores. `words`: separated by blanks.
+// Returns whether a name contains one of the words, ignoring case and underscores. Blanks separate `words`.
 static bool has(const char *name, const char *words)
 {
     char plain[128];

@@ -10,8 +10,8 @@
 
 // Returns the text of contract number `guess` (0, 1, …) for the shaders, from malloc. The guesses differ in the spaces
 // that the text leaves open. Returns NULL if there is no such guess; for the first guess, `reason` then names the input
-// that cannot be set, and is "" otherwise. `engine`: a contract whose prefix the texts lack, or NULL. `all`: inputs
-// with unknown roles get the role `zero`, and `reason` names the first of them.
+// that cannot be set, and is "" otherwise. `engine` is a contract whose prefix the texts lack, or NULL. With `all`,
+// inputs with unknown roles get the role `zero`, and `reason` names the first of them.
 char *contract_infer(const struct declarations *vertex, const struct declarations *fragment,
                      const struct contract *engine, int guess, bool all, char *reason, size_t capacity);
 

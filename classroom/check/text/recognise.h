@@ -10,7 +10,7 @@ bool contract_recognise(lam_check_contract *const *contracts, int count, const c
                         const struct contract **out, lam_error *error);
 
 // Describes in a sentence the names of the shaders that are missing in a contract, for a program of an unknown
-// contract. `unknown`: the names that the driver reports.
+// contract. `unknown` contains the names that the driver reports.
 void contract_describe_unknown(const struct contract *contract, const struct declarations *vertex,
                                const struct declarations *fragment, const char *const *unknown, int count, char *out,
                                size_t capacity);

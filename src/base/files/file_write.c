@@ -196,7 +196,7 @@ static bool link_over(int file, const char *target)
     return ok;
 }
 
-// *possible: whether the file system supports it; if not, nothing has been written.
+// Sets *possible to whether the file system supports it; if not, nothing has been written.
 static bool write_unnamed(const struct writing *w, bool *possible)
 {
     char *folder = folder_of(w->target);

@@ -22,7 +22,7 @@ static inline bool should_continue(struct loop_status *loop)
 
 static inline void no_memory(struct loop_status *loop) { __atomic_store_n(&loop->out_of_memory, 1, __ATOMIC_RELAXED); }
 
-// Fills the error with the reason and returns false. `bytes`: the approximate size of the failed allocation.
+// Fills the error with the reason and returns false. `bytes` is the approximate size of the failed allocation.
 static inline bool loop_error(struct loop_status *loop, size_t bytes, lam_error *error)
 {
     return loop->out_of_memory ? call_memory_error(loop->call, bytes, error) : call_error(loop->call, error);

@@ -11,7 +11,7 @@
 #include "number_powers.h"
 #include "number_scan.h"
 
-// The number (−1)^negative · digits · 10^exponent. `truncated`: there were nonzero digits after the first 19.
+// The number (−1)^negative · digits · 10^exponent. `truncated` means that there were nonzero digits after the first 19.
 struct decimal {
     uint64_t digits;
     int64_t exponent;

@@ -11,7 +11,7 @@ struct netpbm_header {
 };
 
 // Reads the header of a file whose first two bytes have been checked: width, height and one more number, separated by
-// white space and comments from '#' to the end of the line, followed by one white-space character. `title`: the
+// white space and comments from '#' to the end of the line, followed by one white-space character. `title` is the
 // format's name.
 bool netpbm_read_header(const struct picture_file *file, const char *title, struct netpbm_header *header,
                         lam_error *error);

@@ -68,7 +68,7 @@ unsigned length_symbol(unsigned length, unsigned *extra);
 static inline unsigned distance_extra(int symbol) { return symbol < 4 ? 0 : (unsigned)symbol / 2 - 1; }
 
 // Makes the codes of a block from the number of occurrences of each symbol; the end of the block occurs once.
-// `extra_bits`: for all lengths; the bits for distances are added here.
+// `extra_bits` counts those for all lengths; the bits for distances are added here.
 void codes_make(struct codes *codes, const uint32_t counts[LITERALS], const uint32_t distance_counts[DISTANCES],
                 uint64_t extra_bits);
 

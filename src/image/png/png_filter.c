@@ -56,7 +56,7 @@ INLINE u8x16 filtered(enum png_filter filter, u8x16 here, u8x16 left, u8x16 abov
 enum { VECTOR = 16, BLOCK = 4 * VECTOR, BLOCK_PIXELS = BLOCK / 4 };
 
 // Filters one vector at a time. The first vector, which has no left neighbour, and the last, which may be short, use
-// copies. `low`: the bytes of a pixel that are kept; `gather`: alpha follows red.
+// copies. `low` selects the bytes of a pixel that are kept; `gather` means that alpha follows red.
 INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t low,
                        bool gather, uint32_t *out)
 {

@@ -105,8 +105,8 @@ static bool decode_rows(spng_ctx *spng, const struct picture_file *file, bool ke
     return !code || fail(error, LAM_CANNOT_READ, "%s: PNG pixels: %s", file->name, spng_strerror(code));
 }
 
-// `wide`: set to whether the file has 16 bits, which are then kept; NULL if they are cut to 8, and there is always an
-// alpha.
+// Sets `wide` to whether the file has 16 bits, which are then kept. If `wide` is NULL, they are cut to 8 bits, and
+// there is always an alpha.
 static bool decode(spng_ctx *spng, const struct picture_file *file, lam_image *image, bool *wide, lam_error *error)
 {
     struct spng_ihdr header;

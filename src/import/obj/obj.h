@@ -168,7 +168,7 @@ bool obj_read_statements(struct obj *obj, lam_error *error);
 
 // obj_strokes.c. The first function returns the number of corners for a statement l (lines) or p, which is then
 // reserved along with the parts. Each statement is then read in turn, and finally both meshes are added to the scene.
-// `texcoords`: the file's.
+// `texcoords` are the file's.
 size_t obj_strokes_corners(const struct obj *obj, const uint8_t *at, bool lines);
 bool obj_strokes_reserve(struct obj *obj, bool lines, size_t corners, size_t parts, lam_error *error);
 bool obj_strokes_read(struct obj *obj, const struct obj_statement *statement, bool lines, lam_error *error);

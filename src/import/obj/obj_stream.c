@@ -184,7 +184,7 @@ static bool append_statements(struct stream *stream, const struct piece_scratch 
     return true;
 }
 
-// Adds the chunk to the totals, in the order of the chunks. *before: the totals of the previous chunks.
+// Adds the chunk to the totals, in the order of the chunks. *before receives the totals of the previous chunks.
 static bool count_piece(struct stream *stream, struct piece_scratch *scratch, size_t index,
                         const struct obj_chunk *piece, struct obj_counts *before)
 {

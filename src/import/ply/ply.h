@@ -119,8 +119,8 @@ bool ply_find_colors(const struct ply_table *table, int properties[4]);
 void ply_copy_column(const struct ply_table *table, int property, size_t first, size_t last, float divisor, float *out,
                      size_t step);
 
-// Sets origin, positions (from `arena`) and vertex_count of the mesh. *needs_doubles: the table stores an ASCII file's
-// positions as floats, which are not precise enough; the caller must read them again as doubles.
+// Sets origin, positions (from `arena`) and vertex_count of the mesh. Sets *needs_doubles if the table stores an ASCII
+// file's positions as floats, which are not precise enough; the caller must read them again as doubles.
 bool ply_positions(const struct import_source *source, const struct ply_table *table, struct arena *arena,
                    lam_mesh *mesh, bool *needs_doubles, lam_error *error);
 

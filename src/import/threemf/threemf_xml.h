@@ -57,8 +57,8 @@ const char *threemf_attribute(const char *const *attributes, const char *name);
 // Does the same for an attribute in a name space, at the start of its element.
 const char *threemf_attribute_of(const struct threemf_xml *xml, const char *const *attributes,
                                  enum threemf_namespace space, const char *name);
-// Gets a whole number from 0 to INT32_MAX. *found: whether the attribute exists. If `found` is NULL, the attribute is
-// required.
+// Gets a whole number from 0 to INT32_MAX. Sets *found to whether the attribute exists. If `found` is NULL, the
+// attribute is required.
 bool threemf_take_number(struct threemf_xml *xml, const char *const *attributes, const char *name, uint32_t *out,
                          bool *found);
 // Gets a required finite number.

@@ -13,8 +13,8 @@ struct job_roots {
 bool job_roots_start(struct job_roots *roots, const struct options *options, lam_error *error);
 void job_roots_free(struct job_roots *roots);
 
-// Returns whether a file is below one of the folders after resolving links and ".."; it need not exist. `writes`: the
-// file will be written, so it must not be a pipe, a device or a broken link. Fails with LAM_CANNOT_READ, or with
+// Returns whether a file is below one of the folders after resolving links and ".."; it need not exist. With `writes`,
+// the file will be written, so it must not be a pipe, a device or a broken link. Fails with LAM_CANNOT_READ, or with
 // `writes` LAM_CANNOT_WRITE.
 bool job_roots_have(const struct job_roots *roots, const char *path, bool writes, lam_error *error);
 

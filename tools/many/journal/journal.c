@@ -79,7 +79,7 @@ char *journal_path(const char *text)
 }
 
 // Returns the key of a picture: its path, or its path below the folder of the pictures, which may be absolute in one
-// run and relative in the next. `folder`: the common prefix to remove, or NULL for the whole path.
+// run and relative in the next. `folder` is the common prefix to remove, or NULL for the whole path.
 static uint64_t hash_of(const char *folder, const char *output)
 {
     struct xxh64 hash;

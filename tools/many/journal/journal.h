@@ -24,8 +24,8 @@ struct journal_run {
     size_t pictures;     // the pictures of the whole run, including those already written
 };
 
-// Opens a journal. `slots`: the most models drawn at once. Fails with LAM_BAD_ARGUMENT (other options; in use by
-// another run), LAM_CANNOT_READ, LAM_CANNOT_WRITE, LAM_LIMIT.
+// Opens a journal. `slots` is the maximum number of models drawn at once. Fails with LAM_BAD_ARGUMENT (other options;
+// in use by another run), LAM_CANNOT_READ, LAM_CANNOT_WRITE, LAM_LIMIT.
 struct journal *journal_open(const char *path, enum journal_way way, const struct journal_run *run, int slots,
                              lam_error *error);
 
@@ -53,8 +53,8 @@ void journal_each_running(const struct journal *journal,
 // exist.
 char *journal_read(const char *path, size_t *size);
 
-// Closes the journal. `done`: the run was completed. FILE.running is removed, also after a failed run, unless the run
-// was interrupted while drawing. NULL is allowed.
+// Closes the journal. `done` means that the run was completed. FILE.running is removed, also after a failed run, unless
+// the run was interrupted while drawing. NULL is allowed.
 void journal_close(struct journal *journal, bool done, bool interrupted);
 
 // Converts text for JSON, from malloc: bytes that are not UTF-8 become U+FFFD and two hexadecimal digits. Returns NULL

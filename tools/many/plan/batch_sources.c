@@ -82,8 +82,8 @@ static bool add_folder(struct batch_plan *plan, const char *folder, const char *
 
 // --- lists
 
-// With --shard-by list: moves to the first line that begins in this shard's part of the file. `at`: the byte at which
-// it begins; `end`: the byte at which the next shard's part begins.
+// With --shard-by list: moves to the first line that begins in this shard's part of the file. `at` is the byte at which
+// it begins, `end` the byte at which the next shard's part begins.
 static bool find_part(struct batch_plan *plan, FILE *file, const char *path, uint64_t *at, uint64_t *end,
                       lam_error *error)
 {

@@ -4,8 +4,8 @@
 
 #include "gltf.h"
 
-// Decodes a bufferView that has the extension into memory of the scene. *done: whether it was decoded; a view that also
-// has uncompressed bytes is left to the caller if meshoptimizer is not installed. Returns false on error.
+// Decodes a bufferView that has the extension into memory of the scene. Sets *done to whether it was decoded; a view
+// that also has uncompressed bytes is left to the caller if meshoptimizer is not installed. Returns false on error.
 bool gltf_meshopt_decode(struct gltf *gltf, const struct place *place, const json_t *view, struct gltf_view *out,
                          bool *done);
 

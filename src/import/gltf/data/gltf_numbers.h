@@ -17,7 +17,7 @@ const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gl
 // error.
 const uint32_t *gltf_indices(struct gltf *gltf, const struct place *place, struct gltf_accessor *accessor);
 
-// Gets colours of VEC3 or VEC4 in a format of lam_mesh. `opaque`: alpha is 1, regardless of the file.
+// Gets colours of VEC3 or VEC4 in a format of lam_mesh. With `opaque`, alpha is 1 regardless of the file.
 struct gltf_colors {
     const void *items;
     lam_colors_format format;

@@ -13,7 +13,7 @@ struct gltf_deformation {
 };
 
 // Replaces positions, normals, tangents and texture coordinates of the mesh by its own arrays if targets with a nonzero
-// weight, or a skin, change them. *skinned: its positions are now in the file's space.
+// weight, or a skin, change them. Sets *skinned if its positions are now in the file's space.
 bool gltf_deform(struct gltf *gltf, const struct place *place, const json_t *primitive,
                  const struct gltf_deformation *deformation, lam_mesh *mesh, bool *skinned);
 

@@ -32,7 +32,7 @@ bool image_make_larger(lam_image *image, int width, int height, lam_pixel_format
 // Checks the pixels, size, format and stride of a caller's picture. `what` begins the error sentence.
 bool image_check(const lam_image *image, const char *what, lam_error *error);
 
-// Convert `count` pixels from a format to its working format, and back. With `raw`, luminance is that of the
+// Convert `count` pixels from a format to its working format, and back. With `raw`, luminance is computed from the
 // unconverted numbers.
 void pixels_to_working(lam_pixel_format format, const void *from, int count, void *to);
 void pixels_from_working(lam_pixel_format format, bool raw, const void *from, int count, void *to);
